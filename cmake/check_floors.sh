@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Prints the graph of floors (ARCHITECTURE.md) from the #include lines of src/, and fails when one goes
+# upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
+# catches what a relative path could smuggle past them. Usage: check_floors.sh [checkout]
+set -euo pipefail
+
+# From the bottom. Floors on one line stand side by side and never see each other.
+floors='base
+math
+accel image
+geometry
+shading
+scene
+formats render
+app
+cli'
+
+cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
+{ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" awk '
+  function complain(what) { print file ":" number ": error: " what; wrong++ }
+
+  BEGIN {
+    height = split(ENVIRON["FLOORS"], rows, "\n")
+    for (i = 1; i <= height; i++) {
+      n = split(rows[i], names, " ")
+      for (j = 1; j <= n; j++) { level[names[j]] = i; order[++folders] = names[j] }
+    }
+  }
+
+  {  # file:line:#include "to/header.h"
+    file = $0; sub(/:.*/, "", file)
+    number = substr($0, length(file) + 2); sub(/:.*/, "", number)
+    header = substr($0, length(file) + length(number) + 3)
+    sub(/^[^<"]*[<"]/, "", header); sub(/[>"].*/, "", header)
+    from = file; sub(/^src\//, "", from); sub(/\/.*/, "", from)
+    to = header; sub(/\/.*/, "", to)
+
+    if (!(from in level)) complain("\"" from "\" is no floor; the list is at the top of cmake/check_floors.sh")
+    else if (header ~ /(^|\/)\.\.\//) complain("\"" header "\": write the path from src, without \"..\"")
+    else if (header ~ /\// && to in level && to != from) {
+      uses[from, to]++; total++
+      if (level[to] >= level[from])
+        complain(from " includes \"" header "\", but " to " is " (level[to] > level[from] ? "above" : "beside") " it")
+    }
+  }
+
+  END {
+    if (NR == 0) { print "no #include found below src"; exit 1 }
+    print "floor      includes (how often), from the top of the house"
+    for (i = folders; i >= 1; i--) {
+      line = ""
+      for (j = folders; j >= 1; j--)
+        if ((order[i], order[j]) in uses) line = line "  " order[j] " " uses[order[i], order[j]]
+      printf "%-8s %s%s\n", order[i], line == "" ? "" : "->", line
+    }
+    printf "%d includes between floors, %d wrong\n", total, wrong
+    exit wrong > 0
+  }'

@@ -1,0 +1,97 @@
+#include "app/session.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+#include "image/codec.h"
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace trace {
+namespace {
+
+/// Measures a step from its construction to stop().
+class Stopwatch {
+ public:
+  Phase stop(std::string name) const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+/// While rendering and saving, a pixel lives in the film, a copy of it and the encoder's buffers.
+constexpr std::uint64_t kBytesPerPixel = 2 * sizeof(Color) + 16;
+
+}  // namespace
+
+std::uint64_t machineMemory() {
+#if defined(_SC_PHYS_PAGES)
+  std::uint64_t bytes =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
+  std::uint64_t limit = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit) bytes = std::min(bytes, limit);
+  return bytes;
+#else
+  return std::uint64_t{2} << 30;  // a browser's address space
+#endif
+}
+
+Metadata describe(const Scene& scene, const Settings& settings) {
+  std::string changed;
+  for (const Choice& choice : changedOptions(settings))
+    changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
+  return {{"Software", "Trace " TRACE_VERSION},
+          {"Title", std::filesystem::path(scene.file).filename().string()},
+          {"Settings", changed.empty() ? "defaults" : changed}};
+}
+
+void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
+  const Stopwatch watch;
+  strict_ = strict;
+  messages_ = {};
+  scene_ = readScene(file, messages_);
+  settings_ = resolve({scene_.choices, choices});
+  messages_.throwIfFailed(strict_);
+  phases_ = {watch.stop("read")};
+}
+
+void Session::build() {
+  const Stopwatch watch;
+  const Size picture = size();
+  const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height) * kBytesPerPixel;
+  const std::uint64_t allowed =
+      settings_.maxMemory > 0 ? static_cast<std::uint64_t>(settings_.maxMemory) << 20 : machineMemory();
+  if (needed > allowed)
+    throw Error(Fault::limit,
+                "a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " needs " +
+                    std::to_string(needed >> 20) + " MiB of memory; allowed are " + std::to_string(allowed >> 20),
+                "choose a smaller --width" +
+                    std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
+  world_.emplace(compile(scene_, settings_, messages_));
+  messages_.throwIfFailed(strict_);
+  film_ = std::make_unique<Film>(picture.width, picture.height);
+  phases_.push_back(watch.stop("build"));
+}
+
+RenderResult Session::render() {
+  const Stopwatch watch;
+  RenderResult result = trace::render(*world_, settings_, *film_, job_);
+  phases_.push_back(watch.stop("trace"));
+  return result;
+}
+
+void Session::save(const std::string& path) {
+  const Stopwatch watch;
+  writePicture(path, picture(), settings_.rounding, describe(scene_, settings_));
+  phases_.push_back(watch.stop("write"));
+}
+
+}  // namespace trace

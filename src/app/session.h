@@ -1,0 +1,69 @@
+// A document and its render: what the command line, and later the studio, do with the floors below.
+// No printing, no signals, no windows.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "formats/format.h"
+#include "image/metadata.h"
+#include "render/render.h"
+#include "scene/options.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+/// How long a step took: seconds on the clock and of processor time, all threads together.
+struct Phase {
+  std::string name;  ///< "read", "build", "trace", "write"
+  double wall = 0, cpu = 0;
+};
+
+class Session {
+ public:
+  /// Reads the scene and settles the settings: defaults < file < choices.
+  /// Throws Error; with `strict`, warnings are errors too.
+  void open(const std::string& file, std::span<const Choice> choices, bool strict = false);
+
+  const Scene& scene() const { return scene_; }
+  const Settings& settings() const { return settings_; }
+  const Messages& messages() const { return messages_; }  ///< warnings of reading and building
+  Size size() const { return pictureSize(settings_, scene_.camera); }
+
+  /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do.
+  void build();
+  const World& world() const { return *world_; }
+
+  /// Renders; blocks. Others may watch and stop it through job() and picture().
+  RenderResult render();
+  Job& job() { return job_; }
+
+  /// What is rendered so far. May be called from other threads while render() runs.
+  Picture picture() const { return film_->picture(); }
+  /// Writes picture() with the settings as metadata. Throws Error(Fault::io), Error(Fault::usage).
+  void save(const std::string& path);
+
+  const std::vector<Phase>& phases() const { return phases_; }
+
+ private:
+  Scene scene_;
+  Settings settings_;
+  Messages messages_;
+  bool strict_ = false;
+  std::optional<World> world_;
+  std::unique_ptr<Film> film_;
+  Job job_;
+  std::vector<Phase> phases_;
+};
+
+/// Program version, settings that differ from the defaults and the scene's name, as the picture keeps them.
+Metadata describe(const Scene& scene, const Settings& settings);
+
+/// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.
+std::uint64_t machineMemory();
+
+}  // namespace trace

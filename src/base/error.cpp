@@ -1,0 +1,81 @@
+#include "base/error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trace {
+namespace {
+
+/// The line of the file with a caret under the column, shortened to a window around it.
+std::string excerpt(const Place& place) {
+  constexpr size_t kWindow = 100;
+  std::string line = place.text;
+  size_t column = place.column > 0 ? static_cast<size_t>(place.column - 1) : 0;
+  column = std::min(column, line.size());
+  if (line.size() > kWindow) {
+    const size_t start = column > kWindow / 2 ? column - kWindow / 2 : 0;
+    line = line.substr(start, kWindow);
+    column -= start;
+  }
+  std::string caret;
+  for (size_t i = 0; i < column; ++i) caret += line[i] == '\t' ? '\t' : ' ';
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ' && c != '\t') c = '?';
+  std::string text = "  ";
+  text.append(line).append("\n  ").append(caret).append("^\n");
+  return text;
+}
+
+std::string joined(const std::vector<Message>& messages) {
+  std::string text;
+  for (const Message& message : messages) text += toString(message);
+  return text;
+}
+
+}  // namespace
+
+std::string toString(const Message& message) {
+  std::string text;
+  const Place& place = message.place;
+  if (!place.file.empty()) {
+    text += place.file + ":";
+    if (place.line > 0) text += std::to_string(place.line) + ":" + std::to_string(place.column) + ":";
+    text += " ";
+  }
+  text += message.severity == Message::Severity::error ? "error: " : "warning: ";
+  text += message.what + "\n";
+  if (!place.text.empty()) text += excerpt(place);
+  if (!message.hint.empty()) text += "  hint: " + message.hint + "\n";
+  return text;
+}
+
+Error::Error(Fault fault, std::string what, std::string hint)
+    : Error(fault, Place{}, std::move(what), std::move(hint)) {}
+
+Error::Error(Fault fault, Place place, std::string what, std::string hint)
+    : Error(fault, std::vector<Message>{
+                       {Message::Severity::error, std::move(place), std::move(what), std::move(hint)}}) {}
+
+Error::Error(Fault fault, std::vector<Message> messages)
+    : fault_(fault), messages_(std::move(messages)), text_(joined(messages_)) {}
+
+void Messages::warn(Place place, std::string what, std::string hint) {
+  messages_.push_back({Message::Severity::warning, std::move(place), std::move(what), std::move(hint)});
+}
+
+void Messages::error(Place place, std::string what, std::string hint) {
+  messages_.push_back({Message::Severity::error, std::move(place), std::move(what), std::move(hint)});
+  if (++errors_ >= kMostErrors) throwIfFailed();
+}
+
+void Messages::throwIfFailed(bool strict) const {
+  if (errors_ == 0 && !(strict && !messages_.empty())) return;
+  std::vector<Message> failed;
+  for (Message message : messages_) {
+    if (strict) message.severity = Message::Severity::error;
+    if (message.severity == Message::Severity::error) failed.push_back(std::move(message));
+  }
+  throw Error(Fault::scene, std::move(failed));
+}
+
+}  // namespace trace

@@ -1,0 +1,21 @@
+// Whole files in and out. A written file appears complete under its name or not at all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trace {
+
+/// The bytes of the file. Throws Error(Fault::io) with the reason when it cannot be read.
+std::string readFile(const std::string& path);
+
+/// Writes to a temporary name beside `path`, then renames. Throws Error(Fault::io); `path` is then untouched.
+void writeFile(const std::string& path, std::string_view bytes);
+
+/// Throws Error(Fault::io) unless a file could be written at `path` now; leaves nothing behind.
+void checkWritable(const std::string& path);
+
+/// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
+std::string besideFile(const std::string& from, const std::string& name);
+
+}  // namespace trace

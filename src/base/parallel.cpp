@@ -1,0 +1,48 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace trace {
+
+int hardwareThreads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+void parallelChunks(std::int64_t chunks, int threads, Job& job,
+                    const std::function<void(std::int64_t, int)>& work) {
+  if (threads <= 0) threads = hardwareThreads();
+  threads = static_cast<int>(std::min<std::int64_t>(threads, std::max<std::int64_t>(chunks, 1)));
+  job.total = chunks;
+
+  std::atomic<std::int64_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto pull = [&](int worker) {
+    try {
+      while (!job.cancel) {
+        const std::int64_t chunk = next.fetch_add(1);
+        if (chunk >= chunks) return;
+        work(chunk, worker);
+        ++job.done;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = chunks;
+    }
+  };
+
+  std::vector<std::thread> workers;
+  try {
+    for (int worker = 1; worker < threads; ++worker) workers.emplace_back(pull, worker);
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those that started do the work.
+  }
+  pull(0);
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace trace

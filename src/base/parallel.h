@@ -1,0 +1,33 @@
+// Work in numbered chunks that any number of threads pull from one queue.
+//
+// The chunk, never the worker, selects the data, so a result cannot depend on the number of threads.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace trace {
+
+/// How the owner of a running job watches and stops it, from any thread.
+struct Job {
+  std::atomic<bool> cancel{false};          ///< set to stop after the chunks now in work
+  std::atomic<std::int64_t> done{0};        ///< chunks finished
+  std::atomic<std::int64_t> total{0};       ///< chunks in all; 0 until known
+  double fraction() const {
+    const std::int64_t all = total.load();
+    return all > 0 ? static_cast<double>(done.load()) / static_cast<double>(all) : 0.0;
+  }
+};
+
+/// The number of hardware threads, at least 1.
+int hardwareThreads();
+
+/// Calls work(chunk, worker) once for each chunk in [0, chunks), from `threads` workers (numbered from
+/// 0; the calling thread is one of them; 0 threads means all the hardware has). Returns when all is done
+/// or the job is cancelled. An exception from `work` stops the queue and is rethrown here.
+void parallelChunks(std::int64_t chunks, int threads, Job& job,
+                    const std::function<void(std::int64_t chunk, int worker)>& work);
+
+}  // namespace trace

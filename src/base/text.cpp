@@ -1,0 +1,99 @@
+#include "base/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace trace {
+namespace {
+
+/// How many slips of the pen lead from one word to the other: a letter too many, one missing, a wrong one, or
+/// two neighbours exchanged (Damerau's and Levenshtein's distance, the restricted one).
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    before.swap(above);
+    above.swap(row);
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::optional<ParsedNumber> parseNumber(std::string_view text) {
+  const size_t plus = !text.empty() && text[0] == '+' ? 1 : 0;
+  const std::string_view digits = text.substr(plus);
+  if (plus && !digits.empty() && digits[0] == '-') return {};
+#if defined(__cpp_lib_to_chars)
+  double value = 0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (status == std::errc::invalid_argument) return {};
+  const size_t length = static_cast<size_t>(end - digits.data());
+  if (status == std::errc::result_out_of_range) value = std::strtod(std::string(digits, 0, length).c_str(), nullptr);
+  return ParsedNumber{value, length + plus};
+#else  // libraries without floating from_chars (the web build); the "C" locale is never changed
+  const std::string copy(digits.substr(0, 400));
+  if (copy.empty() || std::isspace(static_cast<unsigned char>(copy[0]))) return {};
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end == copy.c_str()) return {};
+  return ParsedNumber{value, static_cast<size_t>(end - copy.c_str()) + plus};
+#endif
+}
+
+std::string toText(double number) {
+  char buffer[40];
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, number);
+    if (std::strtod(buffer, nullptr) == number) break;
+  }
+  // "1000" rather than "1e+03"
+  if (std::abs(number) >= 1 && std::abs(number) < 1e15 && std::strchr(buffer, 'e'))
+    std::snprintf(buffer, sizeof buffer, "%.0f", number);
+  return buffer;
+}
+
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.size() > 60) return {};
+  std::string_view best;
+  size_t least = std::max<size_t>(1, word.size() / 3) + 1;
+  for (std::string_view candidate : candidates) {
+    const size_t distance = editDistance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates) {
+  const std::string best = nearest(word, candidates);
+  return best.empty() ? std::string() : "did you mean \"" + best + "\"?";
+}
+
+Place placeAt(std::string_view file, std::string_view source, size_t offset) {
+  offset = std::min(offset, source.size());
+  const std::string_view before = source.substr(0, offset);
+  const size_t newline = before.rfind('\n');
+  const size_t start = newline == std::string_view::npos ? 0 : newline + 1;
+  const size_t end = std::min(source.find('\n', offset), source.size());
+  std::string_view text = source.substr(start, end - start);
+  if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  return {std::string(file), static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+          static_cast<int>(offset - start) + 1, std::string(text)};
+}
+
+}  // namespace trace

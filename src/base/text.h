@@ -1,0 +1,32 @@
+// Words and numbers in text, for readers and messages.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace trace {
+
+/// The number at the start of `text` (what strtod takes, plus a leading '+'; no locale; correctly
+/// rounded) and how many characters it took; nothing if there is none. Overflow gives an infinity.
+struct ParsedNumber {
+  double value;
+  size_t length;
+};
+std::optional<ParsedNumber> parseNumber(std::string_view text);
+
+/// The shortest decimal that reads back as the same number.
+std::string toText(double number);
+
+/// The candidate nearest to a misspelt `word`, or "" when none is near.
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates);
+/// `did you mean "..."?`, or "" when nothing is near.
+std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates);
+
+/// Line, column and text of a byte offset in `source`. Linear in the offset; for messages only.
+Place placeAt(std::string_view file, std::string_view source, size_t offset);
+
+}  // namespace trace

@@ -1,0 +1,36 @@
+// What the user typed, as data: files, choices of options, and the program's own flags.
+//
+// Words of the command line → parse() → Arguments → a sub-command. The flags that set options come from
+// THE options table (scene/options.h); the others from the table in flags.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/console.h"
+#include "cli/progress.h"
+#include "scene/options.h"
+
+namespace trace::cli {
+
+enum class StatsStyle { none, table, json };
+
+struct Arguments {
+  std::vector<std::string> files;  ///< words that are no flags, in order
+  std::vector<Choice> choices;     ///< of options, in order
+  std::string output;              ///< --output; may be empty
+  ProgressStyle progress = ProgressStyle::automatic;
+  LogLevel logLevel = LogLevel::info;
+  StatsStyle stats = StatsStyle::none;
+  bool strict = false;
+  bool quick = false;
+  bool json = false;      ///< info: --format=json
+  bool markdown = false;  ///< features: as docs/options.md
+  bool help = false, helpAll = false, version = false, printDefaults = false;
+};
+
+/// `command` is the name of a sub-command: it decides which flags are known. The environment variables
+/// RAY_THREADS and RAY_LOG stand for flags at the very beginning. Throws Error(Fault::usage).
+Arguments parse(const std::vector<std::string>& words, std::string_view command);
+
+}  // namespace trace::cli

@@ -1,0 +1,86 @@
+#include "cli/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include "base/text.h"
+#include "cli/help.h"
+
+namespace trace::cli {
+namespace {
+
+int help(const Arguments& arguments, const Console&) {
+  const bool all = arguments.files == std::vector<std::string>{"all"};
+  if (!arguments.files.empty() && !all)
+    throw Error(Fault::usage,
+                "ray help: expected \"all\" or nothing, found \"" + arguments.files.front() + "\"");
+  printResult(helpText(all));
+  return kDone;
+}
+
+std::string whyNothing(const Error& error) {
+  switch (error.fault()) {
+    case Fault::io: return "a file could not be read or written";
+    case Fault::usage: return "the command line is not right; see ray --help";
+    case Fault::scene: return "the scene has " + counted(error.messages().size(), "error");
+    case Fault::limit: return "a limit of size, memory or time was met";
+  }
+  return "it failed";
+}
+
+/// Runs the row, and turns everything that can go wrong into messages and an exit code.
+int runCommand(const Command& command, const std::vector<std::string>& words) {
+  Console console;
+  std::string why;
+  int code = kFailed;
+  try {
+    const Arguments arguments = parse(words, command.name);
+    console = Console(arguments.logLevel);
+    if (arguments.help) return printResult(helpText(arguments.helpAll)), kDone;
+    if (arguments.version) return printResult("Trace " TRACE_VERSION "\n"), kDone;
+    return command.run(arguments, console);
+  } catch (const Error& error) {
+    console.error(error);
+    why = whyNothing(error);
+    code = static_cast<int>(error.fault());
+  } catch (const std::bad_alloc&) {
+    console.error(Error(Fault::limit, "out of memory", "choose a smaller --width or a simpler scene"));
+    why = "out of memory";
+    code = static_cast<int>(Fault::limit);
+  } catch (const std::exception& error) {
+    why = error.what();
+    console.error(Error(Fault::io, why));
+  }
+  if (command.writes) console.line(LogLevel::error, "nothing written: " + why);
+  return code;
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+  static constexpr std::array kTable{
+      Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
+              true, render},
+      Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
+      Command{"features", "", "extras, picture and scene formats, integrators", false, features},
+      Command{"help", "[all]", "print help, or all of it", false, help},
+  };
+  return kTable;
+}
+
+int run(const std::vector<std::string>& words) {
+  const Command& otherwise = commands().front();
+  if (words.empty()) {
+    const Console console;
+    console.line(LogLevel::error,
+                 "ray: the window that opens without arguments does not exist yet; name a scene.\n\n" +
+                     helpText(false));
+    return static_cast<int>(Fault::usage);
+  }
+  for (const Command& command : commands())
+    if (command.name == words.front()) return runCommand(command, {words.begin() + 1, words.end()});
+  return runCommand(otherwise, words);
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,36 @@
+// THE table of sub-commands. A new one is a function and a row in commands.cpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/console.h"
+
+namespace trace::cli {
+
+/// Exit codes beside the values of Fault, which are the others.
+inline constexpr int kDone = 0, kFailed = 1, kStopped = 4;
+
+struct Command {
+  std::string_view name;
+  std::string_view arguments;  ///< as help shows them
+  std::string_view help;       ///< one sentence, no full stop
+  bool writes;                 ///< ends with a line that says what was written, or why nothing was
+  /// Returns the exit code. Throws Error.
+  int (*run)(const Arguments&, const Console&);
+};
+
+std::span<const Command> commands();
+
+/// The whole program, without the name it was called by. Returns the exit code; throws nothing.
+int run(const std::vector<std::string>& words);
+
+// The functions of the table; each in its own file.
+int render(const Arguments& arguments, const Console& console);
+int info(const Arguments& arguments, const Console& console);
+int features(const Arguments& arguments, const Console& console);
+
+}  // namespace trace::cli

@@ -1,0 +1,94 @@
+#include "cli/console.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "base/text.h"
+#include "cli/terminal.h"
+
+namespace trace::cli {
+namespace {
+
+constexpr std::string_view kLevels[] = {"error", "warning", "info", "debug"};
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+/// The word "error:" or "warning:" of a message in bold red or yellow.
+std::string colored(const Message& message) {
+  std::string text = toString(message);
+  const bool error = message.severity == Message::Severity::error;
+  const std::string word = error ? "error:" : "warning:";
+  // The name of the file, which comes first, may hold that word as well.
+  const size_t at = text.find(word, message.place.file.size());
+  if (at == std::string::npos) return text;
+  text.insert(at + word.size(), "\033[0m");
+  text.insert(at, error ? "\033[1;31m" : "\033[1;33m");
+  return text;
+}
+
+}  // namespace
+
+LogLevel logLevel(std::string_view who, std::string_view name) {
+  const auto found = std::find(std::begin(kLevels), std::end(kLevels), name);
+  if (found == std::end(kLevels))
+    throw Error(
+        Fault::usage,
+        std::string(who) + ": expected error | warning | info | debug, found \"" + std::string(name) + "\"",
+        didYouMean(name, kLevels));
+  return static_cast<LogLevel>(found - std::begin(kLevels));
+}
+
+Console::Console(LogLevel level) : level_(level), color_(canColor()) {}
+
+void Console::print(std::span<const Message> messages, std::string_view kind) const {
+  for (const Message& message : messages.first(std::min(messages.size(), kMostMessages)))
+    cli::print(color_ ? colored(message) : toString(message));
+  if (messages.size() > kMostMessages)
+    cli::print("... and " + counted(messages.size() - kMostMessages, "more " + std::string(kind)) + "\n");
+}
+
+void Console::warnings(std::span<const Message> messages) const {
+  if (shows(LogLevel::warning)) print(messages, "warning");
+}
+
+void Console::error(const Error& error) const { print(error.messages(), "error"); }
+
+void Console::line(LogLevel importance, const std::string& text) const {
+  if (importance == LogLevel::error || shows(importance)) cli::print(text + "\n");
+}
+
+void printResult(const std::string& text) {
+  errno = 0;
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw Error(Fault::io, std::string("cannot write to the standard output: ") + std::strerror(errno));
+}
+
+std::string durationText(double seconds) {
+  char text[64];
+  const auto whole = static_cast<long long>(std::llround(std::min(seconds, 1e15)));
+  if (seconds < 0.995)
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+  else if (seconds < 9.95)
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  else if (whole < 60)
+    std::snprintf(text, sizeof text, "%lld s", whole);
+  else if (whole < 3600)
+    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
+  return text;
+}
+
+std::string counted(std::size_t n, std::string_view noun) {
+  const bool sibilant = noun.ends_with("s") || noun.ends_with("x") || noun.ends_with("sh");
+  return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : sibilant ? "es" : "s");
+}
+
+}  // namespace trace::cli

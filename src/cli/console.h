@@ -1,0 +1,50 @@
+// What people read on stderr: messages, by their importance, and the last line. Results go to stdout, not
+// through here.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace trace::cli {
+
+enum class LogLevel { error, warning, info, debug };
+
+/// Throws Error(Fault::usage) that names `who` asked.
+LogLevel logLevel(std::string_view who, std::string_view name);
+
+class Console {
+ public:
+  /// More messages than this are only counted.
+  static constexpr std::size_t kMostMessages = 20;
+
+  explicit Console(LogLevel level = LogLevel::info);
+
+  bool shows(LogLevel level) const { return level <= level_; }
+
+  /// Warnings, if the level shows them; of more than kMostMessages the rest is counted.
+  void warnings(std::span<const Message> messages) const;
+  /// The messages of an error, as many as warnings().
+  void error(const Error& error) const;
+  /// One line of text without its end, if the level shows it; an importance of error is always shown.
+  void line(LogLevel importance, const std::string& text) const;
+
+ private:
+  void print(std::span<const Message> messages, std::string_view kind) const;
+
+  LogLevel level_;
+  bool color_;
+};
+
+/// Writes to stdout and throws Error(Fault::io) when that fails, as on a full disk.
+void printResult(const std::string& text);
+
+/// "0.04 s", "3.2 s", "2 min 05 s", "1 h 03 min".
+std::string durationText(double seconds);
+
+/// "1 error", "3 errors".
+std::string counted(std::size_t n, std::string_view noun);
+
+}  // namespace trace::cli

@@ -1,0 +1,48 @@
+// ray features: what this program can do, from its tables.
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/flags.h"
+#include "cli/help.h"
+#include "formats/format.h"
+#include "image/codec.h"
+#include "render/integrator.h"
+
+namespace trace::cli {
+namespace {
+
+std::string row(std::string_view name, std::string_view help) {
+  std::string text = "  " + std::string(name);
+  text.resize(std::max<size_t>(text.size() + 2, 20), ' ');
+  return text + std::string(help) + "\n";
+}
+
+std::string featuresText() {
+  std::string text = "extras (off by default; --enable NAME)\n";
+  for (const Option& option : options())
+    if (option.extra)
+      text += row(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
+  text += "integrators\n";
+  for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
+  text += "scene formats\n";
+  for (const SceneFormat& format : sceneFormats()) text += row(format.name, format.help);
+  text += "picture formats\n";
+  for (const PictureFormat& format : pictureFormats()) {
+    std::string suffixes;
+    for (std::string_view suffix : format.suffixes)
+      suffixes += (suffixes.empty() ? "" : " ") + std::string(suffix);
+    text += row(suffixes, format.help);
+  }
+  return text;
+}
+
+}  // namespace
+
+int features(const Arguments& arguments, const Console&) {
+  if (!arguments.files.empty())
+    throw Error(Fault::usage, "ray features: expected no file, found \"" + arguments.files.front() + "\"");
+  printResult(arguments.markdown ? optionsMarkdown() : featuresText());
+  return kDone;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,48 @@
+// THE table of the program's own flags: those that are no options of a render (scene/options.h). It drives
+// parsing, help and docs/options.md.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "cli/arguments.h"
+
+namespace trace::cli {
+
+struct Flag {
+  enum class Takes { nothing, optional, value };
+
+  std::string_view name;  ///< without "--"
+  char letter;            ///< short form, or 0
+  Takes takes;
+  std::string_view values;    ///< what it takes, as help shows it
+  std::string_view alone;     ///< Takes::optional: the value that `--name` by itself stands for
+  std::string_view commands;  ///< names of the sub-commands that know it, with spaces between
+  bool common;                ///< on the one screen of `--help`
+  std::string_view help;      ///< one sentence, no full stop
+  /// Throws Error(Fault::usage).
+  void (*apply)(Arguments&, std::string_view value);
+};
+
+std::span<const Flag> flags();
+bool knows(std::string_view command, const Flag& flag);
+/// Whether the flags of the options table belong to the sub-command.
+bool takesOptions(std::string_view command);
+
+/// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
+struct ShortFlag {
+  char letter;
+  std::string_view option;
+  std::string_view value;  ///< "" when the user gives it
+  std::string_view help;
+};
+std::span<const ShortFlag> shortFlags();
+
+/// What --enable gives an option that is not on or off: a value with a visible, useful effect. "" if the
+/// option cannot be enabled.
+std::string_view enabledValue(const Option& option);
+
+/// What --quick chooses, before the flags that are given by name.
+std::span<const Choice> quickChoices();
+
+}  // namespace trace::cli

@@ -1,0 +1,17 @@
+// Text about the program itself, made from the tables: options, flags, sub-commands, formats.
+#pragma once
+
+#include <string>
+
+namespace trace::cli {
+
+/// The common flags on one screen, or with `all` every flag with range, default and source.
+std::string helpText(bool all);
+
+/// Every option as name=value, a line each.
+std::string defaultsText();
+
+/// The file docs/options.md.
+std::string optionsMarkdown();
+
+}  // namespace trace::cli

@@ -1,0 +1,151 @@
+// ray info SCENE: what is in the scene and what a render would make of it, for people or as JSON.
+//
+// Keys of the JSON object: file, format, objects.NAME, triangles, lights.NAME, materials, bounds.{low, high}
+// (null when empty), camera.{position, viewdir, updir, fov, aspectratio}, picture.{width, height},
+// conventions[] and changed[] of {name, value, from}, unrendered[] of {kind, place}, warnings[].
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/session.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/scene_facts.h"
+#include "scene/conventions.h"
+
+namespace trace::cli {
+namespace {
+
+struct Facts {
+  const Session& session;
+  Box3 bounds;
+  std::vector<OptionFact> conventions, changed;
+  Messages messages;
+};
+
+std::string line(std::string_view name, const std::string& value) {
+  std::string text = "  " + std::string(name);
+  text.resize(std::max<size_t>(text.size() + 1, 20), ' ');
+  return text + value + "\n";
+}
+
+std::string vectorText(const Vec3& v) { return toText(v.x) + " " + toText(v.y) + " " + toText(v.z); }
+
+/// Sizes of things are for the eye: six digits.
+std::string shortText(const Vec3& v) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%.6g %.6g %.6g", v.x, v.y, v.z);
+  return text;
+}
+
+std::string countsText(const Counts& counts, const std::string& title, std::size_t all) {
+  std::string text = title + " (" + std::to_string(all) + ")\n";
+  for (const auto& [name, n] : counts) text += line(name, std::to_string(n));
+  return text;
+}
+
+std::string optionsText(const std::vector<OptionFact>& facts) {
+  std::string text;
+  for (const OptionFact& fact : facts) {
+    std::string value = fact.value;
+    value.resize(std::max<size_t>(value.size() + 2, 16), ' ');
+    text += line(fact.name, value + fact.from);
+  }
+  return text;
+}
+
+std::string infoText(const Facts& facts) {
+  const Scene& scene = facts.session.scene();
+  const Camera& camera = scene.camera;
+  std::string text = scene.file + " (" + scene.format + ")\n";
+  text += countsText(countShapes(scene), "objects", scene.objects.size());
+  if (const std::size_t n = countTriangles(scene); n > 0) text += line("triangles", std::to_string(n));
+  text += countsText(countLights(scene), "lights", scene.lights.size());
+  text += "materials (" + std::to_string(scene.materials.size()) + ")\n";
+  text += "bounds\n";
+  if (facts.bounds.empty())
+    text += line("empty", "");
+  else
+    text += line("low", shortText(facts.bounds.low)) + line("high", shortText(facts.bounds.high)) +
+            line("size", shortText(facts.bounds.size()));
+  text += "camera\n" + line("position", vectorText(camera.position)) +
+          line("viewdir", vectorText(camera.viewdir)) + line("updir", vectorText(camera.updir)) +
+          line("fov", toText(camera.fov) + " degrees, vertical") +
+          line("aspectratio", toText(camera.aspectratio));
+  const Size size = facts.session.size();
+  text += line("picture", std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
+  text += "conventions: " + std::string(convention(facts.session.settings().like).help) + "\n" +
+          optionsText(facts.conventions);
+  text += "options changed (" + std::to_string(facts.changed.size()) + ")\n" + optionsText(facts.changed);
+  if (!scene.unrendered.empty()) {
+    text += "not rendered yet (" + std::to_string(scene.unrendered.size()) + ")\n";
+    for (const Unrendered& left : scene.unrendered) text += line(left.kind, placeText(left.place));
+  }
+  text += "warnings (" + std::to_string(facts.messages.all().size()) + ")\n";
+  for (const Message& message : facts.messages.all()) text += toString(message);
+  return text;
+}
+
+std::string infoJson(const Facts& facts) {
+  using nlohmann::ordered_json;
+  const auto vector = [](const Vec3& v) { return ordered_json{v.x, v.y, v.z}; };
+  const auto counts = [](const Counts& all) {
+    ordered_json json = ordered_json::object();
+    for (const auto& [name, n] : all) json[std::string(name)] = n;
+    return json;
+  };
+  const auto optionList = [](const std::vector<OptionFact>& all) {
+    ordered_json json = ordered_json::array();
+    for (const OptionFact& fact : all)
+      json.push_back({{"name", fact.name}, {"value", fact.value}, {"from", fact.from}});
+    return json;
+  };
+  const Scene& scene = facts.session.scene();
+  const Camera& camera = scene.camera;
+  const Size size = facts.session.size();
+  ordered_json json;
+  json["file"] = scene.file;
+  json["format"] = scene.format;
+  json["objects"] = counts(countShapes(scene));
+  json["triangles"] = countTriangles(scene);
+  json["lights"] = counts(countLights(scene));
+  json["materials"] = scene.materials.size();
+  json["bounds"] = nullptr;
+  if (!facts.bounds.empty())
+    json["bounds"] = {{"low", vector(facts.bounds.low)}, {"high", vector(facts.bounds.high)}};
+  json["camera"] = {{"position", vector(camera.position)},
+                    {"viewdir", vector(camera.viewdir)},
+                    {"updir", vector(camera.updir)},
+                    {"fov", camera.fov},
+                    {"aspectratio", camera.aspectratio}};
+  json["picture"] = {{"width", size.width}, {"height", size.height}};
+  json["conventions"] = optionList(facts.conventions);
+  json["changed"] = optionList(facts.changed);
+  json["unrendered"] = ordered_json::array();
+  for (const Unrendered& left : scene.unrendered)
+    json["unrendered"].push_back({{"kind", left.kind}, {"place", placeText(left.place)}});
+  json["warnings"] = ordered_json::array();
+  for (const Message& message : facts.messages.all()) json["warnings"].push_back(toString(message));
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int info(const Arguments& arguments, const Console& console) {
+  if (arguments.files.size() != 1)
+    throw Error(Fault::usage,
+                "ray info: expected the name of one scene file, found " +
+                    (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
+  Session session;
+  session.open(arguments.files[0], arguments.choices, arguments.strict);
+  // Not Session::build(): looking at a scene needs no memory for a picture.
+  Facts facts{session, {}, {}, {}, session.messages()};
+  facts.bounds = compile(session.scene(), session.settings(), facts.messages).bounds();
+  facts.messages.throwIfFailed(arguments.strict);
+  facts.conventions = optionsOf("Conventions", session.scene(), session.settings(), arguments.choices);
+  facts.changed = changedOptions(session.scene(), session.settings(), arguments.choices);
+  console.line(LogLevel::debug, "read " + session.scene().file + " as " + session.scene().format);
+  printResult(arguments.json ? infoJson(facts) : infoText(facts));
+  return kDone;
+}
+
+}  // namespace trace::cli

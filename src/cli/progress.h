@@ -1,0 +1,55 @@
+// How far a render is: a bar on a terminal, plain lines in a log, or JSON for programs. Only formats and
+// decides when to print; whoever owns it calls update() about ten times a second.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace trace::cli {
+
+enum class ProgressStyle { automatic, bar, plain, json, none };
+
+/// Seconds left, from the share done so far. Tiles differ in cost, so the estimated end moves: it is smoothed
+/// over some seconds.
+class RemainingTime {
+ public:
+  /// Nothing is said before this share is done.
+  static constexpr double kLeastFraction = 0.03;
+
+  std::optional<double> update(double elapsed, double fraction);
+
+ private:
+  std::optional<double> end_;
+  double last_ = 0;
+};
+
+class Progress {
+ public:
+  using Print = std::function<void(const std::string&)>;
+
+  /// automatic counts as plain. Bars are as wide as `columns` lets them.
+  Progress(ProgressStyle style, int columns, Print print);
+
+  /// `done` of `total` chunks after `elapsed` seconds; total 0 means not known yet.
+  void update(std::int64_t done, std::int64_t total, double elapsed);
+  /// Takes the bar away, so that something else can be printed.
+  void clear();
+  /// The last word, if the style has one.
+  void finish(std::int64_t done, std::int64_t total, double elapsed);
+
+ private:
+  void json(std::int64_t done, std::int64_t total, double elapsed);
+
+  ProgressStyle style_;
+  int columns_;
+  Print print_;
+  RemainingTime estimate_;
+  std::optional<double> remaining_;
+  double lastPrint_ = -1;  // seconds
+  int lastTenth_ = 0;
+  bool drawn_ = false;
+};
+
+}  // namespace trace::cli

@@ -1,0 +1,79 @@
+#include "cli/scene_facts.h"
+
+#include "base/match.h"
+
+namespace trace::cli {
+namespace {
+
+template <class Variant, class Items, class Get>
+Counts countKinds(const Items& items, Get&& get) {
+  Counts counts;
+  size_t kind = 0;
+  forEachType<Variant>([&]<class T>(T*) {
+    size_t n = 0;
+    for (const auto& item : items) n += get(item).index() == kind;
+    if (n > 0) counts.emplace_back(T::kKeyword, n);
+    ++kind;
+  });
+  return counts;
+}
+
+/// Who gave the option its value, by the rules of resolve().
+std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
+  std::string from = "default";
+  for (std::span<const Choice> layer : {std::span<const Choice>(scene.choices), commandLine})
+    for (const bool byName : {false, true})
+      for (const Choice& choice : layer) {
+        const bool byLike = choice.option == "like" && option.group == "Conventions" && option.name != "like";
+        if (byName ? choice.option != option.name : !byLike) continue;
+        // A scene file's convention can follow from its dialect, at no place in particular.
+        const bool fromFile = layer.data() == scene.choices.data();
+        from = fromFile ? placeText(choice.place) : "command line";
+        if (from.empty()) from = "scene file";
+        if (byLike && !byName) from += ", by like";
+      }
+  return from;
+}
+
+}  // namespace
+
+Counts countShapes(const Scene& scene) {
+  return countKinds<Shape>(scene.objects, [](const Object& object) -> const Shape& { return object.shape; });
+}
+
+Counts countLights(const Scene& scene) {
+  return countKinds<Light>(scene.lights,
+                           [](const LightSource& source) -> const Light& { return source.light; });
+}
+
+std::size_t countTriangles(const Scene& scene) {
+  std::size_t n = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) n += mesh->data->triangles.size();
+  return n;
+}
+
+std::vector<OptionFact> optionsOf(std::string_view group, const Scene& scene, const Settings& settings,
+                                  std::span<const Choice> commandLine) {
+  std::vector<OptionFact> facts;
+  for (const Option& option : options())
+    if (option.group == group)
+      facts.push_back({std::string(option.name), option.get(settings), chooser(option, scene, commandLine)});
+  return facts;
+}
+
+std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& settings,
+                                       std::span<const Choice> commandLine) {
+  std::vector<OptionFact> facts;
+  for (const Choice& choice : trace::changedOptions(settings))
+    facts.push_back({choice.option, choice.value, chooser(findOption(choice.option), scene, commandLine)});
+  return facts;
+}
+
+std::string placeText(const Place& place) {
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+  return text;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,122 @@
+#include "cli/statistics_text.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "base/match.h"
+#include "base/parallel.h"
+
+namespace trace::cli {
+namespace {
+
+constexpr std::string_view kEnds[] = {"finished", "cancelled", "timeLimit"};
+
+/// Calls visit(keyword, tests, hits) for each shape of the list.
+template <class Visit>
+void forEachShape(const Statistics& statistics, Visit&& visit) {
+  size_t i = 0;
+  forEachType<Shape>([&]<class S>(S*) {
+    visit(S::kKeyword, statistics.tests[i], statistics.hits[i]);
+    ++i;
+  });
+}
+
+std::optional<double> raysPerSecond(const Run& run) {
+  for (const Phase& phase : run.session.phases())
+    if (phase.name == "trace" && phase.wall > 0)
+      return static_cast<double>(run.result.statistics.allRays()) / phase.wall;
+  return {};
+}
+
+std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
+  if (b == 0) return {};
+  return static_cast<double>(a) / static_cast<double>(b);
+}
+
+template <class... Args>
+std::string formatted(const char* format, Args... args) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+std::string orDash(const char* format, std::optional<double> value) {
+  return value ? formatted(format, *value) : "-";
+}
+
+/// One line of five columns.
+std::string row(std::string_view name, const std::string& a, const std::string& b = "",
+                const std::string& c = "") {
+  std::string line = formatted("  %-14.*s %16s %16s %10s", static_cast<int>(name.size()), name.data(),
+                               a.c_str(), b.c_str(), c.c_str());
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string statisticsTable(const Run& run) {
+  const Statistics& s = run.result.statistics;
+  std::string text = row("rays", "count", "", "share");
+  for (size_t i = 0; i < s.rays.size(); ++i)
+    text += row(kRayKindNames[i], std::to_string(s.rays[i]), "",
+                orDash("%.1f %%", ratio(100 * s.rays[i], s.allRays())));
+  text += row("all", std::to_string(s.allRays()), "", "");
+  text += row("shapes", "tests", "hits", "hits/test");
+  forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
+    if (tests > 0)
+      text += row(name, std::to_string(tests), std::to_string(hits), orDash("%.3f", ratio(hits, tests)));
+  });
+  text += row("hierarchy", "nodes", "", "per ray");
+  text += row("visited", std::to_string(s.nodes), "", orDash("%.2f", ratio(s.nodes, s.allRays())));
+  text += row("phases", "wall", "CPU");
+  for (const Phase& phase : run.session.phases())
+    text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
+  const auto speed = raysPerSecond(run);
+  text += row("speed", speed ? formatted("%.3f Mrays/s", *speed / 1e6) : "-");
+  text += row("peak memory", formatted("%.1f MiB", static_cast<double>(run.peakMemory) / (1 << 20)));
+  text.pop_back();
+  return text;
+}
+
+std::string statisticsJson(const Run& run) {
+  using nlohmann::ordered_json;
+  const auto orNull = [](std::optional<double> value) {
+    return value ? ordered_json(*value) : ordered_json();
+  };
+  const Session& session = run.session;
+  const Statistics& s = run.result.statistics;
+  const int threads = session.settings().threads;
+  ordered_json json;
+  json["version"] = TRACE_VERSION;
+  json["scene"] = session.scene().file;
+  json["output"] = run.output;
+  json["width"] = session.size().width;
+  json["height"] = session.size().height;
+  json["end"] = kEnds[static_cast<size_t>(run.result.end)];
+  json["fraction"] = run.fraction;
+  json["threads"] = threads > 0 ? threads : hardwareThreads();
+  json["seconds"] = run.seconds;
+  for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][std::string(kRayKindNames[i])] = s.rays[i];
+  json["rays"]["all"] = s.allRays();
+  json["raysPerSecond"] = orNull(raysPerSecond(run));
+  forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
+    json["shapes"][std::string(name)] = {{"tests", tests}, {"hits", hits}};
+  });
+  json["nodes"] = s.nodes;
+  json["nodesPerRay"] = orNull(ratio(s.nodes, s.allRays()));
+  json["badSamples"] = {{"count", s.badSamples}, {"first", ordered_json::array()}};
+  for (const BadSample& bad : run.result.badSamples)
+    json["badSamples"]["first"].push_back({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});
+  for (const Phase& phase : session.phases())
+    json["phases"][phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
+  json["peakMemory"] = run.peakMemory;
+  json["settings"] = ordered_json::object();
+  for (const Choice& choice : changedOptions(session.settings()))
+    json["settings"][choice.option] = choice.value;
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace trace::cli

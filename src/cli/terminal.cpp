@@ -1,0 +1,129 @@
+#include "cli/terminal.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+namespace trace::cli {
+namespace {
+
+// What a signal handler may touch: lock-free atomics and write().
+std::atomic<int> gPipe[2]{-1, -1};
+std::atomic<int> gStops{0};
+std::atomic<bool> gRendering{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
+constexpr int kStoppedAtOnce = 130;  // 128 + SIGINT, as shells report it
+
+struct sigaction gBefore[std::size(kSignals)];
+
+/// Ends the process from within a handler, with a last line.
+[[noreturn]] void stopAtOnce() {
+  constexpr char kText[] = "\nnothing written: stopped at once by the user\n";
+  if (::write(STDERR_FILENO, kText, sizeof kText - 1) < 0) ::_exit(kStoppedAtOnce);
+  ::_exit(kStoppedAtOnce);
+}
+
+void post(char byte) {
+  const int pipe = gPipe[1];
+  if (pipe >= 0 && ::write(pipe, &byte, 1) < 0) return;  // a full pipe has events enough
+}
+
+void onSignal(int signal) {
+  const int error = errno;
+  if (signal == SIGINT || signal == SIGTERM) {
+    if (!gRendering || gStops.fetch_add(1) > 0) stopAtOnce();
+    post('s');
+  } else {
+    post('w');
+  }
+  errno = error;
+}
+
+}  // namespace
+
+bool canRedraw() {
+  const char* term = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) && term && *term && std::strcmp(term, "dumb") != 0;
+}
+
+bool canColor() {
+  const char* noColor = std::getenv("NO_COLOR");
+  return canRedraw() && !(noColor && *noColor);
+}
+
+int columns() {
+  if (const char* given = std::getenv("COLUMNS"))
+    if (const int n = std::atoi(given); n > 0) return n;
+  winsize size{};
+  for (int file : {STDERR_FILENO, STDOUT_FILENO})
+    if (::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
+}
+
+std::uint64_t peakMemory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+#if defined(__APPLE__)
+  return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+#endif
+}
+
+Signals::Signals() {
+  int ends[2];
+  if (::pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  for (int i = 0; i < 2; ++i) {
+    ::fcntl(ends[i], F_SETFL, O_NONBLOCK);
+    ::fcntl(ends[i], F_SETFD, FD_CLOEXEC);
+    gPipe[i] = ends[i];
+  }
+  gStops = 0;
+  gRendering = false;
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
+  for (size_t i = 0; i < std::size(kSignals); ++i) {
+    ::sigaction(kSignals[i], nullptr, &gBefore[i]);
+    // Whoever started us with a signal ignored (nohup, a shell's background job) wants it so.
+    if (gBefore[i].sa_handler != SIG_IGN) ::sigaction(kSignals[i], &action, nullptr);
+  }
+}
+
+Signals::~Signals() {
+  for (size_t i = 0; i < std::size(kSignals); ++i) ::sigaction(kSignals[i], &gBefore[i], nullptr);
+  for (auto& end : gPipe) ::close(end.exchange(-1));
+}
+
+void Signals::renderingBegins() { gRendering = true; }
+
+void Signals::receive(bool here) {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (int signal : kSignals) ::sigaddset(&set, signal);
+  ::pthread_sigmask(here ? SIG_UNBLOCK : SIG_BLOCK, &set, nullptr);
+}
+
+Signals::Event Signals::wait(int milliseconds) {
+  pollfd file{gPipe[0], POLLIN, 0};
+  if (::poll(&file, 1, milliseconds) <= 0) return Event::none;
+  char byte = 0;
+  if (::read(file.fd, &byte, 1) != 1) return Event::none;
+  return byte == 's' ? Event::stop : byte == 'w' ? Event::save : Event::none;
+}
+
+void Signals::wake() { post('e'); }
+
+}  // namespace trace::cli

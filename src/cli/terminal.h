@@ -1,0 +1,41 @@
+// The system around the program: the terminal, signals, memory. The only file that knows POSIX.
+#pragma once
+
+#include <cstdint>
+
+namespace trace::cli {
+
+/// stderr is a terminal on which a line can be drawn again (TERM is not "dumb").
+bool canRedraw();
+/// ... and colours are welcome (https://no-color.org).
+bool canColor();
+/// Of the terminal, by COLUMNS or by asking it; 80 when neither tells.
+int columns();
+
+/// The most memory this process ever held, in bytes.
+std::uint64_t peakMemory();
+
+/// Turns signals into events for one thread that waits. Make one at a time.
+///
+/// Ctrl-C and SIGTERM: before renderingBegins() the process ends at once, with code 130 and a last line.
+/// After it, the first gives Event::stop, the second ends the process. SIGUSR1 and SIGHUP give Event::save.
+class Signals {
+ public:
+  enum class Event { none, stop, save };
+
+  Signals();
+  ~Signals();
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  void renderingBegins();
+  /// Whether signals may interrupt the calling thread and those it starts from now on. Threads that trace
+  /// should not be, so that a signal is answered at once.
+  static void receive(bool here);
+  /// The next event; none when `milliseconds` are over or after wake().
+  Event wait(int milliseconds);
+  /// Ends a wait() of another thread.
+  void wake();
+};
+
+}  // namespace trace::cli

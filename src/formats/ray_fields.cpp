@@ -1,0 +1,72 @@
+#include "formats/ray_fields.h"
+
+#include <string>
+
+#include "base/text.h"
+
+namespace trace::rayfile {
+
+bool numbers(const Item& tuple, Real* to, int count) {
+  if (!tuple.is(Kind::tuple)) return false;
+  int n = 0;
+  for (const Item item : tuple) {
+    if (n == count || !item.is(Kind::number)) return false;
+    to[n++] = item.number();
+  }
+  return n == count;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Real& to) {
+  if (!value.is(Kind::number)) return findings.expected(value, name, "a number"), false;
+  to = value.number();
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, bool& to) {
+  const bool yes = value.is(Kind::word) && value.text() == "true";
+  if (!yes && !(value.is(Kind::word) && value.text() == "false"))
+    return findings.expected(value, name, "true or false"), false;
+  to = yes;
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {
+  Real n[3];
+  if (!numbers(value, n, 3)) return findings.expected(value, name, "(x, y, z)"), false;
+  to = {n[0], n[1], n[2]};
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Color& to) {
+  Real n[3];
+  if (value.is(Kind::number))
+    n[0] = n[1] = n[2] = value.number();  // a grey
+  else if (!numbers(value, n, 3))
+    return findings.expected(value, name, "(red, green, blue)"), false;
+  to = {n[0], n[1], n[2]};
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, std::string& to) {
+  if (!value.is(Kind::word) && !value.is(Kind::number))
+    return findings.expected(value, name, "a name"), false;
+  to = value.is(Kind::word) ? value.text() : value.source();
+  return true;
+}
+
+std::string_view canonical(std::string_view word) {
+  if (word == "colour") return "color";
+  if (word == "trimesh") return "polymesh";
+  if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
+  return word;
+}
+
+void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
+                 double value, const Item& at) {
+  const std::string field = std::string(name) + " of " + std::string(owner);
+  const std::string range =
+      most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
+  findings.warn(at, field + ": expected " + range + ", found " + toText(value), {}, "range: " + field);
+}
+
+}  // namespace trace::rayfile

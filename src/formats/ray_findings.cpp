@@ -1,0 +1,132 @@
+#include "formats/ray_findings.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.h"
+
+namespace trace::rayfile {
+namespace {
+
+/// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
+constexpr std::array<std::string_view, 36> kRelatives{
+    "area_light",   "bump",        "bump_mapping", "checkerboard", "csg",        "difference",
+    "displace",     "environment", "fog",          "height_field", "hyperbolic", "hyperboloid",
+    "intersection", "map",         "map_points",   "marble",       "metaball",   "metaballs",
+    "meteorite",    "noise",       "normal",       "normal_map",   "obj_mesh",   "paraboloid",
+    "particles",    "quadric",     "shape_light",  "skybox",       "spot_light", "subtraction",
+    "texture",      "torus",       "union",        "warn_light",   "warn_model", "wood"};
+
+/// This many warnings show their line and a hint; a flood of others does without.
+constexpr std::size_t kFullWarnings = 50;
+
+std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
+
+}  // namespace
+
+bool isRelative(std::string_view keyword) {
+  return std::find(kRelatives.begin(), kRelatives.end(), keyword) != kRelatives.end();
+}
+
+void Findings::error(const Item& at, std::string what, std::string hint) {
+  ++errors_;
+  messages_.error(syntax_.place(at.offset()), std::move(what), std::move(hint));
+}
+
+void Findings::expected(const Item& value, std::string_view name, const std::string& what, std::string hint) {
+  error(value, std::string(name) + ": expected " + what + ", found " + describe(value), std::move(hint));
+}
+
+bool Findings::again(const std::string& kind) {
+  const auto found = kinds_.find(kind);
+  if (found == kinds_.end()) return false;
+  ++warnings_[found->second].times;
+  return true;
+}
+
+void Findings::add(const std::string& kind, const Item& at, std::string what, std::string hint) {
+  const bool full = warnings_.size() < kFullWarnings;
+  kinds_.emplace(kind, warnings_.size());
+  warnings_.push_back({full ? syntax_.place(at.offset()) : syntax_.shortPlace(at.offset()), std::move(what),
+                       full ? std::move(hint) : std::string(), 1});
+}
+
+void Findings::warn(const Item& at, std::string what, std::string hint, std::string_view kind) {
+  const std::string key = kind.empty() ? what : std::string(kind);
+  if (!again(key)) add(key, at, std::move(what), std::move(hint));
+}
+
+void Findings::warnOfNumber(const Item& at, std::string what, std::size_t count) {
+  const std::string kind = what;
+  if (!again(kind)) {
+    add(kind, at, std::move(what), {});
+    warnings_.back().times = 0;
+    warnings_.back().sums = true;
+  } else {
+    --warnings_[kinds_.find(kind)->second].times;
+  }
+  warnings_[kinds_.find(kind)->second].times += count;
+}
+
+void Findings::notRendered(std::string_view kind, const Item& node, std::span<const std::string_view> known) {
+  notRendered(kind, node, std::string(node.source()), known);
+}
+
+void Findings::notRendered(std::string_view kind, const Item& node, std::string text,
+                           std::span<const std::string_view> known) {
+  scene_.unrendered.push_back({std::string(kind), syntax_.shortPlace(node.offset()), std::move(text)});
+  const std::string key = "not rendered: " + std::string(kind);
+  if (again(key)) return;
+  if (isRelative(kind))
+    add(key, node, quoted(kind) + " is not rendered yet", {});
+  else
+    add(key, node, quoted(kind) + " is not known and is left out", didYouMean(kind, known));
+}
+
+void Findings::unknownField(std::string_view owner, const Item& field,
+                            std::span<const std::string_view> known) {
+  const std::string_view name = field.key();
+  if (isRelative(name)) return notRendered(name, field, known);
+  const std::string key = "unknown field: " + std::string(owner) + "." + std::string(name);
+  if (again(key)) return;
+  add(key, field, "unknown field " + quoted(name) + " of " + std::string(owner) + " is ignored",
+      warnings_.size() < kFullWarnings ? didYouMean(name, known) : std::string());
+}
+
+void Findings::sureSignOf2001(const Item& at) {
+  if (!of2001_) of2001_ = syntax_.place(at.offset());
+}
+
+void Findings::noteShininess(const Item& at, double shininess) {
+  if (!(shininess > 0 && shininess <= 1))
+    largeShininess_ = true;
+  else if (!smallShininess_)
+    smallShininess_ = syntax_.place(at.offset());
+}
+
+void Findings::finish() {
+  finishDialect();
+  for (Warning& warning : warnings_) {
+    if (warning.sums)
+      warning.what += ": " + std::to_string(warning.times);
+    else if (warning.times > 1)
+      warning.what += " (" + std::to_string(warning.times) + " times, first here)";
+    messages_.warn(std::move(warning.place), std::move(warning.what), std::move(warning.hint));
+  }
+  warnings_.clear();
+  kinds_.clear();
+}
+
+/// Shininess tells only where nothing says more: no sure sign of 2005, and the exponents of all highlights
+/// from 0 to 1, where they would be so wide that nobody wants them.
+void Findings::finishDialect() {
+  std::optional<Place> sign = of2001_;
+  if (!sign && !of2005_ && !largeShininess_) sign = smallShininess_;
+  if (!sign) return;
+  for (const Choice& choice : scene_.choices)
+    if (choice.option == "like") return;
+  scene_.choices.push_back({"like", "uw2001", *sign});
+}
+
+}  // namespace trace::rayfile

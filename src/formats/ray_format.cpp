@@ -1,0 +1,491 @@
+// The meaning of .ray scene files: the tree of ray_syntax.h turned into a Scene, by loops over the lists of
+// shapes and lights and their fields. A new shape or light needs nothing here.
+//
+// Source: the skeletons of the courses (docs/ray-format.md). Where they refuse although the
+// intention is clear, this reader accepts: named materials, materials inside groups, missing semicolons,
+// unknown fields. What Trace does not render yet is kept as text and reported once per kind.
+#include "formats/ray_format.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/ray_camera.h"
+#include "formats/ray_fields.h"
+#include "formats/ray_findings.h"
+#include "formats/ray_material.h"
+#include "formats/ray_mesh.h"
+#include "formats/ray_syntax.h"
+#include "scene/options.h"
+
+namespace trace {
+namespace rayfile {
+namespace {
+
+constexpr std::string_view kMagic = "SBT-raytracer", kSettings = "settings";
+constexpr double kNewestVersion = 1.1;
+
+// --- keywords -------------------------------------------------------------------------------------------
+
+/// Calls visit(a null pointer to the type) for the type of the variant with that keyword; false if none has
+/// it.
+template <class Variant, class Visit>
+bool withKeyword(std::string_view keyword, Visit&& visit) {
+  bool found = false;
+  forEachType<Variant>([&]<class T>(T* type) {
+    if (T::kKeyword != keyword) return;
+    found = true;
+    visit(type);
+  });
+  return found;
+}
+
+template <class Variant>
+void addKeywords(std::vector<std::string_view>& words) {
+  forEachType<Variant>([&]<class T>(T*) { words.push_back(T::kKeyword); });
+}
+
+struct TransformForm {
+  std::string_view name, form;
+};
+constexpr std::array<TransformForm, 4> kTransforms{{
+    {"translate", "translate(x, y, z, object)"},
+    {"rotate", "rotate(x, y, z, radians, object)"},
+    {"scale", "scale(factor, object) or scale(x, y, z, object)"},
+    {"transform", "transform((a, b, c, d), (e, f, g, h), (i, j, k, l), (0, 0, 0, 1), object)"},
+}};
+
+const TransformForm* findTransform(const Item& item) {
+  if (!item.is(Kind::call)) return nullptr;
+  for (const TransformForm& transform : kTransforms)
+    if (transform.name == item.key()) return &transform;
+  return nullptr;
+}
+
+std::vector<std::string_view> knownWords() {
+  std::vector<std::string_view> words{"trimesh", Camera::kKeyword, Phong::kKeyword, kSettings};
+  addKeywords<Shape>(words);
+  addKeywords<Light>(words);
+  for (const TransformForm& transform : kTransforms) words.push_back(transform.name);
+  return words;
+}
+
+/// Fields that a light cannot do without, if it has them.
+bool isRequired(std::string_view field) {
+  return field == "position" || field == "direction" || field == "color";
+}
+
+// --- transforms -----------------------------------------------------------------------------------------
+
+/// The numbers at the start of a transform; nothing if there are others than `count` numbers.
+bool numbers(std::span<const Item> items, std::span<Real> to) {
+  if (items.size() != to.size()) return false;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!items[i].is(Kind::number)) return false;
+    to[i] = items[i].number();
+  }
+  return true;
+}
+
+std::optional<Affine> translation(std::span<const Item> items) {
+  Real n[3];
+  if (!numbers(items, n)) return {};
+  return Affine::translation({n[0], n[1], n[2]});
+}
+
+std::optional<Affine> scaling(std::span<const Item> items) {
+  Real n[3];
+  if (numbers(items, std::span(n, 1))) return Affine::scaling({n[0], n[0], n[0]});
+  if (!numbers(items, n)) return {};
+  return Affine::scaling({n[0], n[1], n[2]});
+}
+
+std::string rowText(const Vec3& row, Real last) {
+  return "(" + toText(row.x) + ", " + toText(row.y) + ", " + toText(row.z) + ", " + toText(last) + ")";
+}
+
+/// `text` inside the transform, for the scene to be written again.
+std::string transformed(const Affine& m, std::string_view text) {
+  if (m == Affine{}) return std::string(text);
+  return "transform(" + rowText(m.row[0], m.offset.x) + ", " + rowText(m.row[1], m.offset.y) + ", " +
+         rowText(m.row[2], m.offset.z) + ", (0, 0, 0, 1),\n" + std::string(text) + ")";
+}
+
+// --- shapes that need more than their fields ------------------------------------------------------------
+
+/// Makes a shape with its transform one that can be traced. Returns why it cannot be, or "".
+template <class S>
+std::string_view repair(S&, Affine&) {
+  return {};
+}
+
+/// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of less
+/// than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h: it is the
+/// mirror image of the cone of height -h, and the mirror goes into the transform.
+std::string_view repair(Cone& cone, Affine& worldFromObject) {
+  cone.bottomRadius = std::abs(cone.bottomRadius);
+  cone.topRadius = std::abs(cone.topRadius);
+  if (cone.height < 0) {
+    cone.height = -cone.height;
+    worldFromObject = worldFromObject * Affine::scaling({1, 1, -1});
+  }
+  if (cone.height == 0) return "a cone of height 0 is left out";
+  if (cone.bottomRadius == 0 && cone.topRadius == 0) return "a cone of radius 0 is left out";
+  constexpr Real kLeastSlope = 0.001;
+  if (std::abs(cone.topRadius - cone.bottomRadius) < kLeastSlope * cone.height)
+    cone.topRadius = cone.bottomRadius + kLeastSlope * cone.height;
+  return {};
+}
+
+// --- the reader -----------------------------------------------------------------------------------------
+
+class Reader {
+ public:
+  Reader(const Syntax& syntax, Scene& scene, Messages& messages)
+      : syntax_(syntax),
+        scene_(scene),
+        messages_(messages),
+        findings_(syntax, scene, messages),
+        materials_(findings_) {}
+
+  void read() {
+    const Item root = syntax_.root();
+    auto item = root.begin();
+    for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
+    findings_.finish();
+    warnOfDarkness();
+    messages_.throwIfFailed();
+  }
+
+ private:
+  // --- the file ---
+
+  /// Leaves `item` after the header.
+  void readHeader(Item::Iterator& item, const Item::Iterator& end) {
+    if (item == end || !(*item).is(Kind::word) || (*item).text() != kMagic)
+      throw Error(Fault::scene, syntax_.place(item == end ? 0 : (*item).offset()),
+                  "expected SBT-raytracer 1.0");
+    const Item magic = *item;
+    if (++item == end || !(*item).is(Kind::number))
+      throw Error(Fault::scene, syntax_.place(magic.offset()),
+                  "expected a version after SBT-raytracer, as in 1.0");
+    if ((*item).number() > kNewestVersion)
+      throw Error(Fault::scene, syntax_.place((*item).offset()),
+                  "expected version 1.1 or older of the format, found " + describe(*item));
+    ++item;
+  }
+
+  void topLevel(const Item& item) {
+    if (item.is(Kind::entry)) return topLevelEntry(item);
+    if (item.is(Kind::call)) {
+      if (item.key() == Phong::kKeyword) return namedMaterial(item);
+      if (item.key() == Camera::kKeyword) return camera(item);
+      if (item.key() == kSettings) return settings(item);
+      if (withKeyword<Light>(item.key(), [&]<class L>(L*) { light<L>(item); })) return;
+    }
+    object(item, {});
+  }
+
+  void topLevelEntry(const Item& item) {
+    if (item.key() != Phong::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
+    findings_.sureSignOf2005();
+    materials_.current = materials_.read(item.value(), materials_.current);
+  }
+
+  void warnOfDarkness() {
+    const Place place{scene_.file, 0, 0, {}};
+    if (scene_.objects.empty()) return messages_.warn(place, "no object: the picture will be empty");
+    const bool glows = std::any_of(
+        scene_.materials.begin(), scene_.materials.end(),
+        [](const Material& material) { return !isBlack(std::get_if<Phong>(&material.model)->emissive); });
+    if (scene_.lights.empty() && !glows)
+      messages_.warn(place, "no light: everything will be black",
+                     "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
+  }
+
+  /// The block of `name { ... }`; reports other brackets.
+  std::optional<Item> blockOf(const Item& call) {
+    if (call.value().is(Kind::block)) return call.value();
+    findings_.expected(call.value(), call.key(), "{ ... }");
+    return {};
+  }
+
+  /// Reports an item that is no field.
+  bool isField(const Item& item, std::string_view owner) {
+    if (item.keyed()) return true;
+    findings_.expected(item, owner, "a field, as in name = value");
+    return false;
+  }
+
+  // --- objects ---
+
+  void object(Item item, Affine worldFromObject) {
+    while (const TransformForm* transform = findTransform(item)) {
+      const std::optional<Item> child = applyTransform(item, *transform, worldFromObject);
+      if (!child) return;
+      item = *child;
+    }
+    if (item.is(Kind::block)) return group(item, worldFromObject);
+    if (!item.is(Kind::call)) return noObject(item);
+    if (!withKeyword<Shape>(canonical(item.key()), [&]<class S>(S*) { shape<S>(item, worldFromObject); }))
+      otherNode(item, worldFromObject);
+  }
+
+  /// Materials set in a group hold up to its end.
+  void group(const Item& block, const Affine& worldFromObject) {
+    const Material outside = materials_.current;
+    for (const Item item : block) {
+      if (!item.keyed() || item.key() != Phong::kKeyword)
+        object(item, worldFromObject);
+      else if (item.is(Kind::call))
+        namedMaterial(item);
+      else
+        materials_.current = materials_.read(item.value(), materials_.current);
+    }
+    materials_.current = outside;
+  }
+
+  void noObject(const Item& item) {
+    std::string hint;
+    if (item.is(Kind::word)) {
+      const std::string near = nearest(item.text(), knownWords());
+      if (near == item.text())
+        hint = "\"" + near + "\" is followed by { or (";
+      else
+        hint = didYouMean(item.text(), knownWords());
+    }
+    findings_.error(item, "expected an object, found " + describe(item), std::move(hint));
+  }
+
+  void otherNode(const Item& call, const Affine& worldFromObject) {
+    const std::string_view key = call.key();
+    const bool topLevelOnly = withKeyword<Light>(key, [](auto*) {}) || key == Camera::kKeyword ||
+                              key == kSettings || key == Phong::kKeyword;
+    if (topLevelOnly)
+      findings_.error(call, "expected an object, found " + describe(call),
+                      std::string(key) + " belongs to the top of a file, outside of transforms and groups");
+    else
+      findings_.notRendered(key, call, transformed(worldFromObject, call.source()), knownWords());
+  }
+
+  /// Multiplies the transform of the node to `worldFromObject`. Returns what it transforms; nothing, after a
+  /// report, if the node is not of its form.
+  std::optional<Item> applyTransform(const Item& call, const TransformForm& transform,
+                                     Affine& worldFromObject) {
+    std::vector<Item> items;
+    if (call.value().is(Kind::tuple))
+      for (const Item item : call.value()) items.push_back(item);
+    const bool hasChild = !items.empty() && !items.back().is(Kind::number) && !items.back().is(Kind::tuple);
+    if (!hasChild) return wrongForm(call, transform, "the object is missing");
+
+    const std::optional<Item> child = items.back();
+    items.pop_back();
+    std::optional<Affine> own;
+    if (transform.name == "translate")
+      own = translation(items);
+    else if (transform.name == "rotate")
+      own = rotation(items);
+    else if (transform.name == "scale")
+      own = scaling(items);
+    else
+      own = matrix(items);
+    if (!own) {
+      const bool several = !items.empty() && (items.back().is(Kind::call) || items.back().is(Kind::block));
+      return wrongForm(call, transform, several ? "several objects stand in a group { }" : "");
+    }
+    worldFromObject = worldFromObject * *own;
+    return child;
+  }
+
+  std::optional<Item> wrongForm(const Item& call, const TransformForm& transform, const char* hint) {
+    findings_.error(call, "expected " + std::string(transform.form), hint);
+    return {};
+  }
+
+  std::optional<Affine> rotation(std::span<const Item> items) {
+    Real n[4];
+    if (!numbers(items, n)) return {};
+    const Real length = std::hypot(n[0], n[1], n[2]);
+    if (!(length > 0 && std::isfinite(length))) {
+      findings_.error(items[0], "rotate: expected an axis, found one of length " + toText(length));
+      return Affine{};
+    }
+    return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, n[3]);
+  }
+
+  std::optional<Affine> matrix(std::span<const Item> rows) {
+    Real n[4][4];
+    if (rows.size() != 4) return {};
+    for (int i = 0; i < 4; ++i)
+      if (!rayfile::numbers(rows[i], n[i], 4)) return {};
+    const auto& last = n[3];
+    const bool plain = last[0] == 0 && last[1] == 0 && last[2] == 0 && last[3] != 0;
+    if (!plain) findings_.warn(rows[3], "transform: expected a last row of (0, 0, 0, 1); it is ignored");
+    const Real w = plain ? last[3] : 1;
+    Affine m;
+    for (int i = 0; i < 3; ++i) {
+      m.row[i] = Vec3{n[i][0], n[i][1], n[i][2]} / w;
+      m.offset[i] = n[i][3] / w;
+    }
+    return m;
+  }
+
+  template <class S>
+  void shape(const Item& call, Affine worldFromObject) {
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return;
+    if constexpr (std::is_same_v<S, Mesh>)
+      mesh(call, *block, worldFromObject);
+    else
+      analyticShape<S>(call, *block, worldFromObject);
+  }
+
+  void mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
+    std::optional<MeshNode> node = readMesh(findings_, materials_, block);
+    if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
+  }
+
+  template <class S>
+  void analyticShape(const Item& call, const Item& block, Affine worldFromObject) {
+    S shape;
+    std::string name;
+    Material material = materials_.current;
+    for (const Item item : block) {
+      if (!isField(item, call.key())) continue;
+      if (item.key() == Phong::kKeyword) {
+        if (item.is(Kind::call)) findings_.sureSignOf2001(item);
+        material = materials_.read(item.value(), materials_.current);
+      } else if (item.key() == "name") {
+        rayfile::read(findings_, "name", item.value(), name);
+      } else if (!assignField(findings_, shape, item)) {
+        findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
+      }
+    }
+    const std::string_view reason = repair(shape, worldFromObject);
+    if (!reason.empty()) return findings_.warn(call, std::string(reason));
+    for (const Item item : block)
+      if (item.keyed()) checkRange(findings_, shape, item);
+    add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
+           const Material& material) {
+    if (!invertible(worldFromObject))
+      return findings_.warn(
+          call, "an object is left out: its transform makes it flat, or infinitely large or small");
+    scene_.objects.push_back({std::move(name), std::move(shape), worldFromObject, materials_.index(material),
+                              syntax_.shortPlace(call.offset())});
+  }
+
+  void namedMaterial(const Item& call) {
+    findings_.sureSignOf2001(call);
+    const Material material = materials_.read(call.value(), materials_.current);
+    if (material.name.empty()) findings_.warn(call, "a material without a name is never used");
+  }
+
+  // --- camera, lights, settings ---
+
+  void camera(const Item& call) {
+    if (const std::optional<Item> block = blockOf(call)) scene_.camera = readCamera(findings_, *block);
+  }
+
+  template <class L>
+  void light(const Item& call) {
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return;
+    L light;
+    const std::size_t errors = findings_.errors();
+    std::vector<std::string_view> given;
+    for (const Item item : *block) {
+      if (!isField(item, L::kKeyword)) continue;
+      if (!assignField(findings_, light, item)) {
+        findings_.unknownField(L::kKeyword, item, keywords<L>({"colour"}));
+        continue;
+      }
+      checkRange(findings_, light, item);
+      const std::string_view key = canonical(item.key());
+      const bool again = std::find(given.begin(), given.end(), key) != given.end();
+      if (again)
+        findings_.warn(
+            item, std::string(key) + " of " + std::string(L::kKeyword) + " given again; the last counts");
+      else
+        given.push_back(key);
+    }
+    forEachField<L>([&](const auto& field) {
+      if (isRequired(field.keyword) && std::find(given.begin(), given.end(), field.keyword) == given.end())
+        findings_.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword));
+    });
+    if (findings_.errors() != errors || !checkDirection(call, light)) return;
+    scene_.lights.push_back({light, syntax_.shortPlace(call.offset())});
+  }
+
+  template <class L>
+  bool checkDirection(const Item& call, const L& light) {
+    if constexpr (requires { light.direction; }) {
+      const Real l = length(light.direction);
+      if (l > 0 && std::isfinite(l)) return true;
+      findings_.error(call,
+                      std::string(L::kKeyword) + ": expected a direction, found one of length " + toText(l));
+      return false;
+    }
+    return true;
+  }
+
+  void settings(const Item& call) {
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return;
+    for (const Item item : *block)
+      if (isField(item, kSettings)) choice(item);
+  }
+
+  void choice(const Item& item) {
+    const Choice choice{std::string(item.key()), choiceText(item.value()), syntax_.shortPlace(item.offset())};
+    try {
+      Settings scratch;
+      findOption(choice.option).assign(scratch, choice.value);
+      scene_.choices.push_back(choice);
+    } catch (const Error& error) {
+      const Message& message = error.messages().front();
+      const std::string_view what = message.what;
+      findings_.error(item, std::string(what.starts_with("--") ? what.substr(2) : what), message.hint);
+    }
+  }
+
+  /// As on the command line: `(0, 0, 8, 8)` is 0,0,8,8.
+  static std::string choiceText(const Item& value) {
+    if (value.is(Kind::word)) return std::string(value.text());
+    if (!value.is(Kind::tuple)) return std::string(value.source());
+    std::string text;
+    for (const Item item : value) text += (text.empty() ? "" : ",") + choiceText(item);
+    return text;
+  }
+
+  const Syntax& syntax_;
+  Scene& scene_;
+  Messages& messages_;
+  Findings findings_;
+  Materials materials_;
+};
+
+}  // namespace
+}  // namespace rayfile
+
+bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
+
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages) {
+  Scene scene;
+  scene.file = file;
+  scene.format = "ray";
+  const rayfile::Syntax syntax(file, bytes);
+  rayfile::Reader(syntax, scene, messages).read();
+  return scene;
+}
+
+}  // namespace trace

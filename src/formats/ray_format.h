@@ -1,0 +1,18 @@
+// Scenes of the courses of Washington, Austin and Hong Kong: `SBT-raytracer 1.0` (files *.ray).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+/// Does the content begin, after white space and comments, with the word SBT-raytracer?
+bool recognisesRay(std::string_view bytes);
+
+/// Throws Error(Fault::scene) with up to twenty errors; one, if the syntax is wrong.
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages);
+
+}  // namespace trace

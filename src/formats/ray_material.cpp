@@ -1,0 +1,141 @@
+#include "formats/ray_material.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "formats/ray_fields.h"
+
+namespace trace::rayfile {
+namespace {
+
+std::size_t mixed(std::size_t hash, std::size_t more) {
+  return (hash ^ more) * 0x9e3779b97f4a7c15u + (hash >> 29);
+}
+
+std::size_t hashOf(const Material& material, const Phong& phong) {
+  std::size_t hash = std::hash<std::string>{}(material.name);
+  for (const FieldMap& map : material.maps)
+    hash = mixed(hash, std::hash<std::string>{}(map.field + map.file));
+  const auto add = [&](double number) { hash = mixed(hash, std::hash<double>{}(number)); };
+  forEachField<Phong>([&](const auto& f) {
+    const auto& value = phong.*f.member;
+    if constexpr (requires { value.r; })
+      add(value.r), add(value.g), add(value.b);
+    else
+      add(value);
+  });
+  return hash;
+}
+
+/// The keyword of the field and whether it is a colour, if Phong has such a field.
+std::optional<bool> isColor(std::string_view keyword) {
+  std::optional<bool> result;
+  forEachField<Phong>([&](const auto& f) {
+    if (f.keyword == keyword)
+      result = std::is_same_v<std::remove_cvref_t<decltype(Phong{}.*f.member)>, Color>;
+  });
+  return result;
+}
+
+void setWhite(Phong& phong, std::string_view keyword) {
+  forEachField<Phong>([&](const auto& f) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(phong.*f.member)>, Color>)
+      if (f.keyword == keyword) phong.*f.member = Color(1);
+  });
+}
+
+/// The file of `map("file")`, or of a bare string where a number is expected.
+std::optional<std::string_view> fileOf(const Item& value) {
+  if (value.is(Kind::word))
+    return value.source().starts_with('"') ? std::optional(value.text()) : std::nullopt;
+  if (!value.is(Kind::call) || value.key() != "map") return {};
+  const Item tuple = value.value();
+  if (!tuple.is(Kind::tuple) || tuple.count() != 1 || !(*tuple.begin()).is(Kind::word)) return {};
+  return (*tuple.begin()).text();
+}
+
+}  // namespace
+
+/// A material block being read.
+struct Materials::Block {
+  Material material;
+  Phong phong;
+  bool gaveReflective = false;
+  std::optional<Item> shininess;
+};
+
+Material Materials::read(const Item& value, const Material& inherited) {
+  if (value.is(Kind::word)) {
+    const auto found = named_.find(value.text());
+    if (found != named_.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const auto& [name, material] : named_) names.push_back(name);
+    std::string hint = didYouMean(value.text(), names);
+    if (hint.empty()) hint = "a material is named before its first use: material = { name = foo; ... }";
+    findings_.error(value, "expected the name of a material, found " + describe(value), std::move(hint));
+    return inherited;
+  }
+  if (!value.is(Kind::block)) {
+    findings_.expected(value, "material", "{ ... } or the name of a material");
+    return inherited;
+  }
+
+  Block block{inherited, *std::get_if<Phong>(&inherited.model), false, {}};
+  block.material.name.clear();
+  for (const Item item : value) field(block, item);
+  block.material.model = block.phong;
+  if (block.shininess && !isBlack(block.phong.specular))
+    findings_.noteShininess(*block.shininess, block.phong.shininess);
+  if (!block.material.name.empty()) named_.insert_or_assign(block.material.name, block.material);
+  return block.material;
+}
+
+void Materials::field(Block& block, const Item& field) {
+  if (!field.keyed()) return findings_.expected(field, "material", "a field, as in diffuse = (1, 1, 1)");
+  const std::string_view key = field.key();
+  if (key == "name") {
+    rayfile::read(findings_, key, field.value(), block.material.name);
+    return;
+  }
+  if (!isColor(key)) return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
+
+  std::erase_if(block.material.maps, [&](const FieldMap& map) { return map.field == key; });
+  if (!picture(block, field)) {
+    assignField(findings_, block.phong, field);
+    checkRange(findings_, block.phong, field);
+    if (key == "shininess") block.shininess = field;
+  }
+  if (key == "reflective") block.gaveReflective = true, block.phong.mirrorsSpecular = false;
+  if (key == "specular" && !block.gaveReflective) block.phong.mirrorsSpecular = true;
+}
+
+/// Is the field given by a picture or a pattern? Until those are rendered, white shows where they go.
+bool Materials::picture(Block& block, const Item& field) {
+  const Item value = field.value();
+  const auto file = fileOf(value);
+  const bool pattern = value.is(Kind::call) && value.key() != "map" && isRelative(value.key());
+  if (!file && !pattern) return false;
+  if (file) block.material.maps.push_back({std::string(field.key()), std::string(*file)});
+  findings_.notRendered(file ? "map" : value.key(), value, {});
+  if (isColor(field.key()).value_or(false)) setWhite(block.phong, field.key());
+  return true;
+}
+
+std::uint32_t Materials::index(const Material& material) {
+  std::vector<Material>& all = findings_.scene().materials;
+  const std::size_t hash = hashOf(material, *std::get_if<Phong>(&material.model));
+  const auto [first, last] = byHash_.equal_range(hash);
+  for (auto found = first; found != last; ++found)
+    if (all[found->second] == material) return found->second;
+  const auto added = static_cast<std::uint32_t>(all.size());
+  all.push_back(material);
+  byHash_.emplace(hash, added);
+  return added;
+}
+
+}  // namespace trace::rayfile

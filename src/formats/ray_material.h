@@ -1,0 +1,40 @@
+// Materials of .ray files: blocks, names, inheritance.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "formats/ray_findings.h"
+#include "formats/ray_syntax.h"
+#include "shading/material.h"
+
+namespace trace::rayfile {
+
+class Materials {
+ public:
+  explicit Materials(Findings& findings) : findings_(findings) {}
+
+  /// What primitives without a material get, and material blocks start from.
+  Material current;
+
+  /// The material that a block `{ ... }` describes, starting as a copy of `inherited`, or that a name
+  /// stands for. Reports what is wrong, and returns what could be read.
+  Material read(const Item& value, const Material& inherited);
+
+  /// Its index in Scene::materials; equal materials share one.
+  std::uint32_t index(const Material& material);
+
+ private:
+  struct Block;
+  void field(Block& block, const Item& field);
+  bool picture(Block& block, const Item& field);
+
+  Findings& findings_;
+  std::map<std::string, Material, std::less<>> named_;
+  std::unordered_multimap<std::size_t, std::uint32_t> byHash_;
+};
+
+}  // namespace trace::rayfile

@@ -1,0 +1,224 @@
+#include "formats/ray_mesh.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "formats/ray_fields.h"
+
+namespace trace::rayfile {
+namespace {
+
+constexpr std::array<std::string_view, 8> kFields{"faces", "gennormals", "material", "materials",
+                                                  "name",  "normals",    "points",   "texture_uv"};
+
+class MeshReader {
+ public:
+  MeshReader(Findings& findings, Materials& materials) : findings_(findings), materials_(materials) {
+    node_.material = materials.current;
+  }
+
+  std::optional<MeshNode> read(const Item& block) {
+    for (const Item item : block) good_ &= field(item);
+    if (good_) good_ = checkCounts() && readFaces();
+    if (!good_) return {};
+    dropDegenerate(block);
+    repairNormals(block);
+    node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
+    return std::move(node_);
+  }
+
+ private:
+  bool field(const Item& item) {
+    if (item.is(Kind::word) && item.text() == "gennormals") {
+      findings_.sureSignOf2005();
+      data_.generateNormals = true;
+      return true;
+    }
+    if (!item.keyed()) {
+      findings_.expected(item, Mesh::kKeyword, "a field, as in points = ((0, 0, 0), (1, 0, 0), (0, 1, 0))");
+      return false;
+    }
+    const std::string_view key = item.key();
+    const Item value = item.value();
+    if (key == "gennormals") {
+      findings_.sureSignOf2001(item);
+      return rayfile::read(findings_, key, value, data_.generateNormals);
+    }
+    if (key == "points") return vectors(value, "point", data_.points);
+    if (key == "normals") return vectors(normals_.emplace(value), "normal", data_.normals);
+    if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));
+    if (key == "materials") return vertexMaterials(materialList_.emplace(value));
+    if (key == "faces") return isList(faces_.emplace(value), key);
+    if (key == "name") return rayfile::read(findings_, key, value, node_.name);
+    if (key == "material") {
+      if (item.is(Kind::call)) findings_.sureSignOf2001(item);
+      node_.material = materials_.read(value, materials_.current);
+      return true;
+    }
+    findings_.unknownField(Mesh::kKeyword, item, kFields);
+    return true;
+  }
+
+  // --- lists per point ---
+
+  bool isList(const Item& value, std::string_view name) {
+    if (value.is(Kind::tuple)) return true;
+    findings_.expected(value, name, "a list ( ... )");
+    return false;
+  }
+
+  bool vectors(const Item& list, const char* what, std::vector<Vec3f>& to) {
+    to.clear();
+    if (!isList(list, std::string(what) + "s")) return false;
+    for (const Item item : list) {
+      Real n[3];
+      if (!numbers(item, n, 3)) {
+        findings_.expected(item, std::string(what) + " " + std::to_string(to.size()), "(x, y, z)");
+        return false;
+      }
+      const Vec3f v{Vec3{n[0], n[1], n[2]}};
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
+        findings_.expected(item, std::string(what) + " " + std::to_string(to.size()),
+                           "numbers of at most 3.4e38");
+        return false;
+      }
+      to.push_back(v);
+    }
+    return true;
+  }
+
+  bool textureCoordinates(const Item& list) {
+    data_.uvs.clear();
+    if (!isList(list, "texture_uv")) return false;
+    for (const Item item : list) {
+      Real n[2];
+      if (!numbers(item, n, 2)) {
+        findings_.expected(item, "texture_uv " + std::to_string(data_.uvs.size()), "(u, v)");
+        return false;
+      }
+      data_.uvs.push_back({n[0], n[1]});
+    }
+    return true;
+  }
+
+  /// They inherit from the mesh's material as known at this point of the file.
+  bool vertexMaterials(const Item& list) {
+    data_.materials.clear();
+    if (!isList(list, "materials")) return false;
+    for (const Item item : list)
+      data_.materials.push_back(materials_.index(materials_.read(item, node_.material)));
+    return true;
+  }
+
+  bool checkCounts() {
+    return checkCount(normals_, data_.normals.size(), "normals") &&
+           checkCount(materialList_, data_.materials.size(), "materials") &&
+           checkCount(uvs_, data_.uvs.size(), "texture_uv");
+  }
+  bool checkCount(const std::optional<Item>& list, std::size_t count, const char* name) {
+    if (count == 0 || count == data_.points.size()) return true;
+    findings_.error(*list, std::string(name) + ": expected one for each of the " +
+                               std::to_string(data_.points.size()) + " points, found " +
+                               std::to_string(count));
+    return false;
+  }
+
+  // --- faces ---
+
+  /// Polygons become fans. They may stand before the points, so they are read last.
+  bool readFaces() {
+    if (!faces_) return true;
+    std::size_t number = 0;
+    for (const Item face : *faces_)
+      if (!readFace(face, number++)) return false;
+    return true;
+  }
+
+  bool readFace(const Item& face, std::size_t number) {
+    const std::string name = "face " + std::to_string(number);
+    if (!face.is(Kind::tuple))
+      return findings_.expected(face, name, "a list of points, as in (0, 1, 2)"), false;
+    std::uint32_t first = 0, last = 0;
+    std::size_t count = 0;
+    for (const Item item : face) {
+      std::uint32_t point = 0;
+      if (!readIndex(item, name, point)) return false;
+      if (count == 0) first = point;
+      if (count >= 2) data_.triangles.push_back({first, last, point});
+      last = point;
+      ++count;
+    }
+    if (count < 3) return findings_.expected(face, name, "at least 3 points"), false;
+    return true;
+  }
+
+  bool readIndex(const Item& item, const std::string& face, std::uint32_t& point) {
+    if (!item.is(Kind::number) || item.number() != std::floor(item.number()) || item.number() < 0)
+      return findings_.expected(item, face, "the number of a point, a whole number from 0"), false;
+    if (item.number() >= static_cast<double>(data_.points.size())) {
+      const std::string count = std::to_string(data_.points.size());
+      findings_.error(item, face + " uses point " + describe(item) + " but the mesh has " + count,
+                      data_.points.empty() ? "" : "points are counted from 0");
+      return false;
+    }
+    point = static_cast<std::uint32_t>(item.number());
+    return true;
+  }
+
+  // --- repairs ---
+
+  void dropDegenerate(const Item& block) {
+    MeshData kept = std::move(data_);
+    const std::vector<Triangle> all = kept.triangles;
+    std::size_t n = 0;
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+      if (faceNormal(kept, i) != Vec3{}) kept.triangles[n++] = all[i];
+    kept.triangles.resize(n);
+    data_ = std::move(kept);
+    if (n < all.size())
+      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", all.size() - n);
+  }
+
+  /// A zero normal becomes the mean of the unit normals of the faces around its point. (Where normals are
+  /// generated they are added to it anyway.)
+  void repairNormals(const Item& block) {
+    if (data_.generateNormals || data_.normals.empty()) return;
+    std::size_t repaired = 0;
+    std::optional<MeshData> generated;
+    for (std::size_t i = 0; i < data_.normals.size(); ++i) {
+      if (data_.normals[i] != Vec3f{}) continue;
+      if (!generated) generated = withGeneratedNormals(withoutNormals(), true);
+      data_.normals[i] = generated->normals[i];
+      ++repaired;
+    }
+    if (repaired)
+      findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces",
+                             repaired);
+  }
+
+  MeshData withoutNormals() const {
+    MeshData mesh;
+    mesh.points = data_.points;
+    mesh.triangles = data_.triangles;
+    return mesh;
+  }
+
+  Findings& findings_;
+  Materials& materials_;
+  MeshNode node_;
+  MeshData data_;
+  std::optional<Item> normals_, uvs_, materialList_, faces_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, const Item& block) {
+  return MeshReader(findings, materials).read(block);
+}
+
+}  // namespace trace::rayfile

@@ -1,0 +1,24 @@
+// Triangle meshes of .ray files.
+#pragma once
+
+#include <optional>
+
+#include "formats/ray_findings.h"
+#include "formats/ray_material.h"
+#include "formats/ray_syntax.h"
+#include "geometry/mesh.h"
+
+namespace trace::rayfile {
+
+/// A mesh and what its block says beside its shape.
+struct MeshNode {
+  Mesh mesh;
+  Material material;
+  std::string name;
+};
+
+/// The mesh of a block `polymesh { ... }`. Reports what is wrong, and returns nothing if it cannot be used.
+/// Points and faces are counted from 0 in messages, as in the file.
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, const Item& block);
+
+}  // namespace trace::rayfile

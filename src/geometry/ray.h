@@ -1,0 +1,49 @@
+// Rays, and what a shape tells of a place on its surface.
+#pragma once
+
+#include "math/vec.h"
+
+namespace trace {
+
+/// The points origin + t direction, t > 0. The direction need not be a unit vector.
+struct Ray {
+  Vec3 origin, direction;
+  Vec3 at(Real t) const { return origin + direction * t; }
+};
+
+/// Where the line of a ray passes through a surface.
+struct Crossing {
+  Real t = 0;
+  int part = 0;  ///< which face, cap or triangle of the shape; the shape's own numbering
+};
+
+/// A place on a surface, in the space of the ray that found it.
+///
+/// No epsilons: `error` bounds, per coordinate, how far `point` may lie from the true surface and how far
+/// arithmetic near it may be off, so that a ray started at offsetPoint() is surely on its side of it.
+struct SurfacePoint {
+  Vec3 point;
+  Vec3 error;
+  Vec3 normal;   ///< unit, of the true surface; outward for solids, toward the ray's origin for open sheets
+  Vec3 shading;  ///< unit; differs from `normal` where a mesh has vertex normals
+  Vec2 uv;
+};
+
+/// The point moved off the surface along its normal, to the side that `direction` leaves toward (pbrt 4th
+/// ed., 6.8.6): far enough to be past the error bounds, near enough to be invisible at any scale.
+inline Vec3 offsetPoint(const SurfacePoint& surface, const Vec3& direction) {
+  const Real distance = dot(abs(surface.normal), surface.error);
+  const Real side = dot(direction, surface.normal) < 0 ? -1 : 1;
+  Vec3 p = surface.point + surface.normal * (side * distance);
+  for (int i = 0; i < 3; ++i) {
+    const Real move = side * surface.normal[i];
+    if (move != 0) p[i] = std::nextafter(p[i], move > 0 ? kInfinity : -kInfinity);
+  }
+  return p;
+}
+
+inline Ray spawnRay(const SurfacePoint& surface, const Vec3& direction) {
+  return {offsetPoint(surface, direction), direction};
+}
+
+}  // namespace trace

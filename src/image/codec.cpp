@@ -1,0 +1,196 @@
+// The table of picture formats, and reading and writing through it: see codec.h.
+//
+// The last station of a picture. The rows' parts are in codec_plain.cpp, codec_stb.cpp, codec_exr.cpp and
+// metadata.cpp. Source: each format's signature, from its specification; Truevision's TGA 2.0 has none, so
+// TGA is tried last and only on a header that makes sense.
+#include "image/codec.h"
+
+#include <algorithm>
+#include <climits>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "image/codec_parts.h"
+
+namespace trace {
+
+void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes) {
+  // Deflate packs a thousandfold, a byte may hold 8 pixels: beyond this ratio the header lies.
+  constexpr std::int64_t kMostPixelsPerByte = 16384;
+  if (width >= 1 && height >= 1 && width <= kMostPixelsRead && height <= kMostPixelsRead &&
+      width * height <= kMostPixelsRead &&
+      width * height / kMostPixelsPerByte <= static_cast<std::int64_t>(fileBytes))
+    return;
+  throw std::runtime_error("a size of " + std::to_string(width) + "x" + std::to_string(height) +
+                           " pixels is not believable in " + std::to_string(fileBytes) + " bytes");
+}
+
+namespace {
+
+// --- how files begin ---------------------------------------------------------------------------------
+
+bool beginsWith(std::string_view bytes, std::string_view start) {
+  return bytes.substr(0, start.size()) == start;
+}
+
+bool isPng(std::string_view b) { return beginsWith(b, "\x89PNG\r\n\x1a\n"); }
+bool isBmp(std::string_view b) { return beginsWith(b, "BM"); }
+bool isPpm(std::string_view b) {
+  return b.size() > 2 && b[0] == 'P' && std::string_view("2356").find(b[1]) != std::string_view::npos &&
+         (b[2] == '#' || b[2] == ' ' || (b[2] >= '\t' && b[2] <= '\r'));
+}
+bool isJpeg(std::string_view b) { return beginsWith(b, "\xFF\xD8\xFF"); }
+bool isHdr(std::string_view b) { return beginsWith(b, "#?RADIANCE\n") || beginsWith(b, "#?RGBE\n"); }
+bool isExr(std::string_view b) { return beginsWith(b, "\x76\x2f\x31\x01"); }
+bool isTga(std::string_view b) {
+  if (b.size() < 18) return false;
+  const auto is = [&](size_t i, std::string_view allowed) {
+    return allowed.find(b[i]) != std::string_view::npos;
+  };
+  const bool sized = (b[12] || b[13]) && (b[14] || b[15]);
+  return is(1, {"\0\1", 2}) && is(2, "\1\2\3\x9\xa\xb") && is(16, "\x8\xf\x10\x18\x20") && sized;
+}
+
+// --- the rows ----------------------------------------------------------------------------------------
+
+std::string encodePng(const Picture& picture, Rounding rounding, const Metadata& metadata) {
+  return withPngText(encodePngByStb(toBytes(picture, rounding)), metadata);
+}
+std::string encodeBmp(const Picture& picture, Rounding rounding, const Metadata&) {
+  return encodeBmpByStb(toBytes(picture, rounding));
+}
+std::string encodeTga(const Picture& picture, Rounding rounding, const Metadata&) {
+  return encodeTgaByStb(toBytes(picture, rounding));
+}
+std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata& metadata) {
+  return withJpegComments(encodeJpegByStb(toBytes(picture, rounding)), metadata);
+}
+Picture decodePng(std::string_view bytes) {
+  checkPngChunks(bytes);
+  return decodeByStb(bytes);
+}
+Metadata noMetadata(std::string_view) { return {}; }
+
+constexpr std::string_view kPng[] = {".png"}, kBmp[] = {".bmp"}, kPpm[] = {".ppm", ".pnm"},
+                           kJpeg[] = {".jpg", ".jpeg"}, kHdr[] = {".hdr"}, kExr[] = {".exr"},
+                           kTga[] = {".tga"};
+/// As many as memory can address.
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max() / sizeof(Color);
+
+// Reading tries them in this order.
+constexpr PictureFormat kFormats[] = {
+    {"PNG", kPng, "8 bits a channel, compressed without loss; carries the render's settings", false, true,
+     INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText},
+    {"BMP", kBmp, "8 bits a channel, uncompressed; what the courses hand in", false, true, INT_MAX,
+     kMostStbPixels, encodeBmp, isBmp, decodeByStb, noMetadata},
+    {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
+     encodePpm, isPpm, decodePpm, commentLines},
+    {"JPEG", kJpeg, "8 bits a channel, small, with visible loss", false, false, 65535, kMostStbPixels,
+     encodeJpeg, isJpeg, decodeByStb, jpegComments},
+    {"HDR", kHdr, "Radiance RGBE, keeps values above 1 to one part in 256 of the brightest channel", true,
+     false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines},
+    {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
+     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata},
+    {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,
+     decodeByStb, noMetadata},
+};
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+/// `PNG, BMP, ... or TGA` and the like.
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + std::string(words[i]);
+  return text;
+}
+
+/// Calls use(format) with the row the bytes belong to; any failure becomes an Error that names the file.
+template <class Use>
+auto withFormatOf(std::string_view bytes, const std::string& name, Use use) {
+  std::vector<std::string_view> names;
+  for (const PictureFormat& format : kFormats) {
+    names.push_back(format.name);
+    if (!format.recognise(bytes)) continue;
+    try {
+      return use(format);
+    } catch (const std::bad_alloc&) {
+      throw Error(Fault::limit, "cannot read \"" + name + "\": not enough memory for this picture");
+    } catch (const std::exception& e) {
+      throw Error(Fault::io, "cannot read \"" + name + "\" as " + std::string(format.name) + ": " + e.what());
+    }
+  }
+  throw Error(Fault::io, "cannot read \"" + name + "\": a picture (" + listed(names) + ") was expected, " +
+                             (bytes.empty() ? "the file is empty" : "it begins like none of them"));
+}
+
+}  // namespace
+
+std::span<const PictureFormat> pictureFormats() { return kFormats; }
+
+const PictureFormat& pictureFormatFor(std::string_view path) {
+  const size_t dot = path.rfind('.'), slash = path.find_last_of("/\\");
+  const bool hasSuffix = dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash);
+  const std::string suffix = hasSuffix ? lowerCase(path.substr(dot)) : "";
+  std::vector<std::string_view> known;
+  for (const PictureFormat& format : kFormats)
+    for (std::string_view candidate : format.suffixes) {
+      if (candidate == suffix) return format;
+      known.push_back(candidate);
+    }
+  throw Error(Fault::usage,
+              "the name of a picture ends in " + listed(known) + ", found \"" + std::string(path) + "\"",
+              didYouMean(suffix, known));
+}
+
+void checkEncodable(const PictureFormat& format, int width, int height) {
+  const bool fits = width >= 1 && height >= 1 && width <= format.mostSide && height <= format.mostSide &&
+                    static_cast<std::size_t>(width) <= format.mostPixels / static_cast<std::size_t>(height);
+  if (fits) return;
+  throw Error(Fault::usage,
+              "a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                  " pixels does not fit into " + std::string(format.name) + ": sides of 1 to " +
+                  std::to_string(format.mostSide) + " and at most " + std::to_string(format.mostPixels) +
+                  " pixels were expected",
+              width >= 1 && height >= 1 ? ".exr and .ppm hold the largest pictures" : "");
+}
+
+std::string encodePicture(const PictureFormat& format, const Picture& picture, Rounding rounding,
+                          const Metadata& metadata) {
+  checkEncodable(format, picture.width, picture.height);
+  try {
+    return format.encode(picture, rounding, metadata);
+  } catch (const std::bad_alloc&) {
+    throw Error(Fault::limit, "not enough memory to write this picture as " + std::string(format.name));
+  } catch (const std::exception& e) {
+    throw Error(Fault::io, "cannot write a picture as " + std::string(format.name) + ": " + e.what());
+  }
+}
+
+void writePicture(const std::string& path, const Picture& picture, Rounding rounding,
+                  const Metadata& metadata) {
+  writeFile(path, encodePicture(pictureFormatFor(path), picture, rounding, metadata));
+}
+
+Picture decodePicture(std::string_view bytes, const std::string& name) {
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes); });
+}
+
+Picture readPicture(const std::string& path) { return decodePicture(readFile(path), path); }
+
+Metadata readMetadata(const std::string& path) {
+  const std::string bytes = readFile(path);
+  return withFormatOf(bytes, path, [&](const PictureFormat& format) { return format.metadata(bytes); });
+}
+
+}  // namespace trace

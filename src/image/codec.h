@@ -1,0 +1,65 @@
+// Picture files: one table of formats, and reading and writing through it.
+//
+// The last station of a picture: Picture → encode → words put in → file under a temporary name → rename.
+// Colours are stored linear as they are, without gamma, as the courses' programs do. The kind of a file
+// that is written follows from its name; of one that is read, from its content.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "image/metadata.h"
+#include "image/picture.h"
+#include "image/tone.h"
+
+namespace trace {
+
+/// A row of the table. A new format is one more row in codec.cpp.
+struct PictureFormat {
+  std::string_view name;
+  std::span<const std::string_view> suffixes;  ///< lower case with the dot, the usual one first
+  std::string_view help;                       ///< one sentence, no full stop
+  bool keepsBright;                            ///< holds values above 1
+  bool lossless;                               ///< what it can hold is read back exactly
+  int mostSide;                                ///< the largest width and height
+  std::size_t mostPixels;
+
+  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats.
+  std::string (*encode)(const Picture&, Rounding, const Metadata&);
+  /// Whether the bytes begin like a file of this format.
+  bool (*recognise)(std::string_view bytes);
+  /// Throws a std::exception whose what() is the reason why the bytes are no sound file.
+  Picture (*decode)(std::string_view bytes);
+  /// The words stored with the picture; may throw as decode does.
+  Metadata (*metadata)(std::string_view bytes);
+};
+
+std::span<const PictureFormat> pictureFormats();
+
+/// By the suffix of the path, in any case. Throws Error(Fault::usage) that names all known suffixes.
+const PictureFormat& pictureFormatFor(std::string_view path);
+
+/// Throws Error(Fault::usage) if the format cannot hold a picture of this size: to be asked before rendering.
+void checkEncodable(const PictureFormat& format, int width, int height);
+
+/// The bytes of the file. Throws as checkEncodable(), or Error(Fault::io).
+std::string encodePicture(const PictureFormat& format, const Picture& picture,
+                          Rounding rounding = Rounding::truncate, const Metadata& metadata = {});
+
+/// Encodes by the suffix and writes; the file appears whole or not at all. Throws Error.
+void writePicture(const std::string& path, const Picture& picture, Rounding rounding = Rounding::truncate,
+                  const Metadata& metadata = {});
+
+/// The picture in the bytes; transparency is dropped. `name` is for messages. Throws Error(Fault::io) on
+/// anything that is not a whole, sound file of a known format, Error(Fault::limit) when memory is short.
+Picture decodePicture(std::string_view bytes, const std::string& name);
+
+/// decodePicture() of a file. Throws Error.
+Picture readPicture(const std::string& path);
+
+/// The words stored with a picture file, in their order; empty where its format has none. Throws Error.
+Metadata readMetadata(const std::string& path);
+
+}  // namespace trace

@@ -1,0 +1,181 @@
+// PNG, BMP, TGA and JPEG through stb_image and stb_image_write, the only file that sees them.
+// One station of codec.cpp's table. Source: Sean Barrett's public-domain headers, stb_image 2.27 and
+// stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
+// source below notices, so that a truncated file is refused.
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "image/codec_parts.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_ONLY_JPEG
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpragmas"
+#pragma GCC diagnostic ignored "-Wunknown-warning-option"
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#endif
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace trace {
+namespace {
+
+constexpr int kJpegQuality = 95;  // from 91 on stb keeps the colours of every pixel
+
+void append(void* file, void* bytes, int count) {
+  static_cast<std::string*>(file)->append(static_cast<const char*>(bytes), static_cast<size_t>(count));
+}
+
+/// The file that `write(append, &file)`, one of stb's writers, makes.
+template <class Write>
+std::string written(Write write) {
+  std::string file;
+  if (!write(append, &file)) throw std::runtime_error("the encoder failed");
+  return file;
+}
+
+/// A file in memory that stb draws from, and whether it wanted more than there is. stb either refills its
+/// own small buffer (the target of its first call), where it takes what it gets, or reads straight into
+/// the picture, where every byte counts.
+struct Source {
+  std::string_view rest;
+  const char* ownBuffer = nullptr;
+  bool ranDry = false;
+
+  static int read(void* user, char* target, int wanted) {
+    auto& source = *static_cast<Source*>(user);
+    if (!source.ownBuffer) source.ownBuffer = target;
+    const size_t count = std::min(source.rest.size(), static_cast<size_t>(std::max(wanted, 0)));
+    if (count > 0) std::memcpy(target, source.rest.data(), count);
+    source.rest.remove_prefix(count);
+    if (count == 0 || (target != source.ownBuffer && count < static_cast<size_t>(wanted)))
+      source.ranDry = true;
+    return static_cast<int>(count);
+  }
+  static void skip(void* user, int count) {
+    auto& source = *static_cast<Source*>(user);
+    const size_t wanted = static_cast<size_t>(std::max(count, 0));
+    if (wanted > source.rest.size()) source.ranDry = true;
+    source.rest.remove_prefix(std::min(wanted, source.rest.size()));
+  }
+  static int atEnd(void* user) { return static_cast<Source*>(user)->rest.empty(); }
+};
+
+[[noreturn]] void failAsStbSays() {
+  const char* reason = stbi_failure_reason();
+  throw std::runtime_error(reason ? reason : "damaged");
+}
+
+/// Throws if a Huffman table in the JPEG segment from `i` to `end` has more than 256 codes. As stb does it,
+/// the last table may reach beyond the end.
+void checkHuffmanTables(std::string_view jpeg, size_t i, size_t end) {
+  constexpr size_t kWhich = 1, kCounts = 16;  // which table it is, and the number of codes of each length
+  while (i + kWhich < std::min(end + kWhich, jpeg.size())) {
+    size_t codes = 0;
+    for (char count : jpeg.substr(i + kWhich, kCounts)) codes += static_cast<unsigned char>(count);
+    if (codes > 256) throw std::runtime_error("a Huffman table is damaged");
+    i += kWhich + kCounts + codes;
+  }
+}
+
+/// stb 2.27 writes behind its array for a JPEG table of too many codes. Segments are walked up to the first
+/// scan as stb walks them; behind it, every place is looked at where a damaged scan may let stb find a table.
+void checkJpegTables(std::string_view jpeg) {
+  const auto at = [&](size_t i) { return i < jpeg.size() ? static_cast<unsigned char>(jpeg[i]) : 0u; };
+  bool walking = true;
+  for (size_t i = 2; i < jpeg.size();) {
+    if (at(i) != 0xFF || at(i + 1) == 0xFF) {  // not yet the last byte before a marker
+      ++i;
+      continue;
+    }
+    const unsigned marker = at(i + 1);
+    const size_t segment = i + 2, end = segment + (at(segment) << 8 | at(segment + 1));
+    if (marker == 0xC4) checkHuffmanTables(jpeg, segment + 2, end);
+    if (marker == 0xDA) walking = false;
+    const bool hasLength = marker != 0 && marker != 1 && !(marker >= 0xD0 && marker <= 0xD9);
+    i = walking && hasLength ? std::max(end, segment) : segment;
+  }
+}
+
+/// Runs one of stb's loaders (8 or 16 bit) and scales its values to colours.
+template <class Value>
+Picture decodeAs(std::string_view bytes, double scale,
+                 Value* (*load)(const stbi_io_callbacks*, void*, int*, int*, int*, int)) {
+  const stbi_io_callbacks callbacks{Source::read, Source::skip, Source::atEnd};
+  Source source{bytes};
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<Value, void (*)(void*)> values(
+      load(&callbacks, &source, &width, &height, &channels, 3), stbi_image_free);
+  if (source.ranDry) throw std::runtime_error("the file ends too early");
+  if (!values) failAsStbSays();
+  Picture picture(width, height);
+  const Value* value = values.get();
+  for (Color& c : picture.pixels) {
+    c = Color(double(value[0]), double(value[1]), double(value[2])) / scale;
+    value += 3;
+  }
+  return picture;
+}
+
+}  // namespace
+
+std::string encodePngByStb(const Bytes& b) {
+  return written([&](auto to, void* file) {
+    return stbi_write_png_to_func(to, file, b.width, b.height, 3, b.rgb.data(), 3 * b.width);
+  });
+}
+
+std::string encodeBmpByStb(const Bytes& b) {
+  return written([&](auto to, void* file) {
+    return stbi_write_bmp_to_func(to, file, b.width, b.height, 3, b.rgb.data());
+  });
+}
+
+std::string encodeTgaByStb(const Bytes& b) {
+  return written([&](auto to, void* file) {
+    return stbi_write_tga_to_func(to, file, b.width, b.height, 3, b.rgb.data());
+  });
+}
+
+std::string encodeJpegByStb(const Bytes& b) {
+  return written([&](auto to, void* file) {
+    return stbi_write_jpg_to_func(to, file, b.width, b.height, 3, b.rgb.data(), kJpegQuality);
+  });
+}
+
+Picture decodeByStb(std::string_view bytes) {
+  if (bytes.size() > INT_MAX) throw std::runtime_error("files above 2 GiB are not read");
+  if (bytes.substr(0, 2) == "\xFF\xD8") checkJpegTables(bytes);
+  const auto* start = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(start, size, &width, &height, &channels)) failAsStbSays();
+  checkClaimedSize(width, height, bytes.size());
+  if (stbi_is_16_bit_from_memory(start, size))
+    return decodeAs<stbi_us>(bytes, 65535, stbi_load_16_from_callbacks);
+  return decodeAs<stbi_uc>(bytes, 255, stbi_load_from_callbacks);
+}
+
+}  // namespace trace

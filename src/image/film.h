@@ -1,0 +1,59 @@
+// The picture while it is being made: square tiles, each written by one worker and then marked done.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "image/picture.h"
+
+namespace trace {
+
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
+class Film {
+ public:
+  /// A constant: the tile, not the thread, selects the work (same picture for any number of threads).
+  static constexpr int kTileSize = 32;
+
+  Film(int width, int height)
+      : picture_(width, height),
+        columns_((width + kTileSize - 1) / kTileSize),
+        rows_((height + kTileSize - 1) / kTileSize),
+        done_(std::make_unique<std::atomic<bool>[]>(static_cast<std::size_t>(tiles()))) {}
+
+  int width() const { return picture_.width; }
+  int height() const { return picture_.height; }
+  std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
+  Tile tile(std::int64_t index) const {
+    const int x = static_cast<int>(index % columns_) * kTileSize, y = static_cast<int>(index / columns_) * kTileSize;
+    return {x, y, std::min(x + kTileSize, width()), std::min(y + kTileSize, height())};
+  }
+
+  /// Each pixel is set by the one worker that has its tile, before that tile is marked done.
+  void set(int x, int y, const Color& color) { picture_.at(x, y) = color; }
+  void markDone(std::int64_t index) { done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release); }
+
+  /// What is done so far, black elsewhere. May be called from any thread while workers write.
+  Picture picture() const {
+    Picture copy(width(), height());
+    for (std::int64_t i = 0; i < tiles(); ++i) {
+      if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) continue;
+      const Tile t = tile(i);
+      for (int y = t.y0; y < t.y1; ++y)
+        std::copy(&picture_.at(t.x0, y), &picture_.at(t.x0, y) + (t.x1 - t.x0), &copy.at(t.x0, y));
+    }
+    return copy;
+  }
+
+ private:
+  Picture picture_;
+  int columns_, rows_;
+  std::unique_ptr<std::atomic<bool>[]> done_;
+};
+
+}  // namespace trace

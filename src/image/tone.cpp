@@ -1,0 +1,33 @@
+// Levels from colours and back: see tone.h. Sits between the finished Picture and the codecs.
+// Source: the value formulas of the courses' skeletons (truncate) and the usual rounding (nearest).
+// The comparison in toLevel is written so that a NaN fails it and becomes black.
+#include "image/tone.h"
+
+#include <cstddef>
+
+namespace trace {
+
+std::uint8_t toLevel(double c, Rounding rounding) {
+  if (!(c > 0)) return 0;
+  if (c >= 1) return 255;
+  return static_cast<std::uint8_t>(255 * c + (rounding == Rounding::nearest ? 0.5 : 0.0));
+}
+
+Bytes toBytes(const Picture& picture, Rounding rounding) {
+  Bytes bytes{picture.width, picture.height, {}};
+  bytes.rgb.reserve(3 * picture.pixels.size());
+  for (const Color& c : picture.pixels)
+    for (double channel : {c.r, c.g, c.b}) bytes.rgb.push_back(toLevel(channel, rounding));
+  return bytes;
+}
+
+Picture fromBytes(const Bytes& bytes) {
+  Picture picture(bytes.width, bytes.height);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const std::uint8_t* rgb = &bytes.rgb[3 * i];
+    picture.pixels[i] = {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
+  }
+  return picture;
+}
+
+}  // namespace trace

@@ -1,0 +1,66 @@
+// Vectors, points and normals: three numbers. Arithmetic is in double (Real); Vec3f only stores.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace trace {
+
+using Real = double;
+inline constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+inline constexpr Real kPi = 3.14159265358979323846;
+
+/// Bounds the relative rounding error of n operations in a row (Higham; pbrt 4th ed., section 6.8.1).
+constexpr Real gammaError(int n) {
+  constexpr Real kHalfUlp = std::numeric_limits<Real>::epsilon() / 2;
+  return n * kHalfUlp / (1 - n * kHalfUlp);
+}
+
+template <class T>
+struct Vec3T {
+  T x = 0, y = 0, z = 0;
+
+  constexpr Vec3T() = default;
+  constexpr Vec3T(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
+  template <class U>
+  constexpr explicit Vec3T(const Vec3T<U>& v)
+      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+
+  constexpr T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr bool operator==(const Vec3T&) const = default;
+};
+using Vec3 = Vec3T<Real>;
+using Vec3f = Vec3T<float>;
+
+struct Vec2 {
+  Real x = 0, y = 0;
+  constexpr bool operator==(const Vec2&) const = default;
+};
+
+constexpr Vec3 operator-(const Vec3& v) { return {-v.x, -v.y, -v.z}; }
+constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vec3 operator*(const Vec3& v, Real s) { return {v.x * s, v.y * s, v.z * s}; }
+constexpr Vec3 operator*(Real s, const Vec3& v) { return v * s; }
+constexpr Vec3 operator/(const Vec3& v, Real s) { return {v.x / s, v.y / s, v.z / s}; }
+constexpr Vec3& operator+=(Vec3& a, const Vec3& b) { return a = a + b; }
+
+constexpr Real dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// Exactly antisymmetric: cross(b, a) has the same digits as -cross(a, b).
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Real length(const Vec3& v) { return std::sqrt(dot(v, v)); }
+inline Vec3 normalize(const Vec3& v) { return v / length(v); }
+inline Vec3 abs(const Vec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+inline Vec3 min(const Vec3& a, const Vec3& b) {
+  return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)};
+}
+inline Vec3 max(const Vec3& a, const Vec3& b) {
+  return {std::fmax(a.x, b.x), std::fmax(a.y, b.y), std::fmax(a.z, b.z)};
+}
+inline Real maxComponent(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace trace

@@ -1,0 +1,108 @@
+#include "render/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <tuple>
+
+#include "render/integrator.h"
+
+namespace trace {
+namespace {
+
+/// Camera rays of one tile, one after the other; what a worker does.
+class TileRenderer {
+ public:
+  TileRenderer(const World& world, const Settings& settings, Film& film)
+      : tracer_(world, settings),
+        settings_(settings),
+        film_(film),
+        radiance_(integratorRow(settings.integrator).radiance),
+        grid_(gridSize(settings)) {}
+
+  void render(const Tile& tile) {
+    const Region& r = settings_.region;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) film_.set(x, y, pixel(x, y));
+  }
+
+  Statistics& statistics() { return tracer_.statistics(); }
+  std::vector<BadSample>& badSamples() { return bad_; }
+
+ private:
+  Color pixel(int x, int y) {
+    // A pixel of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
+    const Real within = settings_.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
+    const int fromBottom = film_.height() - 1 - y;
+    Color sum;
+    int good = 0;
+    for (int sample = 0; sample < grid_ * grid_; ++sample) {
+      const Real u = (x + (sample % grid_ + within) / grid_) / film_.width();
+      const Real v = (fromBottom + (sample / grid_ + within) / grid_) / film_.height();
+      const Color color = radiance_(tracer_, tracer_.world().camera().ray(u, v));
+      if (isFinite(color)) {
+        sum += color, ++good;
+      } else {
+        ++tracer_.statistics().badSamples;
+        if (bad_.size() < kMostBadSamples) bad_.push_back({x, y, sample});
+      }
+    }
+    return good > 0 ? sum / good : Color(0);
+  }
+
+  Tracer tracer_;
+  const Settings& settings_;
+  Film& film_;
+  Color (*radiance_)(Tracer&, const Ray&);
+  int grid_;
+  std::vector<BadSample> bad_;
+};
+
+}  // namespace
+
+Size pictureSize(const Settings& settings, const Camera& camera) {
+  constexpr double kMost = 1 << 20;
+  double height = settings.height;
+  if (settings.height == 0) height = std::max(1.0, std::floor(settings.width / camera.aspectratio + 0.5));
+  if (!(height <= kMost))
+    throw Error(Fault::limit, "the picture would be " + std::to_string(settings.width) + " pixels wide and more than " +
+                                  std::to_string(static_cast<int>(kMost)) + " high",
+                "the camera's aspect ratio (width / height) is very small; --height N sets the height");
+  return {settings.width, static_cast<int>(height)};
+}
+
+int gridSize(const Settings& settings) { return static_cast<int>(std::ceil(std::sqrt(settings.spp))); }
+
+RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const std::chrono::duration<double> limit(settings.timeLimit);
+  std::atomic<bool> late{false};
+
+  const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
+  std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
+  parallelChunks(film.tiles(), threads, job, [&](std::int64_t chunk, int worker) {
+    auto& renderer = workers[static_cast<std::size_t>(worker)];
+    if (!renderer) renderer = std::make_unique<TileRenderer>(world, settings, film);
+    renderer->render(film.tile(chunk));
+    film.markDone(chunk);
+    if (settings.timeLimit > 0 && Clock::now() - start > limit) late = true, job.cancel = true;
+  });
+
+  RenderResult result;
+  for (const auto& renderer : workers) {
+    if (!renderer) continue;
+    result.statistics += renderer->statistics();
+    result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(), renderer->badSamples().end());
+  }
+  std::sort(result.badSamples.begin(), result.badSamples.end(), [](const BadSample& a, const BadSample& b) {
+    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+  });
+  result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
+  const bool complete = job.done == job.total;
+  result.end = complete ? End::finished : late ? End::timeLimit : End::cancelled;
+  return result;
+}
+
+}  // namespace trace

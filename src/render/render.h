@@ -1,0 +1,45 @@
+// World -> Film: all camera rays, by any number of threads, in fixed tiles.
+#pragma once
+
+#include <chrono>
+#include <vector>
+#include <vector>
+
+#include "base/parallel.h"
+#include "image/film.h"
+#include "render/statistics.h"
+#include "render/world.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// A camera ray whose colour was not finite. It is dropped from its pixel, which keeps its other samples.
+struct BadSample {
+  int x = 0, y = 0, sample = 0;
+  bool operator==(const BadSample&) const = default;
+};
+
+enum class End { finished, cancelled, timeLimit };
+
+struct RenderResult {
+  End end = End::finished;
+  Statistics statistics;
+  std::vector<BadSample> badSamples;  ///< in picture order, the first kMostBadSamples
+};
+inline constexpr std::size_t kMostBadSamples = 1000;
+
+struct Size {
+  int width = 0, height = 0;
+};
+/// Of the picture: height 0 in the settings becomes floor(width / aspect ratio + 0.5), at least 1.
+/// Throws Error(Fault::limit) if that is beyond what a picture can have.
+Size pictureSize(const Settings& settings, const Camera& camera);
+
+/// The grid of camera rays of one pixel is n x n, n = ceil(sqrt(spp)).
+int gridSize(const Settings& settings);
+
+/// Renders into `film`, whose size must be pictureSize(). Returns early when job.cancel is set or the time
+/// limit is over; tiles that were begun are finished. The same bits for any number of threads.
+RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
+
+}  // namespace trace

@@ -1,0 +1,38 @@
+// What a render counts. Each worker counts for itself; the sums are the same for any number of threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+#include "geometry/shape.h"
+
+namespace trace {
+
+enum class RayKind { camera, reflection, refraction, shadow };
+inline constexpr std::array<std::string_view, 4> kRayKindNames{"camera", "reflection", "refraction", "shadow"};
+
+struct Statistics {
+  static constexpr std::size_t kShapes = std::variant_size_v<Shape>;
+
+  std::array<std::uint64_t, kRayKindNames.size()> rays{};
+  std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of the list of shapes
+  std::uint64_t nodes = 0;                              ///< hierarchy nodes visited
+  std::uint64_t badSamples = 0;                         ///< NaN or infinite, dropped
+
+  std::uint64_t allRays() const {
+    std::uint64_t sum = 0;
+    for (std::uint64_t n : rays) sum += n;
+    return sum;
+  }
+  Statistics& operator+=(const Statistics& other) {
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += other.rays[i];
+    for (std::size_t i = 0; i < kShapes; ++i) tests[i] += other.tests[i], hits[i] += other.hits[i];
+    nodes += other.nodes, badSamples += other.badSamples;
+    return *this;
+  }
+  bool operator==(const Statistics&) const = default;
+};
+
+}  // namespace trace

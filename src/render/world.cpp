@@ -1,0 +1,142 @@
+#include "render/world.h"
+
+#include <map>
+
+
+namespace trace {
+
+std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
+  Found best;
+  const auto keepNearest = [&](const Found& found) {
+    if (found.before(best)) best = found;
+    return false;
+  };
+  bvh_.query(ray.origin, ray.direction, best.t, statistics.nodes, [&](std::uint32_t object) {
+    return visitObject(object, ray, best.t, faces, statistics, keepNearest);
+  });
+  if (best.t == kInfinity) return {};
+  return best;
+}
+
+SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
+  const Instance& instance = objects_[found.object];
+  const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
+  const Ray ray{toObject * worldRay.origin, linear(toObject, worldRay.direction)};
+  SurfacePoint s = match(
+      instance.shape,
+      Overloaded{[&](const Mesh&) { return trace::surface(*instance.mesh->data, found.part, found.triangle); },
+                 [&](const auto& shape) { return shape.surface(ray, {found.t, static_cast<int>(found.part)}); }});
+
+  // Rounding on the way to the world, and on the way back when the next ray is brought to this object.
+  const Vec3 p = s.point;
+  const Vec3 worldSize = absLinear(toWorld, abs(p)) + abs(toWorld.offset);
+  const Vec3 back = (absLinear(toObject, worldSize) + abs(toObject.offset)) * gammaError(8);
+  s.error = (worldSize * gammaError(4) + absLinear(toWorld, s.error + back)) * (1 + gammaError(8));
+  s.point = toWorld * p;
+  s.normal = normalize(transposed(toObject, s.normal));
+  s.shading = normalize(transposed(toObject, s.shading));
+  return s;
+}
+
+Phong World::material(const Found& found) const {
+  const Instance& instance = objects_[found.object];
+  if (instance.mesh && !instance.mesh->data->materials.empty()) {
+    const MeshData& data = *instance.mesh->data;
+    const Triangle& t = data.triangles[found.part];
+    const auto at = [&](int corner) -> const Phong& {
+      return materials_[data.materials[t[static_cast<size_t>(corner)]]];
+    };
+    return mix(at(0), at(1), at(2), found.triangle.b);
+  }
+  return materials_[instance.material];
+}
+
+std::size_t World::triangleCount() const {
+  std::size_t count = 0;
+  for (const Instance& instance : objects_)
+    if (instance.mesh) count += instance.mesh->data->triangles.size();
+  return count;
+}
+
+// --- compile ------------------------------------------------------------------------------------------
+
+namespace {
+
+Phong bake(const Material& material, const Settings& settings) {
+  Phong phong = std::get<Phong>(material.model);
+  if (phong.mirrorsSpecular && settings.mirrorDefault == MirrorDefault::specular) phong.reflective = phong.specular;
+  phong.shininess *= settings.shininessScale;
+  phong.highlight = settings.highlight;
+  phong.litFromBehind = settings.diffuseSides == DiffuseSides::bothOnGlass && phong.transmits();
+  return phong;
+}
+
+Bvh hierarchy(std::span<const Box3> boxes, Accel accel) {
+  return accel == Accel::none ? Bvh::bruteForce(boxes) : Bvh(boxes);
+}
+
+}  // namespace
+
+World compile(const Scene& scene, const Settings& settings, Messages& messages) {
+  World world;
+  for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
+
+  for (const LightSource& source : scene.lights) {
+    match(source.light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
+                                   [&](PointLight light) {
+                                     light.atMostOne = settings.limitAttenuation;
+                                     world.lights_.push_back(light);
+                                   },
+                                   [&](const auto& light) { world.lights_.push_back(light); }});
+  }
+
+  const Camera& camera = scene.camera;
+  if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
+      !(length(cross(camera.viewdir, camera.updir)) > 0))
+    throw Error(Fault::scene, Place{.file = scene.file}, "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
+                "viewdir and updir must not be zero or parallel");
+  world.camera_ = frame(camera, settings.cameraAxes);
+
+  std::map<const MeshData*, std::shared_ptr<const World::MeshTree>> trees;
+  std::vector<Box3> boxes;
+  for (const Object& object : scene.objects) {
+    World::Instance instance{object.shape, object.worldFromObject, {}, {}, object.material, true, {}};
+    if (object.material >= world.materials_.size())
+      throw Error(Fault::scene, object.place, "the object's material does not exist");
+    if (!invertible(object.worldFromObject)) {
+      messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
+      instance.worldFromObject = {};  // keeps the numbering of objects; its empty bounds are never met
+    } else {
+      instance.objectFromWorld = inverse(object.worldFromObject);
+    }
+    instance.opaque = !world.materials_[object.material].transmits();
+    Box3 box;
+    match(instance.shape, Overloaded{[&](Mesh& mesh) {
+                                       auto& tree = trees[mesh.data.get()];
+                                       if (!tree) {
+                                         auto data = mesh.data;
+                                         if (data->generateNormals)
+                                           data = std::make_shared<const MeshData>(withGeneratedNormals(
+                                               *data, settings.vertexNormals == VertexNormals::unit));
+                                         std::vector<Box3> triangles(data->triangles.size());
+                                         for (std::uint32_t i = 0; i < triangles.size(); ++i)
+                                           if (faceNormal(*data, i) != Vec3{}) triangles[i] = bounds(*data, i);
+                                         tree = std::make_shared<const World::MeshTree>(
+                                             World::MeshTree{data, hierarchy(triangles, settings.accel)});
+                                       }
+                                       instance.mesh = tree;
+                                       for (std::uint32_t m : tree->data->materials)
+                                         if (world.materials_.at(m).transmits()) instance.opaque = false;
+                                       box = bounds(*tree->data);
+                                     },
+                                     [&](const auto& shape) { box = shape.bounds(); }});
+    if (invertible(object.worldFromObject)) instance.bounds = object.worldFromObject * box;
+    boxes.push_back(instance.bounds);
+    world.bounds_.extend(instance.bounds);
+    world.objects_.push_back(std::move(instance));
+  }
+  world.bvh_ = hierarchy(boxes, settings.accel);
+  return world;
+}
+
+}  // namespace trace

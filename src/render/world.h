@@ -1,0 +1,146 @@
+// What rays meet: the scene baked, indexed and immutable.
+//
+// compile() multiplies out what a render asks again and again (inverse transforms, bounds, hierarchies,
+// generated normals) and applies the conventions that concern materials, lights and camera. It uses the
+// scene's own shape, material and light structs; names and files stay behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "accel/bvh.h"
+#include "base/match.h"
+#include "geometry/shape.h"
+#include "render/statistics.h"
+#include "scene/scene.h"
+#include "shading/light.h"
+#include "shading/phong.h"
+
+namespace trace {
+
+/// A crossing of a ray with an object of the world.
+struct Found {
+  Real t = kInfinity;
+  std::uint32_t object = 0;  ///< index into World::objects(), which is that of Scene::objects
+  std::uint32_t part = 0;    ///< of an analytic shape: the crossing's part; of a mesh: the triangle
+  TriangleHit triangle;      ///< of a mesh
+
+  /// Nearer first; at the same distance the earlier object, then the earlier part.
+  bool before(const Found& other) const {
+    if (t != other.t) return t < other.t;
+    return object != other.object ? object < other.object : part < other.part;
+  }
+};
+
+/// Which mesh triangles a query sees: all; those whose face turns to the ray; those whose normal for shading,
+/// interpolated at the hit, turns to it.
+enum class Faces { both, front, shadedFront };
+
+inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, std::uint32_t triangle, const TriangleHit& hit) {
+  return faces == Faces::both || (faces == Faces::front ? hit.front
+                                                        : dot(surface(mesh, triangle, hit).shading, ray.direction) < 0);
+}
+
+class World {
+ public:
+  /// The nearest crossing at t > 0.
+  std::optional<Found> closest(const Ray& ray, Faces faces, Statistics& statistics) const;
+
+  /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns true.
+  template <class Visit>
+  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const;
+
+  /// The place found, in world space; `ray` is the ray that found it.
+  SurfacePoint surface(const Ray& ray, const Found& found) const;
+  Phong material(const Found& found) const;
+  /// No part of the object lets light through.
+  bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
+
+  const CameraFrame& camera() const { return camera_; }
+  const std::vector<Light>& lights() const { return lights_; }
+  const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
+  const Box3& bounds() const { return bounds_; }
+  std::size_t objectCount() const { return objects_.size(); }
+  std::size_t triangleCount() const;
+
+ private:
+  friend World compile(const Scene&, const Settings&, Messages&);
+
+  /// A mesh as rays meet it; shared by all objects that name the same data.
+  struct MeshTree {
+    std::shared_ptr<const MeshData> data;
+    Bvh bvh;
+  };
+
+  struct Instance {
+    Shape shape;
+    Affine worldFromObject, objectFromWorld;
+    Box3 bounds;
+    std::uint32_t material = 0;
+    bool opaque = true;
+    std::shared_ptr<const MeshTree> mesh;
+  };
+
+  template <class Visit>
+  bool visitObject(std::uint32_t object, const Ray& ray, const Real& tMost, Faces faces, Statistics& statistics,
+                   Visit& visit) const;
+
+  std::vector<Instance> objects_;
+  Bvh bvh_;
+  std::vector<Phong> materials_;
+  std::vector<Light> lights_;
+  Color ambient_;
+  CameraFrame camera_;
+  Box3 bounds_;
+};
+
+/// Scene -> World. Repairs with warnings what can be repaired; throws Error(Fault::scene) for the rest.
+World compile(const Scene& scene, const Settings& settings, Messages& messages);
+
+// ------------------------------------------------------------------------------------------------------
+
+/// Calls visit(Found) for the object's crossings at 0 < t <= tMost; true if a visit ended the query.
+template <class Visit>
+bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& tMost, Faces faces,
+                        Statistics& statistics, Visit& visit) const {
+  const Instance& instance = objects_[object];
+  const std::size_t kind = instance.shape.index();
+  const Ray ray{instance.objectFromWorld * worldRay.origin, linear(instance.objectFromWorld, worldRay.direction)};
+  bool ended = false;
+  const auto report = [&](const Found& found) {
+    if (ended || !(found.t > 0 && found.t <= tMost)) return;
+    ++statistics.hits[kind];
+    ended = visit(found);
+  };
+  match(instance.shape, Overloaded{[&](const Mesh&) {
+                                     const MeshData& data = *instance.mesh->data;
+                                     const TriangleRay triangleRay(ray);
+                                     instance.mesh->bvh.query(
+                                         ray.origin, ray.direction, tMost, statistics.nodes, [&](std::uint32_t i) {
+                                           ++statistics.tests[kind];
+                                           const auto hit = triangleRay.intersect(data, i);
+                                           if (hit && sees(faces, ray, data, i, *hit))
+                                             report({hit->t, object, i, *hit});
+                                           return ended;
+                                         });
+                                   },
+                                   [&](const auto& shape) {
+                                     ++statistics.tests[kind];
+                                     shape.crossings(ray, [&](const Crossing& crossing) {
+                                       report({crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
+                                     });
+                                   }});
+  return ended;
+}
+
+template <class Visit>
+void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
+  const auto before = [&](const Found& found) { return found.t < tMost && visit(found); };
+  bvh_.query(ray.origin, ray.direction, tMost, statistics.nodes, [&](std::uint32_t object) {
+    return visitObject(object, ray, tMost, faces, statistics, before);
+  });
+}
+
+}  // namespace trace

@@ -1,0 +1,59 @@
+// THE options table: one row for each field of Settings.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// The earliest step of a render that a change of the option repeats.
+enum class Repeats { nothing, tone, picture, world };
+
+struct Option {
+  enum class Kind { boolean, integer, real, choice, region };
+
+  std::string_view name;   ///< flag without "--", keyword in a scene file's settings { }
+  std::string_view group;
+  std::string_view unit;   ///< "" for pure numbers
+  double least, most;      ///< of numbers
+  std::string_view help;   ///< one sentence, no full stop
+  std::string_view source; ///< where the choice comes from; "" if it is Trace's own
+  std::string_view integrators;  ///< which it concerns: "all" or names
+  Repeats repeats;
+  bool extra;              ///< an extension that is off by default
+  Kind kind;
+  std::span<const std::string_view> choices;  ///< of Kind::choice, in the order of the enum
+
+  std::string (*get)(const Settings&);
+  void (*set)(const Option&, Settings&, std::string_view value);
+
+  /// Throws Error(Fault::usage), which says what was expected and found.
+  void assign(Settings& settings, std::string_view value) const { set(*this, settings, value); }
+};
+
+std::span<const Option> options();
+
+/// The row of that name. Throws Error(Fault::usage) with a "did you mean".
+const Option& findOption(std::string_view name);
+
+/// An option given a value, and by whom.
+struct Choice {
+  std::string option, value;
+  Place place;  ///< empty for the command line
+  bool operator==(const Choice&) const = default;
+};
+
+/// Applies layers of choices in order: a later layer overrides an earlier one. Within a layer `like` comes
+/// first, whatever its position, and sets every option of the group Conventions.
+/// Throws Error with the choice's place.
+Settings resolve(std::initializer_list<std::span<const Choice>> layers);
+
+/// Options whose values differ from the defaults, as (name, value).
+std::vector<Choice> changedOptions(const Settings& settings);
+
+}  // namespace trace

@@ -1,0 +1,57 @@
+// A scene: what a file said and what a person edits. Plain values, copied, compared, saved.
+//
+// It is flat: nested transforms are multiplied out, groups are names. compile() (render/world.h) makes from
+// it the World that rays meet, out of the same shape, material and light structs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "geometry/shape.h"
+#include "math/transform.h"
+#include "scene/options.h"
+#include "shading/camera.h"
+#include "shading/light.h"
+#include "shading/material.h"
+
+namespace trace {
+
+struct Object {
+  std::string name;          ///< as in the file; may be empty
+  Shape shape;
+  Affine worldFromObject;
+  std::uint32_t material = 0;  ///< index into Scene::materials
+  Place place;               ///< where the file defines it
+  bool operator==(const Object&) const = default;
+};
+
+struct LightSource {
+  Light light;
+  Place place;
+  bool operator==(const LightSource&) const = default;
+};
+
+/// Something the file says that Trace understands or skips but does not render: kept as it stands in the
+/// file, so that writing the scene loses nothing.
+struct Unrendered {
+  std::string kind;  ///< the keyword: "spot_light", "map", "texture_uv", ...
+  Place place;
+  std::string text;  ///< the source text of the node
+  bool operator==(const Unrendered&) const = default;
+};
+
+struct Scene {
+  std::string file;
+  std::string format;              ///< name of the format it was read from
+  Camera camera;
+  std::vector<LightSource> lights;
+  std::vector<Material> materials;
+  std::vector<Object> objects;
+  std::vector<Choice> choices;     ///< options that the file sets, or that follow from its dialect
+  std::vector<Unrendered> unrendered;
+
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace trace

@@ -1,0 +1,65 @@
+// Everything a render can be told. Each field has one row in the options table (options.cpp), which makes
+// it a flag, a scene-file keyword, a control of the studio, a line of docs/options.md and an entry of the
+// picture's metadata. A field without a row does not compile.
+#pragma once
+
+#include "image/tone.h"
+#include "shading/camera.h"
+#include "shading/phong.h"
+
+namespace trace {
+
+enum class Accel { bvh, none };
+enum class Integrator { whitted };
+
+/// Whose rules hold where the courses and years differ: a row of conventions.cpp.
+enum class Like { uw, uw2009, uw2001, ut };
+
+enum class Glass { perCrossing, perDistance };
+enum class MirrorDefault { specular, zero };
+enum class BackFaces { both, cullSeen, cullAll };
+enum class PixelPosition { corner, center };
+enum class VertexNormals { unit, mean };
+enum class DiffuseSides { front, bothOnGlass };
+
+/// Pixels x0 <= x < x1, y0 <= y < y1, counted from the top left; empty means the whole picture.
+struct Region {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool whole() const { return x0 >= x1 || y0 >= y1; }
+  bool operator==(const Region&) const = default;
+};
+
+struct Settings {
+  // Picture
+  int width = 400;
+  int height = 0;
+  Region region{};
+  int spp = 1;
+  // Tracing
+  Integrator integrator = Integrator::whitted;
+  int depth = 5;
+  Real threshold = 0;
+  // Conventions
+  Like like = Like::uw;
+  Highlight highlight = Highlight::blinn;
+  Real shininessScale = 1;
+  MirrorDefault mirrorDefault = MirrorDefault::specular;
+  DiffuseSides diffuseSides = DiffuseSides::front;
+  bool limitAttenuation = true;
+  Glass glass = Glass::perCrossing;
+  Real airIndex = 1.0003;
+  BackFaces backFaces = BackFaces::both;
+  VertexNormals vertexNormals = VertexNormals::unit;
+  CameraAxes cameraAxes = CameraAxes::orthonormal;
+  PixelPosition pixelPosition = PixelPosition::corner;
+  Rounding rounding = Rounding::truncate;
+  // Resources
+  int threads = 0;
+  Accel accel = Accel::bvh;
+  Real timeLimit = 0;
+  int maxMemory = 0;
+
+  bool operator==(const Settings&) const = default;
+};
+
+}  // namespace trace

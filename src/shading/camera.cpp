@@ -1,0 +1,17 @@
+#include "shading/camera.h"
+
+namespace trace {
+
+CameraFrame frame(const Camera& camera, CameraAxes axes) {
+  Vec3 back = -camera.viewdir, up = camera.updir;
+  if (axes == CameraAxes::normalized) back = normalize(back), up = normalize(up);
+  Vec3 right = cross(up, back);
+  if (axes == CameraAxes::orthonormal) {
+    up = normalize(cross(back, right));
+    back = normalize(back), right = normalize(right);
+  }
+  const Real height = 2 * std::tan(camera.fov * kPi / 360);
+  return {camera.position, -back, right * (height * camera.aspectratio), up * height};
+}
+
+}  // namespace trace

@@ -1,0 +1,50 @@
+// Pinhole cameras: what a scene says, and the frame that turns picture positions into rays.
+#pragma once
+
+#include <string_view>
+
+#include "base/field.h"
+#include "geometry/ray.h"
+#include "math/vec.h"
+
+namespace trace {
+
+struct Camera {
+  static constexpr std::string_view kKeyword = "camera";
+  static constexpr std::string_view kHelp = "pinhole camera; by default at the origin, looking along -z";
+
+  Vec3 position;
+  Vec3 viewdir{0, 0, -1};
+  Vec3 updir{0, 1, 0};
+  Real fov = 53.13010235415598;  ///< vertical, degrees: a plane of height 1 at distance 1
+  Real aspectratio = 1;          ///< width / height
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"position", &Camera::position, "", -kNoLimit, kNoLimit, "the eye"},
+        Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "where it looks"},
+        Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "what is up"},
+        Field{"fov", &Camera::fov, "degrees", 0, 180, "vertical angle of view"},
+        Field{"aspectratio", &Camera::aspectratio, "", 0, kNoLimit, "width / height of the picture"}};
+  }
+  bool operator==(const Camera&) const = default;
+};
+
+/// How viewdir and updir become the axes of the picture when they are not orthogonal unit vectors.
+enum class CameraAxes {
+  orthonormal,  ///< right = up x back, up = back x right, all of length 1
+  raw,          ///< as written: lengths stretch the picture, up is not straightened
+  normalized,   ///< viewdir and updir of length 1, up not straightened, right not normalised
+};
+
+/// The ray through (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right +
+/// (y - 0.5) up, normalised.
+struct CameraFrame {
+  Vec3 eye, look, right, up;
+  Ray ray(Real x, Real y) const { return {eye, normalize(look + right * (x - 0.5) + up * (y - 0.5))}; }
+};
+
+/// Precondition: viewdir and updir finite, neither zero nor parallel; 0 < fov < 180.
+CameraFrame frame(const Camera& camera, CameraAxes axes);
+
+}  // namespace trace

@@ -1,0 +1,28 @@
+// THE list of material models, and a material as a scene keeps it.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "shading/phong.h"
+
+namespace trace {
+
+using MaterialModel = std::variant<Phong>;
+
+/// `map("file")` in place of a constant: the picture that gives a field its value.
+struct FieldMap {
+  std::string field;  ///< keyword of the material's field
+  std::string file;   ///< as written in the scene
+  bool operator==(const FieldMap&) const = default;
+};
+
+struct Material {
+  std::string name;
+  MaterialModel model;
+  std::vector<FieldMap> maps;
+  bool operator==(const Material&) const = default;
+};
+
+}  // namespace trace

@@ -1,0 +1,302 @@
+// The program as a whole: what goes to which stream, exit codes, names of files.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "image/codec.h"
+#include "program.h"
+#include "scene/options.h"
+
+namespace trace::test {
+namespace {
+
+using Cli = ProgramTest;
+using nlohmann::json;
+
+TEST_F(Cli, CoursesLine) {
+  const Run r = run({"-b", "-w", "40", "-r", "5", "-t", "1", "white.ray", "out.bmp"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.out, "");
+  EXPECT_EQ(r.last.substr(0, 26), "wrote out.bmp (40x32) in 0") << r.err;
+  const Picture picture = readPicture(path("out.bmp"));
+  EXPECT_EQ(picture.width, 40);
+  EXPECT_EQ(picture.height, 32);
+  EXPECT_EQ(picture.at(39, 31), Color(1));
+  EXPECT_EQ(readFile(path("out.bmp")).substr(0, 2), "BM");
+}
+
+TEST_F(Cli, CoursesFlagsAreOptions) {
+  const auto settings = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"white.ray", "-w", "8", "--stats=json"});
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return json::parse(r.out)["settings"];
+  };
+  EXPECT_EQ(settings({}), json({{"width", "8"}}));
+  EXPECT_EQ(settings({"-B"}), json({{"width", "8"}, {"accel", "none"}}));
+  EXPECT_EQ(settings({"-B", "-b"}), json({{"width", "8"}}));
+  EXPECT_EQ(settings({"-a", "-t", "2"}), json({{"width", "8"}, {"spp", "9"}, {"threads", "2"}}));
+  EXPECT_EQ(settings({"-a", "-A", "-r2"}), json({{"width", "8"}, {"depth", "2"}}));
+  EXPECT_EQ(settings({"--no-limit-attenuation"}), json({{"width", "8"}, {"limit-attenuation", "off"}}));
+}
+
+TEST_F(Cli, HelpGoesToStdout) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"-h"}, {"--help"}, {"help"}, {"render", "-h"}, {"info", "--help"}, {"white.ray", "-h"}}) {
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(r.err, "");
+    EXPECT_TRUE(contains(r.out, "ray -b -w 400 -r 5 -t 1 in.ray out.bmp"));
+    EXPECT_FALSE(contains(r.out, "--shininess-scale"));
+  }
+  EXPECT_EQ(files(), 1u);
+  const std::string all = run({"--help", "all"}).out;
+  EXPECT_EQ(all, run({"help", "all"}).out);
+  for (const Option& option : options()) EXPECT_TRUE(contains(all, "--" + std::string(option.name)));
+  EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
+}
+
+TEST_F(Cli, AloneIsNotYetAWindow) {
+  const Run r = run({});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_TRUE(contains(r.err, "ray info SCENE"));
+}
+
+TEST_F(Cli, WrongUsageIs2) {
+  const auto refused = [&](std::vector<std::string> words, const std::string& why) {
+    const Run r = run(std::move(words));
+    EXPECT_EQ(r.code, 2) << r.err;
+    EXPECT_EQ(r.out, "");
+    EXPECT_TRUE(contains(r.err, why));
+    EXPECT_EQ(r.last.substr(0, 17), "nothing written: ");
+  };
+  refused({"--widht", "40", "white.ray"}, "did you mean \"--width\"?");
+  refused({"--widht=40", "white.ray"}, "unknown flag \"--widht\"");
+  refused({"-x", "white.ray"}, "unknown flag \"-x\"");
+  refused({"-5", "white.ray"}, "unknown flag \"-5\"");
+  refused({"--markdown", "white.ray"}, "it belongs to: features");
+  refused({"white.ray", "-w", "-5"}, "expected a whole number from 1 to 100000 pixels, found \"-5\"");
+  refused({"white.ray", "--width="}, "expected a value after");
+  refused({"white.ray", "-w"}, "expected a value after");
+  refused({"white.ray", "--accel", "bhv"}, "did you mean \"bvh\"?");
+  refused({"white.ray", "--strict=on"}, "takes no value");
+  refused({"white.ray", "--set", "width"}, "expected name=value");
+  refused({"white.ray", "--set", "widht=3"}, "did you mean \"width\"?");
+  refused({"white.ray", "--enable", "width"}, "expected one of");
+  refused({"white.ray", "--progress=yes"}, "expected auto | bar | plain | json | none");
+  refused({"white.ray", "a.png", "b.png"}, "found also \"b.png\"");
+  refused({"white.ray", "a.png", "-o", "b.png"}, "two names");
+  refused({"white.ray", "out.gif"}, ".png");
+  refused({"white.ray", "white.ray"}, ".png");
+  refused({"--strict"}, "expected the name of a scene");
+  refused({"white.ray", "--width", "1000000000", "--height", "1000000000"}, "from 1 to 100000");
+  EXPECT_EQ(run({"white.ray"}, {{"RAY_THREADS", "many"}}).code, 2);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, MissingFileIs1) {
+  const Run r = run({"no.ray"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.err, "no.ray"));
+  EXPECT_TRUE(contains(r.last, "nothing written: "));
+  EXPECT_TRUE(contains(run({"ifno"}).err, "did you mean the command \"ray info\"?"));
+}
+
+TEST_F(Cli, SceneErrorIs3) {
+  write("wrong.ray", "SBT-raytracer 1.0\nsphere { material = }\n");
+  const Run r = run({"wrong.ray"});
+  EXPECT_EQ(r.code, 3);
+  EXPECT_EQ(r.out, "");
+  EXPECT_TRUE(contains(r.err, "wrong.ray:2:"));
+  EXPECT_TRUE(contains(r.err, "^"));
+  EXPECT_TRUE(contains(r.last, "nothing written: the scene has "));
+  EXPECT_FALSE(exists("wrong.png"));
+}
+
+TEST_F(Cli, StrictMakesErrorsOfWarnings) {
+  write("empty.ray", "SBT-raytracer 1.0\ndirectional_light { direction=(0,0,-1); color=(1,1,1); }\n");
+  const Run lenient = run({"empty.ray", "-w", "8"});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_TRUE(contains(lenient.err, "warning: "));
+  EXPECT_EQ(run({"empty.ray", "-w", "8", "--log-level", "error"}).err.substr(0, 6), "wrote ");
+  const Run strict = run({"empty.ray", "-w", "8", "--strict"});
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_TRUE(contains(strict.err, "error: "));
+}
+
+TEST_F(Cli, AtMostTwentyWarnings) {
+  std::string text = kWhite;
+  for (int i = 0; i < 30; ++i)
+    text += "sphere { wrong" + std::string(static_cast<size_t>(i + 1), 'x') + " = 1; }\n";
+  write("many.ray", text);
+  const Run r = run({"many.ray", "-w", "8"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.err, "... and 10 more warnings"));
+}
+
+TEST_F(Cli, LimitIs5) {
+  const Run r = run({"white.ray", "--width", "100000", "--height", "100000"});
+  EXPECT_EQ(r.code, 5) << r.err;
+  EXPECT_TRUE(contains(r.err, "MiB"));
+  EXPECT_EQ(run({"white.ray", "--max-memory", "1"}).code, 5);
+  EXPECT_FALSE(exists("white.png"));
+}
+
+TEST_F(Cli, DefaultNameIsInTheCurrentFolder) {
+  std::filesystem::create_directory(path("deep"));
+  write("deep/other.scene.ray", kWhite);
+  EXPECT_TRUE(contains(run({"deep/other.scene.ray", "-w", "8"}).last, "wrote other.scene.png (8x6)"));
+  EXPECT_TRUE(exists("other.scene.png"));
+}
+
+TEST_F(Cli, NamesWithDashes) {
+  write("-odd.ray", kWhite);
+  EXPECT_EQ(run({"-w", "8", "-o", "-odd.png", "--", "-odd.ray"}).code, 0);
+  EXPECT_TRUE(exists("-odd.png"));
+  EXPECT_EQ(run({"-w", "8", "--", "-odd.ray", "--help"}).code, 2);  // a picture of no known kind
+  write("info", kWhite);
+  EXPECT_TRUE(contains(run({"render", "info", "-w", "8"}).last, "wrote info.png"));
+}
+
+TEST_F(Cli, OutputIsTriedBeforeRendering) {
+  std::filesystem::create_directory(path("folder.png"));
+  for (const char* name : {"white.ray/out.png", "folder.png", "absent/out.png"}) {
+    const Run r = run({"white.ray", name, "--spp", "65536", "-w", "4000"});  // would take hours
+    EXPECT_EQ(r.code, 1) << r.err;
+    EXPECT_TRUE(contains(r.err, name));
+  }
+  EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(Cli, SceneFileBelowCommandLine) {
+  write("set.ray", std::string(kWhite) + "settings { width = 30; depth = 3; }\n");
+  const auto width = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"set.ray", "--stats=json"});
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return json::parse(r.out)["settings"].value("width", "400");
+  };
+  EXPECT_EQ(width({}), "30");
+  EXPECT_EQ(width({"-w", "20"}), "20");
+  EXPECT_EQ(width({"--set", "width=20", "--set", "width=21"}), "21");
+  EXPECT_EQ(width({"--quick"}), "100");
+  EXPECT_EQ(width({"-w", "22", "--quick"}), "22");
+}
+
+TEST_F(Cli, QuickOverridesTheScene) {
+  write("set.ray", std::string(kWhite) + "settings { width = 300; height = 300; depth = 9; spp = 16; }\n");
+  const json stats = json::parse(run({"set.ray", "--quick", "--stats=json"}).out);
+  EXPECT_EQ(stats["width"], 100);
+  EXPECT_EQ(stats["height"], 80);
+  EXPECT_EQ(stats["rays"]["camera"], 100 * 80);
+  EXPECT_EQ(stats["settings"]["depth"], "2");
+}
+
+TEST_F(Cli, Environment) {
+  const auto threads = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"white.ray", "-w", "8", "--stats=json"});
+    return json::parse(run(words, {{"RAY_THREADS", "3"}}).out)["threads"];
+  };
+  EXPECT_EQ(threads({}), 3);
+  EXPECT_EQ(threads({"-t", "2"}), 2);
+  EXPECT_TRUE(
+      contains(run({"white.ray", "-w", "8"}, {{"RAY_LOG", "debug"}}).err, "option width = 8 (command line)"));
+}
+
+TEST_F(Cli, PrintDefaults) {
+  const Run r = run({"--print-defaults"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  std::string expected;
+  for (const Option& option : options())
+    expected += std::string(option.name) + "=" + option.get(Settings{}) + "\n";
+  EXPECT_EQ(r.out, expected);
+}
+
+TEST_F(Cli, StatisticsKeys) {
+  const Run r = run({"white.ray", "out.png", "-w", "50", "-a", "--stats=json"});
+  const json stats = json::parse(r.out);
+  std::vector<std::string> keys;
+  for (const auto& item : stats.items()) keys.push_back(item.key());
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{"badSamples", "end", "fraction", "height", "nodes", "nodesPerRay",
+                                      "output", "peakMemory", "phases", "rays", "raysPerSecond", "scene",
+                                      "seconds", "settings", "shapes", "threads", "version", "width"}));
+  EXPECT_EQ(stats["rays"]["camera"], 50 * 40 * 9);
+  EXPECT_EQ(stats["shapes"]["sphere"]["hits"], 50 * 40 * 9);
+  for (const char* phase : {"read", "build", "trace", "write"})
+    EXPECT_GE(stats["phases"][phase]["wall"], 0) << phase;
+  EXPECT_EQ(stats["end"], "finished");
+  EXPECT_EQ(stats["output"], "out.png");
+  EXPECT_GT(stats["peakMemory"], 1 << 20);
+
+  const Run table = run({"white.ray", "out.png", "-w", "50", "--stats"});
+  EXPECT_EQ(table.out, "");
+  EXPECT_TRUE(contains(table.err, "Mrays/s"));
+  EXPECT_TRUE(contains(table.last, "wrote out.png"));
+}
+
+TEST_F(Cli, BadSamplesAreReported) {
+  std::string text = kWhite;
+  text.replace(text.find("emissive=(1,1,1)"), 16, "emissive=(1.7e308,0,0); ambient=(1,1,1)");
+  write("hot.ray", text + "ambient_light { color=(1.7e308,0,0); }\n");
+  const Run r = run({"hot.ray", "-w", "8", "--stats=json"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.err, "48 samples were not finite and left out; first at pixel 0,0"));
+  EXPECT_EQ(json::parse(r.out)["badSamples"]["count"], 48);
+}
+
+TEST_F(Cli, Info) {
+  const Run r = run({"info", "white.ray", "--like", "ut"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_TRUE(contains(r.out, "sphere"));
+  EXPECT_TRUE(contains(r.out, "400 x 320 pixels"));
+  EXPECT_TRUE(contains(r.out, "-10 -10 -10"));
+  EXPECT_TRUE(contains(r.out, "command line, by like"));
+  const json facts = json::parse(run({"info", "white.ray", "--format=json"}).out);
+  EXPECT_EQ(facts["objects"], json({{"sphere", 1}}));
+  EXPECT_EQ(facts["lights"], json({{"directional_light", 1}}));
+  EXPECT_EQ(facts["picture"], json({{"width", 400}, {"height", 320}}));
+  EXPECT_EQ(run({"info"}).code, 2);
+  EXPECT_EQ(run({"info", "white.ray", "--stats"}).code, 2);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, InfoTellsWhereOptionsComeFrom) {
+  write("set.ray", std::string(kWhite) + "settings { like = ut; glass = per-crossing; }\n");
+  const json facts = json::parse(run({"info", "set.ray", "--format=json", "--air-index", "1.5"}).out);
+  std::map<std::string, std::string> from;
+  for (const json& fact : facts["conventions"]) from[fact["name"]] = fact["from"];
+  EXPECT_EQ(from["air-index"], "command line");
+  EXPECT_TRUE(contains(from["glass"], "set.ray:5:"));
+  EXPECT_FALSE(contains(from["glass"], "by like"));
+  EXPECT_TRUE(contains(from["highlight"], "by like"));
+}
+
+TEST_F(Cli, Features) {
+  const Run r = run({"features"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  for (const Option& option : options())
+    if (option.extra) {
+      EXPECT_TRUE(contains(r.out, "  " + std::string(option.name) + " "));
+    }
+  for (const PictureFormat& format : pictureFormats())
+    EXPECT_TRUE(contains(r.out, std::string(format.suffixes[0])));
+}
+
+TEST_F(Cli, OptionsPageIsUpToDate) {
+  EXPECT_EQ(run({"features", "--markdown"}).out, readFile(TRACE_SOURCE "/docs/options.md"))
+      << "run: ray features --markdown >docs/options.md";
+}
+
+TEST_F(Cli, FullDiskOfStdoutIs1) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const std::string command = std::string(TRACE_RAY_BINARY) + " features >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+}
+
+}  // namespace
+}  // namespace trace::test

@@ -1,0 +1,166 @@
+// Renders that take long: progress, and all the ways to end them early without losing what is done.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "image/codec.h"
+#include "program.h"
+
+namespace trace::test {
+namespace {
+
+using nlohmann::json;
+
+class Stop : public ProgramTest {
+ protected:
+  /// Minutes of work in many tiles of some milliseconds.
+  static std::vector<std::string> longRender(std::vector<std::string> more = {}) {
+    more.insert(more.begin(),
+                {"white.ray", "out.png", "-w", "1000", "--spp", "256", "-t", "2", "--progress=json"});
+    return more;
+  }
+
+  /// The first tile is white, the last one black.
+  void expectPart() const {
+    const Picture picture = readPicture(path("out.png"));
+    EXPECT_EQ(picture.at(0, 0), Color(1));
+    EXPECT_EQ(picture.at(picture.width - 1, picture.height - 1), Color(0));
+  }
+
+  static bool hasBegun(Program& program) {
+    return program.says("\"done\":") && !program.err().empty() && waitForTiles(program);
+  }
+  static bool waitForTiles(Program& program) {
+    for (int i = 0; i < 6000; ++i) {
+      const std::string text = program.err();
+      const size_t end = text.rfind('\n');
+      const size_t start = end == std::string::npos || end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
+      const json line = json::parse(text.substr(start, end - start), nullptr, false);
+      if (line.is_object() && line["done"] > 10) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+};
+
+TEST_F(Stop, CtrlCKeepsThePart) {
+  for (int signal : {SIGINT, SIGTERM}) {
+    Program program(folder(), longRender({"--stats=json"}));
+    ASSERT_TRUE(hasBegun(program)) << program.err();
+    program.kill(signal);
+    EXPECT_EQ(program.wait(), 4);
+    EXPECT_EQ(program.lastLine().substr(0, 49),
+              "stopped by the user: wrote out.png (1000x800, " + program.lastLine().substr(47, 2))
+        << program.err();
+    EXPECT_TRUE(contains(program.lastLine(), " % done) in "));
+    EXPECT_EQ(json::parse(program.out())["end"], "cancelled");
+    expectPart();
+    std::filesystem::remove(path("out.png"));
+  }
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Stop, CtrlCTwiceEndsAtOnce) {
+  // Tiles of many seconds: only the second signal ends this soon.
+  Program program(folder(), {"white.ray", "out.png", "-w", "100", "--spp", "65536", "--progress=json"});
+  ASSERT_TRUE(program.says("\"done\":"));
+  program.kill(SIGINT);
+  ASSERT_TRUE(program.says("Ctrl-C again"));
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_TRUE(contains(program.lastLine(), "nothing written"));
+  EXPECT_FALSE(exists("out.png"));
+}
+
+TEST_F(Stop, SnapshotOnRequest) {
+  for (int signal : {SIGUSR1, SIGHUP}) {
+    Program program(folder(), longRender());
+    ASSERT_TRUE(hasBegun(program));
+    program.kill(signal);
+    ASSERT_TRUE(program.says("going on")) << program.err();
+    expectPart();
+    std::filesystem::remove(path("out.png"));
+    program.kill(SIGINT);
+    EXPECT_EQ(program.wait(), 4);
+    EXPECT_TRUE(exists("out.png"));
+  }
+}
+
+TEST_F(Stop, TimeLimitKeepsThePart) {
+  Program program(folder(), longRender({"--time-limit", "0.7", "--stats=json"}));
+  EXPECT_EQ(program.wait(), 5);
+  EXPECT_EQ(program.lastLine().substr(0, 46), "stopped by the time limit: wrote out.png (1000")
+      << program.err();
+  EXPECT_EQ(json::parse(program.out())["end"], "timeLimit");
+  expectPart();
+}
+
+TEST_F(Stop, PictureIsSavedElsewhereIfItsPlaceIsGone) {
+  std::filesystem::create_directory(path("there"));
+  std::filesystem::create_directory(path("temporary"));
+  Program program(folder(),
+                  {"white.ray", "there/out.png", "-w", "1000", "--spp", "256", "-t", "2", "--progress=json"},
+                  {{"TMPDIR", path("temporary")}});
+  ASSERT_TRUE(hasBegun(program));
+  std::filesystem::remove_all(path("there"));
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_TRUE(contains(program.lastLine(), "wrote " + path("temporary") + "/out.png"));
+  EXPECT_TRUE(contains(program.lastLine(), "instead of there/out.png"));
+  EXPECT_TRUE(exists("temporary/out.png"));
+}
+
+TEST_F(Stop, JsonProgress) {
+  Program program(folder(), longRender({"--time-limit", "1.5"}));
+  program.wait();
+  std::istringstream lines(program.err());
+  int count = 0;
+  double last = -1;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] != '{') continue;
+    const json object = json::parse(line);
+    EXPECT_EQ(object.size(), 5u);
+    EXPECT_GE(object["elapsed"], last);
+    EXPECT_LE(object["done"], object["total"]);
+    EXPECT_TRUE(object["remaining"].is_null() || object["remaining"] >= 0);
+    last = object["elapsed"];
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+TEST_F(Stop, PlainProgressInALog) {
+  Program program(folder(), {"white.ray", "-w", "64", "--time-limit", "3", "--spp", "16000", "-t", "1"});
+  program.wait();
+  // Two tiles of 64 x 51 pixels are 4 in all: a tenth is done with each.
+  EXPECT_FALSE(contains(program.err(), "\r"));
+  EXPECT_TRUE(contains(program.err(), " % done, ")) << program.err();
+  EXPECT_TRUE(contains(program.err(), " elapsed")) << program.err();
+  Program brief(folder(), {"white.ray", "-w", "64"});
+  brief.wait();
+  EXPECT_EQ(brief.err().substr(0, 6), "wrote ");
+}
+
+TEST_F(Stop, BarIfAskedFor) {
+  Program program(folder(), longRender({"--time-limit", "1.5", "--progress=bar"}), {{"COLUMNS", "60"}});
+  program.wait();
+  EXPECT_TRUE(contains(program.err(), "\r"));
+  EXPECT_TRUE(contains(program.err(), "elapsed"));
+  std::string text = program.err();
+  size_t longest = 0;
+  for (size_t at = 0; (at = text.find('\r', at)) != std::string::npos; ++at)
+    longest = std::max(longest, std::min(text.find('\033', at), text.size()) - at - 1);
+  EXPECT_EQ(longest, 59u);
+}
+
+TEST_F(Stop, NoProgressIfNotWanted) {
+  for (const char* flag : {"--progress=none", "--log-level=error"}) {
+    Program program(folder(),
+                    {"white.ray", "-w", "1000", "--spp", "256", "-t", "2", "--time-limit", "1.5", flag});
+    program.wait();
+    EXPECT_EQ(program.err().substr(0, 7), "stopped") << program.err();
+  }
+}
+
+}  // namespace
+}  // namespace trace::test

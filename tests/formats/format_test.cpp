@@ -1,0 +1,57 @@
+#include "formats/format.h"
+
+#include <gtest/gtest.h>
+
+#include "ray_helpers.h"
+
+namespace trace {
+namespace {
+
+TEST(Format, TheTableNamesEachFormatOnce) {
+  for (const SceneFormat& format : sceneFormats()) {
+    EXPECT_FALSE(format.name.empty());
+    EXPECT_FALSE(format.help.empty());
+    for (const SceneFormat& other : sceneFormats())
+      EXPECT_TRUE(&format == &other || format.name != other.name);
+  }
+}
+
+TEST(Format, SaysWhatAFileIsThatIsNoScene) {
+  const std::pair<std::string_view, const char*> cases[] = {
+      {"", "an empty file"},
+      {" \r\n", "only white space"},
+      {"hello", "other text"},
+      {"SBT-ray 1.0", "other text"},
+      {" {\"a\": 1}", "what looks like JSON"},
+      {"[1]", "what looks like JSON"},
+      {"<html>", "what looks like XML or HTML"},
+      {"\x89PNG\r\n", "a PNG picture"},
+      {"\xff\xd8\xff\xe0", "a JPEG picture"},
+      {"ply\nformat ascii 1.0", "a PLY mesh"},
+      {"#Inventor V2.1 ascii", "an Open Inventor scene, which Trace does not read yet"},
+      {std::string_view("a\0b", 3), "binary data"},
+      {"/* not closed SBT-raytracer 1.0", "other text"},
+  };
+  for (const auto& [bytes, kind] : cases)
+    EXPECT_EQ(errorsOfFile(bytes),
+              "0:0: expected a scene, found " + std::string(kind) +
+                  " [formats Trace reads: ray, scenes that begin with SBT-raytracer 1.0]");
+}
+
+TEST(Format, ReadsFilesByName) {
+  Messages messages;
+  const std::string file = TRACE_SOURCE "/tests/corpus/ray/plain.ray";
+  const Scene scene = readScene(file, messages);
+  EXPECT_EQ(scene.file, file);
+  EXPECT_EQ(scene.format, "ray");
+  EXPECT_EQ(scene.objects.size(), 3u);
+  try {
+    readScene(file + ".no", messages);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::io);
+  }
+}
+
+}  // namespace
+}  // namespace trace

@@ -1,0 +1,508 @@
+// What the .ray reader makes of good scenes: docs/ray-format.md.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/match.h"
+#include "ray_helpers.h"
+
+namespace trace {
+namespace {
+
+void expectNear(const Vec3& a, const Vec3& b) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
+}
+
+Vec3 moved(std::string_view text, const Vec3& p) {
+  return load(text).scene.objects.at(0).worldFromObject * p;
+}
+
+// --- shapes -------------------------------------------------------------------------------------------
+
+TEST(RayFormat, ReadsEveryShapeOfTheList) {
+  forEachType<Shape>([]<class S>(S*) {
+    const S shape =
+        onlyShape<S>(std::string(S::kKeyword) + " { name = \"x\"; material = { diffuse = (1, 1, 1); } }");
+    if constexpr (!std::is_same_v<S, Mesh>) {
+      EXPECT_EQ(shape, S{}) << S::kKeyword;
+    }
+  });
+}
+
+TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
+  forEachType<Shape>([]<class S>(S*) {
+    forEachField<S>([]<class F>(const F& field) {
+      using Value = std::remove_cvref_t<decltype(S{}.*field.member)>;
+      const bool flag = std::is_same_v<Value, bool>;
+      const std::string text =
+          std::string(S::kKeyword) + "{" + std::string(field.keyword) + (flag ? "=false" : "=3.5") + "}";
+      S expected;
+      if constexpr (std::is_same_v<Value, bool>)
+        expected.*field.member = false;
+      else if constexpr (std::is_same_v<Value, Real>)
+        expected.*field.member = 3.5;
+      EXPECT_EQ(onlyShape<S>(text), expected) << text;
+    });
+  });
+}
+
+TEST(RayFormat, KeepsNamesPlacesAndOrder) {
+  const Scene scene =
+      load("sphere { name = first; }\n  scale(2, box { name = \"second one\"; })\nsquare{}").scene;
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.file, "test.ray");
+  EXPECT_EQ(scene.format, "ray");
+  EXPECT_EQ(scene.objects[0].name, "first");
+  EXPECT_EQ(scene.objects[1].name, "second one");
+  EXPECT_EQ(scene.objects[2].name, "");
+  EXPECT_EQ(scene.objects[1].place, (Place{"test.ray", 3, 12, "  scale(2, box { name = \"second one\"; })"}));
+}
+
+TEST(RayFormat, MakesConesOfNegativeSizePositive) {
+  const Cone radii = onlyShape<Cone>("cone { bottom_radius = -2; top_radius = -0.5; capped = false; }");
+  EXPECT_EQ(radii.bottomRadius, 2);
+  EXPECT_EQ(radii.topRadius, 0.5);
+  EXPECT_FALSE(radii.capped);
+  EXPECT_EQ(warningsOf("cone { bottom_radius = -2; height = -3; }"), "");
+
+  // Down from z = 0 to z = -3, the bottom radius still at z = 0.
+  const char* down = "translate(0, 0, 5, cone { height = -3; bottom_radius = 2; top_radius = 1; })";
+  const Cone cone = onlyShape<Cone>(down);
+  EXPECT_EQ(cone.height, 3);
+  EXPECT_EQ(cone.bottomRadius, 2);
+  EXPECT_EQ(moved(down, {2, 0, 0}), Vec3(2, 0, 5));
+  EXPECT_EQ(moved(down, {1, 0, 3}), Vec3(1, 0, 2));
+
+  EXPECT_DOUBLE_EQ(onlyShape<Cone>("cone { height = 2; bottom_radius = 1; top_radius = 1; }").topRadius, 1.002);
+  EXPECT_EQ(warningsOf("cone { height = 0; }"), "2:1: a cone of height 0 is left out");
+  EXPECT_EQ(warningsOf("cone { bottom_radius = 0; }"), "2:1: a cone of radius 0 is left out");
+}
+
+// --- transforms ---------------------------------------------------------------------------------------
+
+TEST(RayFormat, MultipliesTransformsInnermostFirst) {
+  const char* text = "translate(1, 2, 3, scale(2, 3, 4, rotate(0, 0, 5, 1.5707963267948966, sphere { })));";
+  expectNear(moved(text, {1, 0, 0}), {1, 5, 3});
+  expectNear(moved(text, {0, 1, 0}), {-1, 2, 3});
+  expectNear(moved("scale(-2, sphere{})", {1, 2, 3}), {-2, -4, -6});
+  expectNear(moved("rotate(1, 1, 1, 2.0943951023931953, box{})", {1, 0, 0}), {0, 1, 0});
+  expectNear(moved("rotate(1e200, 0, 0, 1.5707963267948966, box{})", {0, 1, 0}), {0, 0, 1});
+}
+
+TEST(RayFormat, ReadsMatricesByRows) {
+  const char* text = "transform((1, 2, 3, 10), (0, 1, 4, 20), (0, 0, 1, 30), (0, 0, 0, 1), box{})";
+  EXPECT_EQ(moved(text, {1, 1, 1}), Vec3(16, 25, 31));
+  EXPECT_EQ(moved("transform((2,0,0,4),(0,2,0,6),(0,0,2,8),(0,0,0,2),box{})", {1, 1, 1}), Vec3(3, 4, 5));
+  EXPECT_EQ(warningsOf("transform((2,0,0,4),(0,2,0,6),(0,0,2,8),(0,0,0,2),box{})"), "");
+  for (const char* row : {"(1, 0, 0, 1)", "(0, 0, 0, 0)"})
+    EXPECT_EQ(warningsOf("transform((1,0,0,0),(0,1,0,0),(0,0,1,0)," + std::string(row) + ",box{})"),
+              "2:41: transform: expected a last row of (0, 0, 0, 1); it is ignored");
+}
+
+TEST(RayFormat, LeavesOutObjectsOfSingularTransforms) {
+  for (const char* text : {"scale(0, sphere{})", "scale(1, 0, 1, sphere{})",
+                           "scale(1e-150, scale(1e-150, sphere{}))", "scale(1e200, scale(1e200, sphere{}))",
+                           "transform((1,2,3,0),(2,4,6,0),(0,0,1,0),(0,0,0,1),sphere{})"}) {
+    const Loaded loaded = load(std::string(text) + "\nbox{}");
+    EXPECT_EQ(loaded.scene.objects.size(), 1u) << text;
+    EXPECT_NE(warningsOf(text).find("an object is left out: its transform"), std::string::npos) << text;
+  }
+  EXPECT_EQ(warningsOf("scale(0, sphere{})\nscale(0, box{})"),
+            "2:10: an object is left out: its transform makes it flat, or infinitely large or small (2 "
+            "times, first here)");
+}
+
+TEST(RayFormat, TakesGroupsAnywhereAnObjectMayStand) {
+  const Scene scene =
+      load("translate(1, 0, 0, { sphere{} { box{}; scale(2, { cone{} square{} }) } }) { cylinder{} }").scene;
+  ASSERT_EQ(scene.objects.size(), 5u);
+  EXPECT_EQ(scene.objects[0].worldFromObject * Vec3(0, 0, 0), Vec3(1, 0, 0));
+  EXPECT_EQ(scene.objects[3].worldFromObject * Vec3(1, 1, 1), Vec3(3, 2, 2));
+  EXPECT_EQ(scene.objects[4].worldFromObject, Affine{});
+}
+
+// --- materials ----------------------------------------------------------------------------------------
+
+TEST(RayFormat, ReadsEveryFieldOfMaterials) {
+  const Phong phong =
+      phongOf(load("sphere { material = { emissive = (1, 2, 3); ambient = (0, 0.1, 0.2); diffuse = 0.5;"
+                   " specular = (0.25, 0.5, 0.75); reflective = (0.1, 0.1, 0.1);"
+                   " transmissive = (0.9, 0.8, 0.7); shininess = 25.6; index = 1.5; } }")
+                  .scene,
+              0);
+  EXPECT_EQ(phong.emissive, Color(1, 2, 3));
+  EXPECT_EQ(phong.ambient, Color(0, 0.1, 0.2));
+  EXPECT_EQ(phong.diffuse, Color(0.5));
+  EXPECT_EQ(phong.specular, Color(0.25, 0.5, 0.75));
+  EXPECT_EQ(phong.reflective, Color(0.1));
+  EXPECT_EQ(phong.transmissive, Color(0.9, 0.8, 0.7));
+  EXPECT_EQ(phong.shininess, 25.6);
+  EXPECT_EQ(phong.index, 1.5);
+  EXPECT_EQ(phongOf(load("sphere { }").scene, 0), Phong{});
+}
+
+TEST(RayFormat, MaterialsInheritFromTheDefaultThatStandsBeforeThem) {
+  const Scene scene = load(
+                          "sphere { }"
+                          "material = { diffuse = (1, 0, 0); shininess = 20 }"
+                          "sphere { } sphere { material = { ambient = (0, 1, 0) } }"
+                          "material = { index = 2 }"
+                          "sphere { }")
+                          .scene;
+  EXPECT_EQ(phongOf(scene, 0), Phong{});
+  EXPECT_EQ(phongOf(scene, 1).diffuse, Color(1, 0, 0));
+  EXPECT_EQ(phongOf(scene, 2).diffuse, Color(1, 0, 0));
+  EXPECT_EQ(phongOf(scene, 2).ambient, Color(0, 1, 0));
+  EXPECT_EQ(phongOf(scene, 3).index, 2);
+  EXPECT_EQ(phongOf(scene, 3).shininess, 20);
+}
+
+TEST(RayFormat, MaterialsOfGroupsEndWithThem) {
+  const Scene scene = load(
+                          "material = { index = 2; }"
+                          "scale(2, { sphere{} material = { index = 3 }; sphere{} { material = { index = 4 } "
+                          "sphere{} } sphere{} })"
+                          "sphere{}")
+                          .scene;
+  ASSERT_EQ(scene.objects.size(), 5u);
+  for (const auto& [object, index] : {std::pair{0, 2.0}, {1, 3.0}, {2, 4.0}, {3, 3.0}, {4, 2.0}})
+    EXPECT_EQ(phongOf(scene, static_cast<size_t>(object)).index, index) << object;
+}
+
+TEST(RayFormat, MaterialsGoByName) {
+  const Scene scene =
+      load(
+          "material { name = red; diffuse = (1, 0, 0); }\n"
+          "material { name = \"#2\"; diffuse = (0, 1, 0); }\n"
+          "sphere { material = red; } sphere { material = \"red\" } sphere { material = \"#2\" }\n"
+          "sphere { material = { name \"blue\"; diffuse = (0, 0, 1); } } sphere { material = blue }\n"
+          "material = red; sphere{ material = { name green; ambient = 1 } } sphere { }")
+          .scene;
+  ASSERT_EQ(scene.objects.size(), 7u);
+  for (const auto& [object, color] : {std::pair{0u, Color(1, 0, 0)},
+                                      {1u, Color(1, 0, 0)},
+                                      {2u, Color(0, 1, 0)},
+                                      {3u, Color(0, 0, 1)},
+                                      {4u, Color(0, 0, 1)},
+                                      {5u, Color(1, 0, 0)},
+                                      {6u, Color(1, 0, 0)}})
+    EXPECT_EQ(phongOf(scene, object).diffuse, color) << object;
+  EXPECT_EQ(scene.materials[scene.objects[0].material].name, "red");
+  EXPECT_EQ(scene.materials[scene.objects[5].material].name, "green");
+  EXPECT_EQ(warningsOf("material { diffuse = 1 }"), "2:1: a material without a name is never used");
+}
+
+TEST(RayFormat, EqualMaterialsAreStoredOnce) {
+  const Scene scene =
+      load(
+          "sphere { material = { diffuse = (1, 0, 0) } } box { material = { diffuse = (1, 0, 0) } }"
+          "sphere { material = { diffuse = (0, 0, 0) } } box { material = { diffuse = (-0, 0, 0) } }")
+          .scene;
+  EXPECT_EQ(scene.materials.size(), 2u);
+}
+
+TEST(RayFormat, RemembersWhetherReflectiveWasGiven) {
+  const std::pair<const char*, bool> cases[] = {
+      {"specular = 1", true},
+      {"specular = 1; reflective = 0", false},
+      {"reflective = 0; specular = 1", false},
+      {"diffuse = 1", false},
+      {"specular = map(\"a.bmp\")", true},
+  };
+  for (const auto& [fields, mirrors] : cases)
+    EXPECT_EQ(phongOf(load("sphere { material = {" + std::string(fields) + "} }").scene, 0).mirrorsSpecular,
+              mirrors)
+        << fields;
+  // In another block, `reflective` has not been seen yet.
+  const Scene scene =
+      load(
+          "material = { specular = 1; reflective = 0.5 } sphere { material = { specular = 0.7 } }"
+          "sphere { material = { diffuse = 1 } } material = { specular = 1 } sphere { material = { diffuse = "
+          "1 } }")
+          .scene;
+  EXPECT_TRUE(phongOf(scene, 0).mirrorsSpecular);
+  EXPECT_EQ(phongOf(scene, 0).reflective, Color(0.5));
+  EXPECT_FALSE(phongOf(scene, 1).mirrorsSpecular);
+  EXPECT_TRUE(phongOf(scene, 2).mirrorsSpecular);
+}
+
+TEST(RayFormat, KeepsMapsByField) {
+  const char* text =
+      "material = { diffuse = map(\"a.bmp\"); shininess = 7; }\n"
+      "sphere { material = { specular = \"b.png\"; shininess = map(\"c.png\"); } }\n"
+      "sphere { material = { diffuse = (0.5, 0.5, 0.5); } }";
+  const Scene scene = load(text).scene;
+  const Material& first = scene.materials[scene.objects[0].material];
+  EXPECT_EQ(first.maps,
+            (std::vector<FieldMap>{{"diffuse", "a.bmp"}, {"specular", "b.png"}, {"shininess", "c.png"}}));
+  EXPECT_EQ(phongOf(scene, 0).diffuse, Color(1));
+  EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
+  EXPECT_EQ(phongOf(scene, 0).shininess, 7);
+  EXPECT_TRUE(scene.materials[scene.objects[1].material].maps.empty());
+  EXPECT_EQ(warningsOf(text), "2:24: \"map\" is not rendered yet (3 times, first here)");
+  ASSERT_EQ(scene.unrendered.size(), 3u);
+  EXPECT_EQ(scene.unrendered[1].kind, "map");
+  EXPECT_EQ(scene.unrendered[1].text, "\"b.png\"");
+}
+
+// --- camera -------------------------------------------------------------------------------------------
+
+TEST(RayFormat, ReadsTheCamera) {
+  EXPECT_EQ(load("").scene.camera, Camera{});
+  EXPECT_EQ(load("camera { }").scene.camera, Camera{});
+  const Camera camera =
+      load(
+          "camera { fov = 30 } camera { position = (1, 2, 3); viewdir = (0, 0, -2); updir = (0, 3, 1);"
+          " aspectratio = 1.5; }")
+          .scene.camera;
+  EXPECT_EQ(camera.position, Vec3(1, 2, 3));
+  EXPECT_EQ(camera.viewdir, Vec3(0, 0, -2));
+  EXPECT_EQ(camera.updir, Vec3(0, 3, 1));
+  EXPECT_EQ(camera.aspectratio, 1.5);
+  EXPECT_EQ(camera.fov, Camera{}.fov) << "the last camera wins, whole";
+}
+
+TEST(RayFormat, LooksAtAPoint) {
+  const Camera camera = load("camera { look_at = (1, 0, 1); position = (1, 0, 5); }").scene.camera;
+  EXPECT_EQ(camera.viewdir, Vec3(0, 0, -1));
+  EXPECT_EQ(camera.updir, Vec3(0, 1, 0));
+  EXPECT_EQ(load("camera { look_at = (0, -3, 0); }").scene.camera.updir, Vec3(1, 0, 0));
+  EXPECT_EQ(load("camera { look_at = (0, -3, 0); updir = (0, 0, 2); }").scene.camera.updir, Vec3(0, 0, 2));
+  EXPECT_EQ(load("camera { updir = (0, 0, 2); look_at = (0, -3, 0); }").scene.camera.viewdir, Vec3(0, -1, 0));
+  EXPECT_EQ(warningsOf("camera { look_at = (0, 0, 3); viewdir = (1, 0, 0); }"),
+            "2:31: viewdir is ignored, since look_at is given");
+}
+
+TEST(RayFormat, TurnsTheCameraByAQuaternion) {
+  // A quarter turn about y, the real part last, of any length.
+  for (const char* q :
+       {"(0, 0.70710678118654752, 0, 0.70710678118654752)", "(0, 3, 0, 3)", "(0, -1, 0, -1)"}) {
+    const Camera camera = load("camera { quaternian = " + std::string(q) + "; }").scene.camera;
+    expectNear(camera.viewdir, {-1, 0, 0});
+    expectNear(camera.updir, {0, 1, 0});
+  }
+  const Camera still = load("camera { quaternion = (0, 0, 0, 1); }").scene.camera;
+  EXPECT_EQ(still.viewdir, Vec3(0, 0, -1));
+  const Camera overridden =
+      load("camera { viewdir = (1, 0, 0); updir = (0, 0, 1); quaternian = (0, 3, 0, 3); }").scene.camera;
+  EXPECT_EQ(overridden.viewdir, Vec3(1, 0, 0));
+}
+
+// --- lights -------------------------------------------------------------------------------------------
+
+TEST(RayFormat, ReadsLights) {
+  const Scene scene =
+      load(
+          "point_light { position = (1, 2, 3); colour = (0.5, 1, 2); linear_attenuation_coeff = 0.25; }\n"
+          "directional_light { color = (1, 1, 1); direction = (0, -3, 0); }\n"
+          "ambient_light { color = 0.25 }")
+          .scene;
+  ASSERT_EQ(scene.lights.size(), 3u);
+  const auto& point = std::get<PointLight>(scene.lights[0].light);
+  EXPECT_EQ(point.position, Vec3(1, 2, 3));
+  EXPECT_EQ(point.color, Color(0.5, 1, 2));
+  EXPECT_EQ(point.constant, 0);
+  EXPECT_EQ(point.linear, 0.25);
+  EXPECT_EQ(point.quadratic, 1);
+  EXPECT_EQ(std::get<DirectionalLight>(scene.lights[1].light).direction, Vec3(0, -3, 0));
+  EXPECT_EQ(std::get<AmbientLight>(scene.lights[2].light).color, Color(0.25));
+  EXPECT_EQ(scene.lights[1].place.line, 3);
+  EXPECT_EQ(warningsOf("point_light { position = (0,0,0); color = 1; position = (1,1,1); color = 2 }"),
+            "2:46: position of point_light given again; the last counts\n"
+            "2:66: color of point_light given again; the last counts");
+}
+
+TEST(RayFormat, WarnsOfDarkness) {
+  const auto warnings = [](const char* text) { return load(text).warnings; };
+  ASSERT_EQ(warnings("sphere{}").size(), 1u);
+  EXPECT_EQ(warnings("sphere{}")[0].what, "no light: everything will be black");
+  EXPECT_EQ(warnings("sphere{}")[0].place, (Place{"test.ray", 0, 0, ""}));
+  EXPECT_EQ(warnings("")[0].what, "no object: the picture will be empty");
+  EXPECT_TRUE(warnings("sphere{ material = { emissive = (0, 1, 0) } }").empty());
+  EXPECT_TRUE(warnings("ambient_light { color = 1 } sphere{}").empty());
+}
+
+// --- meshes -------------------------------------------------------------------------------------------
+
+constexpr const char* kPoints = "points = ((0,0,0), (1,0,0), (1,1,0), (0,1,0), (0,0,1));";
+
+std::shared_ptr<const MeshData> meshOf(const std::string& fields) {
+  return onlyShape<Mesh>("polymesh {" + fields + "}").data;
+}
+
+TEST(RayFormat, ReadsMeshes) {
+  const auto mesh = meshOf("faces = ((0,1,2,3), (0, 1, 4)); " + std::string(kPoints));
+  EXPECT_EQ(mesh->points.size(), 5u);
+  EXPECT_EQ(mesh->triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
+  EXPECT_TRUE(mesh->normals.empty() && mesh->materials.empty() && mesh->uvs.empty());
+  EXPECT_FALSE(mesh->generateNormals);
+  EXPECT_TRUE(meshOf("gennormals;")->generateNormals);
+  EXPECT_TRUE(meshOf("gennormals " + std::string(kPoints))->generateNormals);
+  EXPECT_TRUE(meshOf("gennormals = true;")->generateNormals);
+  EXPECT_FALSE(meshOf("gennormals = false;")->generateNormals);
+  EXPECT_EQ(onlyShape<Mesh>("trimesh { }").data->points.size(), 0u);
+  EXPECT_EQ(load("polymesh { name = \"cow\" }").scene.objects[0].name, "cow");
+}
+
+TEST(RayFormat, ReadsWhatMeshesSayPerPoint) {
+  const std::string rest =
+      "normals = ((0,0,1),(0,0,2),(0,1,0),(1,0,0),(1,1,1)) texture_uv = ((0,0),(1,0),(1,1),(0,1),(0.5,0.5))";
+  const auto mesh = meshOf(kPoints + rest + "faces = ((0,1,2))");
+  ASSERT_EQ(mesh->normals.size(), 5u);
+  EXPECT_EQ(mesh->normals[1], Vec3f(0, 0, 2)) << "lengths stay: they weigh the interpolation";
+  ASSERT_EQ(mesh->uvs.size(), 5u);
+  EXPECT_EQ(mesh->uvs[4], (Vec2{0.5, 0.5}));
+  EXPECT_EQ(warningsOf("polymesh {" + (kPoints + rest) + "}"), "");
+  EXPECT_TRUE(load("polymesh {" + (kPoints + rest) + "}").scene.unrendered.empty());
+  EXPECT_TRUE(meshOf("normals = (); materials = (); texture_uv = (); points = ((0,0,0))")->normals.empty());
+}
+
+TEST(RayFormat, VertexMaterialsInheritFromTheMeshSoFar) {
+  const Scene scene =
+      load(
+          "material { name = glow; emissive = 1; }\n"
+          "polymesh { material = { diffuse = (1, 0, 0) } points = ((0,0,0),(1,0,0),(0,1,0))\n"
+          " materials = ({ ambient = 0.5 }, { ambient = 0.5 }, glow) material = { diffuse = (0, 1, 0) } }")
+          .scene;
+  const auto& materials = std::get<Mesh>(scene.objects[0].shape).data->materials;
+  ASSERT_EQ(materials.size(), 3u);
+  EXPECT_EQ(materials[0], materials[1]);
+  const Phong& first = std::get<Phong>(scene.materials[materials[0]].model);
+  EXPECT_EQ(first.diffuse, Color(1, 0, 0));
+  EXPECT_EQ(first.ambient, Color(0.5));
+  EXPECT_EQ(std::get<Phong>(scene.materials[materials[2]].model).emissive, Color(1));
+  EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0, 1, 0));
+}
+
+TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
+  const char* text =
+      "polymesh { points = ((0,0,0),(1,0,0),(0,1,0),(0,0,0),(2,0,0))\n"
+      " faces = ((0,1,2), (0,1,1), (0,3,1), (0,1,4))\n"
+      " normals = ((0,0,0),(0,1,0),(1e-60,0,0),(0,0,0),(1,0,0)) }";
+  const auto mesh = onlyShape<Mesh>(text).data;
+  EXPECT_EQ(mesh->triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(mesh->normals[0], Vec3f(0, 0, 1));
+  EXPECT_EQ(mesh->normals[1], Vec3f(0, 1, 0));
+  EXPECT_EQ(mesh->normals[2], Vec3f(0, 0, 1)) << "it is zero as a float";
+  EXPECT_EQ(warningsOf(text),
+            "3:10: triangles without area are left out: 3\n"
+            "4:12: normals of length 0 are taken from the faces: 3");
+  EXPECT_EQ(warningsOf(std::string(text) + text).find("3:10: triangles without area are left out: 6"), 0u)
+      << "one sum over the file";
+  EXPECT_EQ(warningsOf("polymesh { gennormals; points = ((0,0,0)); normals = ((0,0,0)); }"), "");
+}
+
+// --- what is not rendered, and what is unknown --------------------------------------------------------
+
+TEST(RayFormat, KeepsWhatItDoesNotRender) {
+  const char* text =
+      "spot_light { position = (0, 0, 1); }\nspot_light { }\n"
+      "translate(1, 2, 3, torus { a = 1; })\nsubtraction(sphere{}, box{})\n"
+      "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
+  const Loaded loaded = load(text);
+  EXPECT_EQ(warningsOf(text),
+            "2:1: \"spot_light\" is not rendered yet (2 times, first here)\n"
+            "4:20: \"torus\" is not rendered yet\n"
+            "5:1: \"subtraction\" is not rendered yet\n"
+            "6:23: \"bump_mapping\" is not rendered yet\n"
+            "6:63: \"marble\" is not rendered yet");
+  ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
+  EXPECT_EQ(loaded.scene.unrendered[0].kind, "spot_light");
+  EXPECT_EQ(loaded.scene.unrendered[0].text, "spot_light { position = (0, 0, 1); }");
+  EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
+  EXPECT_EQ(loaded.scene.unrendered[2].text,
+            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\ntorus { a = 1; })");
+  EXPECT_EQ(loaded.scene.objects.size(), 1u);
+  EXPECT_EQ(phongOf(loaded.scene, 0).diffuse, Color(1));
+}
+
+TEST(RayFormat, WarnsOfUnknownWords) {
+  EXPECT_EQ(warningsOf("spehre { }"),
+            "2:1: \"spehre\" is not known and is left out [did you mean \"sphere\"?]");
+  EXPECT_EQ(warningsOf("background = 1"), "2:1: \"background\" is not known and is left out");
+  EXPECT_EQ(warningsOf("{ zzz(1, 2) }"), "2:3: \"zzz\" is not known and is left out");
+  EXPECT_EQ(warningsOf("camera { focaldistance = 4; }"),
+            "2:10: unknown field \"focaldistance\" of camera is ignored");
+  EXPECT_EQ(warningsOf("camera { viewdri = 4; viewdri = 5 }"),
+            "2:10: unknown field \"viewdri\" of camera is ignored (2 times, first here) [did you mean "
+            "\"viewdir\"?]");
+  EXPECT_EQ(warningsOf("sphere { material = { difuse = 4 } capped = true }"),
+            "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
+            "2:36: unknown field \"capped\" of sphere is ignored");
+  EXPECT_EQ(warningsOf("polymesh { point = () }"),
+            "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]");
+  EXPECT_EQ(warningsOf("ambient_light { color = 1; colr = 2; }"),
+            "2:28: unknown field \"colr\" of ambient_light is ignored [did you mean \"color\"?]");
+}
+
+TEST(RayFormat, WarnsOfValuesOutOfRange) {
+  const char* text =
+      "sphere { material = { diffuse = (0, 1.5, 0); index = -1 } } box { material = { diffuse = (2, 3, 4) } "
+      "}";
+  EXPECT_EQ(warningsOf(text),
+            "2:23: diffuse of material: expected 0 to 1, found 1.5 (4 times, first here)\n"
+            "2:46: index of material: expected at least 0, found -1");
+  EXPECT_EQ(phongOf(load(text).scene, 0).diffuse, Color(0, 1.5, 0));
+}
+
+// --- settings and dialects ----------------------------------------------------------------------------
+
+TEST(RayFormat, TakesSettingsAsChoices) {
+  const Scene scene = load(
+                          "settings { depth = 3; like = ut;\n highlight = phong; region = (0, 0, 8, 9); "
+                          "shininess-scale = 1.5e1 "
+                          "limit-attenuation = off; }")
+                          .scene;
+  std::string text;
+  for (const Choice& choice : scene.choices)
+    text += choice.option + "=" + choice.value + "@" + std::to_string(choice.place.line) + ":" +
+            std::to_string(choice.place.column) + " ";
+  EXPECT_EQ(text,
+            "depth=3@2:12 like=ut@2:23 highlight=phong@3:2 region=0,0,8,9@3:21 shininess-scale=1.5e1@3:44 "
+            "limit-attenuation=off@3:68 ");
+}
+
+/// The line of the sign that makes a scene one of 2001; 0 if it is none.
+int lineOf2001(const std::string& text) {
+  for (const Choice& choice : load(text).scene.choices)
+    if (choice.option == "like" && choice.value == "uw2001") return choice.place.line;
+  return 0;
+}
+
+TEST(RayFormat, RecognisesTheDialectOf2001) {
+  const std::string small = "\nsphere { material = { specular = 0.5; shininess = 0.2; } }";
+  const std::string large = "\nsphere { material = { specular = 0.5; shininess = 20; } }";
+  const std::pair<std::string, int> cases[] = {
+      {"", 0},
+      {"camera { focaldistance = 3; }", 2},
+      {"camera { quaternion = (0, 0, 0, 1); }", 2},
+      {"\nmaterial { name = a; }", 3},
+      {"sphere { material { diffuse = 1; } }", 2},
+      {"polymesh { gennormals = true; }", 2},
+      {small, 3},
+      {large, 0},
+      {small + large, 0},
+      {large + "material { name = a; }", 3},
+      {"material = { }" + small, 0},
+      {"polymesh { gennormals; }" + small, 0},
+      {"camera { quaternian = (0, 0, 0, 1); }" + small, 0},
+      {"sphere { material = { shininess = 0.2; } }", 0},
+      {"sphere { material = { shininess = 20; } }" + small, 3},
+      {"sphere { material = { specular = 1; shininess = 0; } }" + small, 0},
+      {"sphere { material = { shininess = 1; specular = 1; } }", 2},
+      {"settings { like = uw; }" + small, 0},
+      {"settings { depth = 2; }" + small, 3},
+  };
+  for (const auto& [text, line] : cases) EXPECT_EQ(lineOf2001(text), line) << text;
+  EXPECT_EQ(warningsOf("camera { quaternion = (0, 0, 0, 1); }"), "");
+}
+
+TEST(RayFormat, TakesVersionsUpTo1_1) {
+  for (const char* header :
+       {"SBT-raytracer 1.0", "SBT-raytracer 1.1", "SBT-raytracer 0.9;", "\r\n// x\r\nSBT-raytracer\n1",
+        "\xef\xbb\xbfSBT-raytracer 1.0", "/* c */ SBT-raytracer 1.0 // d"})
+    EXPECT_EQ(errorsOfFile(header), "") << header;
+}
+
+}  // namespace
+}  // namespace trace

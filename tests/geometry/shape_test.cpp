@@ -1,0 +1,190 @@
+// What must hold for every shape on the list.
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace trace::test {
+namespace {
+
+constexpr int kRays = 20000;
+
+/// A ray that passes near the shape, from well outside.
+Ray rayToward(const Box3& box, Random& random) {
+  const Vec3 target = box.center() + random.inCube(0.55 * maxComponent(box.size()));
+  const Vec3 d = random.direction();
+  return {target - d * (3 * length(box.size())), d};
+}
+
+TEST(Shapes, HitsLieInBoundsOnTheRayWithUnitNormals) {
+  Random random(1);
+  for (const Shape& shape : analyticShapes()) {
+    SCOPED_TRACE(nameOf(shape));
+    const Box3 box = boundsOf(shape);
+    const double size = length(box.size());
+    int hits = 0;
+    for (int i = 0; i < kRays; ++i) {
+      const Ray ray = rayToward(box, random);
+      for (const Crossing& c : crossingsOf(shape, ray)) {
+        const SurfacePoint s = surfaceOf(shape, ray, c);
+        ++hits;
+        EXPECT_TRUE(box.contains(s.point));
+        EXPECT_LT(length(s.point - ray.at(c.t)), 1e-13 * 3 * size);  // seen from three sizes away
+        EXPECT_NEAR(length(s.normal), 1, 1e-14);
+        EXPECT_EQ(s.normal, s.shading);
+        EXPECT_TRUE(s.uv.x >= -1e-12 && s.uv.x <= 1 + 1e-12 && s.uv.y >= -1e-12 && s.uv.y <= 1 + 1e-12);
+      }
+    }
+    EXPECT_GT(hits, kRays / 10);
+  }
+}
+
+TEST(Shapes, SolidsAreEnteredAndLeftInTurn) {
+  Random random(2);
+  for (const Shape& shape : analyticShapes()) {
+    if (!isSolid(shape)) continue;
+    SCOPED_TRACE(nameOf(shape));
+    for (int i = 0; i < kRays; ++i) {
+      const Ray ray = rayToward(boundsOf(shape), random);
+      const auto crossings = crossingsOf(shape, ray);
+      ASSERT_EQ(crossings.size() % 2, 0u);
+      for (size_t k = 0; k < crossings.size(); ++k) {
+        const Real along = dot(surfaceOf(shape, ray, crossings[k]).normal, ray.direction);
+        if (std::abs(along) < 1e-6) continue;  // grazing: either is right
+        EXPECT_EQ(along < 0, k % 2 == 0);
+      }
+    }
+  }
+}
+
+TEST(Shapes, OpenSheetsTurnTheirNormalToTheRay) {
+  Random random(3);
+  for (const Shape& shape : analyticShapes()) {
+    if (isSolid(shape)) continue;
+    for (int i = 0; i < kRays; ++i) {
+      const Ray ray = rayToward(boundsOf(shape), random);
+      for (const Crossing& c : crossingsOf(shape, ray))
+        EXPECT_LE(dot(surfaceOf(shape, ray, c).normal, ray.direction), 0);
+    }
+  }
+}
+
+TEST(Shapes, NormalsStandOnTheSurface) {
+  // Two neighbouring hits on the same part differ, to first order, along the tangent plane.
+  Random random(4);
+  for (const Shape& shape : analyticShapes()) {
+    SCOPED_TRACE(nameOf(shape));
+    for (int i = 0; i < kRays; ++i) {
+      const Ray ray = rayToward(boundsOf(shape), random);
+      const Ray close{ray.origin + random.direction() * 1e-6, ray.direction};
+      const auto a = crossingsOf(shape, ray), b = crossingsOf(shape, close);
+      if (a.empty() || b.size() != a.size() || a[0].part != b[0].part) continue;
+      const SurfacePoint s = surfaceOf(shape, ray, a[0]);
+      if (std::abs(dot(s.normal, ray.direction)) < 0.2) continue;
+      const Vec3 step = surfaceOf(shape, close, b[0]).point - s.point;
+      // Near a cone's apex the surface bends within the step.
+      if (std::hypot(s.point.x, s.point.y) < 0.01) continue;
+      EXPECT_NEAR(dot(step, s.normal), 0, 1e-9);
+    }
+  }
+}
+
+/// Sum of the lengths inside a solid, over parallel rays on a grid: its volume (checks of the courses, E1).
+double volume(const Shape& shape, int n) {
+  const Box3 box = boundsOf(shape);
+  const Vec3 size = box.size();
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Ray ray{{box.low.x - 1, box.low.y + size.y * (i + 0.5) / n, box.low.z + size.z * (j + 0.5) / n}, {1, 0, 0}};
+      const auto crossings = crossingsOf(shape, ray);
+      for (size_t k = 0; k + 1 < crossings.size(); k += 2) sum += crossings[k + 1].t - crossings[k].t;
+    }
+  return sum * size.y * size.z / n / n;
+}
+
+TEST(Shapes, VolumeByParallelProjection) {
+  EXPECT_NEAR(volume(Sphere{}, 1000), 4.18879, 2e-4);
+  EXPECT_NEAR(volume(Cube{}, 100), 1, 1e-12);
+  EXPECT_NEAR(volume(Cylinder{}, 1000), kPi, 2e-4);
+  EXPECT_NEAR(volume(Cone{}, 1000), 1.04720, 2e-4);
+  EXPECT_NEAR(volume(Cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5}, 1000), kPi * 2 * (1 + 0.5 + 0.25) / 3,
+              5e-4);
+}
+
+/// Mean chord of uniform isotropic lines that meet a convex body: 4 V / S (Cauchy).
+double meanChord(const Shape& shape, Random& random) {
+  const Vec3 center = boundsOf(shape).center();
+  const Real radius = 0.5 * length(boundsOf(shape).size()) * 1.01;
+  double sum = 0;
+  int met = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const Vec3 d = random.direction();
+    const Vec3 side = normalize(cross(d, std::abs(d.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    const Real r = radius * std::sqrt(random.uniform()), phi = random.uniform(0, 2 * kPi);
+    const Vec3 p = center + side * (r * std::cos(phi)) + cross(d, side) * (r * std::sin(phi));
+    const auto c = crossingsOf(shape, {p - d * (2 * radius), d});
+    if (c.size() == 2) sum += c[1].t - c[0].t, ++met;
+  }
+  return sum / met;
+}
+
+TEST(Shapes, MeanChordOfConvexBodies) {
+  Random random(5);
+  EXPECT_NEAR(meanChord(Sphere{}, random), 4.0 / 3, 2e-3);
+  EXPECT_NEAR(meanChord(Cube{}, random), 2.0 / 3, 2e-3);
+  EXPECT_NEAR(meanChord(Cylinder{}, random), 4 * kPi / (4 * kPi), 2e-3);  // r = 1, h = 1: V = pi, S = 4 pi
+  EXPECT_NEAR(meanChord(Cone{}, random), 4 * (kPi / 3) / (kPi * (1 + std::sqrt(2.0))), 2e-3);
+}
+
+TEST(Shapes, RaysThroughTheCentreOfSymmetricSolids) {
+  Random random(6);
+  for (const Shape& shape : {Shape(Sphere{}), Shape(Cube{})}) {
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray{{}, random.direction()};
+      const auto c = crossingsOf(shape, ray);
+      ASSERT_EQ(c.size(), 2u);
+      EXPECT_NEAR(c[0].t, -c[1].t, 1e-15);
+      EXPECT_LT(length(surfaceOf(shape, ray, c[0]).normal + surfaceOf(shape, ray, c[1]).normal), 1e-15);
+    }
+  }
+}
+
+TEST(Shapes, RaysAlongAxesAndInFacesGiveNoNaN) {
+  const Real values[] = {-2, -1, -0.5, 0, 0.5, 1, 2};
+  for (const Shape& shape : analyticShapes())
+    for (Real x : values)
+      for (Real y : values)
+        for (Real z : values)
+          for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 1, -1}, Vec3{1, 1, 1}}) {
+            const Ray ray{{x, y, z}, d};
+            for (const Crossing& c : crossingsOf(shape, ray)) {
+              const SurfacePoint s = surfaceOf(shape, ray, c);
+              EXPECT_TRUE(std::isfinite(c.t) && isFinite(s.point) && isFinite(s.normal) && isFinite(s.error))
+                  << nameOf(shape);
+            }
+          }
+}
+
+TEST(Shapes, ConeWithEqualRadiiIsACylinder) {
+  Random random(7);
+  const Cone cone{.height = 1, .bottomRadius = 1, .topRadius = 1};
+  for (int i = 0; i < kRays; ++i) {
+    const Ray ray = rayToward(boundsOf(cone), random);
+    const auto a = crossingsOf(cone, ray), b = crossingsOf(Cylinder{}, ray);
+    ASSERT_EQ(a.size(), b.size());
+    for (size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].t, b[k].t);
+  }
+}
+
+TEST(Cube, TextureCoordinatesMirrorOnTheLowFaces) {
+  const Ray fromRight{{2, 0.1, 0.2}, {-1, 0, 0}}, fromLeft{{-2, 0.1, 0.2}, {1, 0, 0}};
+  const Vec2 right = surfaceOf(Cube{}, fromRight, crossingsOf(Cube{}, fromRight)[0]).uv;
+  const Vec2 left = surfaceOf(Cube{}, fromLeft, crossingsOf(Cube{}, fromLeft)[0]).uv;
+  EXPECT_NEAR(right.x, 0.6, 1e-15);
+  EXPECT_NEAR(right.y, 0.7, 1e-15);
+  EXPECT_NEAR(left.x, 0.4, 1e-15);
+  EXPECT_NEAR(left.y, 0.7, 1e-15);
+}
+
+}  // namespace
+}  // namespace trace::test

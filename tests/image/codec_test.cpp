@@ -1,0 +1,452 @@
+// Picture files. Most tests are loops over the table of formats; the known answers were written out by hand
+// from the specifications of BMP, TGA, PPM and PNG.
+#include "image/codec.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/compare.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text(std::initializer_list<int> bytes) {
+  std::string result;
+  for (int byte : bytes) result += static_cast<char>(byte);
+  return result;
+}
+
+const PictureFormat& formatNamed(std::string_view name) {
+  for (const PictureFormat& format : pictureFormats())
+    if (format.name == name) return format;
+  throw std::runtime_error("no such format");
+}
+
+/// A folder of its own for one test, removed afterwards.
+class Folder {
+ public:
+  Folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = fs::path(testing::TempDir()) / (std::string("trace_codec_") + test->name());
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  size_t files() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+  }
+
+ private:
+  fs::path path_;
+};
+
+/// Smooth, so that JPEG keeps it; every channel different, no symmetry, exact 8-bit levels.
+Picture smoothPicture(int width, int height) {
+  Bytes bytes{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        bytes.rgb.push_back(static_cast<std::uint8_t>(40 + 7 * x + 11 * y + 20 * channel));
+  return fromBytes(bytes);
+}
+
+/// Exact 8-bit levels without any pattern.
+Picture noisyPicture(int width, int height) {
+  Bytes bytes{width, height, {}};
+  std::uint32_t state = 1;
+  for (int i = 0; i < 3 * width * height; ++i) {
+    state = state * 1664525u + 1013904223u;
+    bytes.rgb.push_back(static_cast<std::uint8_t>(state >> 24));
+  }
+  return fromBytes(bytes);
+}
+
+/// Values from 2^-10 to 2^18 that a float holds exactly. (Not by rounding doubles: at -O2, GCC 12 drops
+/// double(float(x)) for neighbouring members of a struct.)
+Picture brightPicture(int width, int height) {
+  const Bytes levels = toBytes(noisyPicture(width, height), Rounding::nearest);
+  Picture picture(width, height);
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    const std::uint8_t* rgb = &levels.rgb[3 * i];
+    picture.pixels[i] = Color(rgb[0], rgb[1], rgb[2]) * std::ldexp(1.0, static_cast<int>(i % 21) - 10);
+  }
+  return picture;
+}
+
+constexpr int kSizes[][2] = {{1, 1}, {3, 2}, {17, 5}, {2, 9}, {300, 3}};
+
+TEST(Codec, EveryFormatComesBack) {
+  const Folder folder;
+  for (const PictureFormat& format : pictureFormats())
+    for (const auto& [width, height] : kSizes) {
+      SCOPED_TRACE(std::string(format.name) + " " + std::to_string(width) + "x" + std::to_string(height));
+      const bool lossy = format.name == "JPEG";
+      const Picture picture = lossy ? smoothPicture(width, std::min(height, 9)) : noisyPicture(width, height);
+      const std::string path = folder / ("picture" + std::string(format.suffixes[0]));
+      for (Rounding rounding : {Rounding::truncate, Rounding::nearest}) {
+        writePicture(path, picture, rounding);
+        const Comparison c =
+            compare(toBytes(picture, rounding), toBytes(readPicture(path), Rounding::nearest));
+        ASSERT_TRUE(c.sameSize);
+        // The ramp of the widest picture wraps from 255 to 0, where JPEG rings.
+        const double measured = lossy && width > 20 ? c.mean : c.maxDifference;
+        EXPECT_LE(measured, format.lossless ? 0 : lossy ? 4 : 1);
+      }
+    }
+  EXPECT_EQ(folder.files(), pictureFormats().size());  // no temporary file left
+}
+
+TEST(Codec, BrightValuesComeBackWhereTheFormatKeepsThem) {
+  for (const PictureFormat& format : pictureFormats()) {
+    if (!format.keepsBright) continue;
+    SCOPED_TRACE(format.name);
+    const Picture picture = brightPicture(17, 5);
+    const Picture back = decodePicture(encodePicture(format, picture), "memory");
+    if (format.lossless) {
+      EXPECT_EQ(back, picture);
+    } else {  // RGBE: 8 bits of mantissa for the largest channel
+      for (size_t i = 0; i < picture.pixels.size(); ++i) {
+        const double step = maxComponent(picture.pixels[i]) / 256;
+        EXPECT_NEAR(back.pixels[i].r, picture.pixels[i].r, step);
+        EXPECT_NEAR(back.pixels[i].g, picture.pixels[i].g, step);
+        EXPECT_NEAR(back.pixels[i].b, picture.pixels[i].b, step);
+      }
+    }
+  }
+}
+
+// The mantissa 255.99... of such a value must not become 256 and wrap to black.
+TEST(Codec, ValuesJustBelowAPowerOfTwoStayBright) {
+  Picture picture(2, 24);
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 2; ++x)
+      picture.at(x, y) = Color(std::ldexp(double(std::nextafter(1.0f, 0.0f)), x == 0 ? y : -y));
+  const Picture back = decodePicture(encodePicture(formatNamed("HDR"), picture), "memory");
+  for (size_t i = 0; i < back.pixels.size(); ++i)
+    EXPECT_NEAR(back.pixels[i].g / picture.pixels[i].g, 1, 1.0 / 256);
+}
+
+TEST(Codec, NumbersThatAreNoneAreWrittenByEveryFormat) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Picture picture(2, 1);
+  picture.at(0, 0) = {std::nan(""), kInfinity, -kInfinity};
+  picture.at(1, 0) = {-1, 1e300, 1e-300};
+  for (const PictureFormat& format : pictureFormats()) {
+    SCOPED_TRACE(format.name);
+    const Picture back = decodePicture(encodePicture(format, picture), "memory");
+    if (format.name == "HDR") {
+      EXPECT_TRUE(isFinite(back.at(0, 0)));
+      EXPECT_GT(back.at(0, 0).g, 1e38);
+      EXPECT_EQ(back.at(1, 0).r, 0);
+    }
+    if (format.name == "EXR") {
+      EXPECT_TRUE(std::isnan(back.at(0, 0).r));
+      EXPECT_EQ(back.at(0, 0).g, kInfinity);
+      EXPECT_EQ(back.at(1, 0).r, -1);
+    }
+  }
+}
+
+// A program that writes binary files in text mode turns 0A into 0D 0A.
+TEST(Codec, LineFeedLevelsSurvive) {
+  const Folder folder;
+  const Bytes bytes{3, 1, {0x0A, 0x0A, 0x0A, 0x0D, 0x0A, 0x1A, 0x0A, 0x0D, 0x00}};
+  for (const PictureFormat& format : pictureFormats()) {
+    if (!format.lossless) continue;
+    const std::string path = folder / ("feed" + std::string(format.suffixes[0]));
+    writePicture(path, fromBytes(bytes));
+    EXPECT_EQ(toBytes(readPicture(path), Rounding::nearest), bytes) << format.name;
+  }
+}
+
+// --- known answers -----------------------------------------------------------------------------------
+
+// Above: red, (10,10,10). Below: (1,2,3), (4,5,6).
+const Bytes kKnown{2, 2, {255, 0, 0, 10, 10, 10, 1, 2, 3, 4, 5, 6}};
+
+TEST(CodecKnownAnswer, Bmp) {
+  const std::string file =
+      text({'B', 'M', 70,  0,  0,  0,  0, 0, 0, 0, 54, 0, 0, 0,         // file header
+            40,  0,   0,   0,  2,  0,  0, 0, 2, 0, 0,  0, 1, 0, 24, 0,  // info header
+            0,   0,   0,   0,  0,  0,  0, 0, 0, 0, 0,  0, 0, 0, 0,  0,
+            0,   0,   0,   0,  0,  0,  0, 0, 3, 2, 1,  6, 5, 4, 0,  0,  // from below, b g r, padded
+            0,   0,   255, 10, 10, 10, 0, 0});
+  EXPECT_EQ(encodePicture(formatNamed("BMP"), fromBytes(kKnown)), file);
+  EXPECT_EQ(toBytes(decodePicture(file, "bmp"), Rounding::nearest), kKnown);
+}
+
+TEST(CodecKnownAnswer, Tga) {
+  const std::string file =
+      text({0, 0, 10, 0,   0,  0,  0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, 0,  // run-length colours
+            1, 3, 2,  1,   6,  5,  4,                                    // two literal pixels
+            1, 0, 0,  255, 10, 10, 10});
+  EXPECT_EQ(encodePicture(formatNamed("TGA"), fromBytes(kKnown)), file);
+  EXPECT_EQ(toBytes(decodePicture(file, "tga"), Rounding::nearest), kKnown);
+  const std::string plainFromAbove = text(
+      {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, 0x20, 0, 0, 255, 10, 10, 10, 3, 2, 1, 6, 5, 4});
+  EXPECT_EQ(toBytes(decodePicture(plainFromAbove, "tga"), Rounding::nearest), kKnown);
+}
+
+TEST(CodecKnownAnswer, Ppm) {
+  const std::string file = "P6\n2 2\n255\n" + text({255, 0, 0, 10, 10, 10, 1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(encodePicture(formatNamed("PPM"), fromBytes(kKnown)), file);
+  EXPECT_EQ(toBytes(decodePicture(file, "ppm"), Rounding::nearest), kKnown);
+}
+
+TEST(CodecKnownAnswer, PpmOfOtherKinds) {
+  const Picture plain = decodePicture("P3 # words\n2 # more\n1\n10\n10 5 0\n0 0 10", "p3");
+  EXPECT_EQ(plain.at(0, 0), Color(1, 0.5, 0));
+  EXPECT_EQ(plain.at(1, 0), Color(0, 0, 1));
+  const Picture wide = decodePicture("P6\n1 1\n65535\n" + text({0xFF, 0xFF, 0x80, 0x00, 0, 1}), "p6");
+  EXPECT_EQ(wide.at(0, 0), Color(1, 32768 / 65535.0, 1 / 65535.0));
+  EXPECT_EQ(decodePicture("P5 1 1 255\n\x33", "p5").at(0, 0), Color(0.2));
+  EXPECT_EQ(decodePicture("P2 1 1 4 1", "p2").at(0, 0), Color(0.25));
+}
+
+TEST(CodecKnownAnswer, Hdr) {
+  // From "Real Pixels": value = mantissa / 256 * 2^(exponent - 128).
+  Picture picture(2, 1);
+  picture.at(0, 0) = {1, 0.5, 0.25};
+  picture.at(1, 0) = {0, 640, 0};
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+  const std::string file = header + text({128, 64, 32, 129, 0, 160, 0, 138});
+  EXPECT_EQ(encodePicture(formatNamed("HDR"), picture), file);
+  EXPECT_EQ(decodePicture(file, "hdr"), picture);
+}
+
+TEST(CodecKnownAnswer, HdrWithRunLengthCodedRow) {
+  const std::string file =
+      "#?RGBE\n# by hand\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 1 +X 8\n" +
+      text({2, 2, 0, 8, 128 + 8, 128, 3, 0, 64, 128, 128 + 5, 0, 128 + 8, 0, 128 + 8, 129});
+  const Picture picture = decodePicture(file, "hdr");
+  EXPECT_EQ(picture.at(0, 0), Color(1, 0, 0));
+  EXPECT_EQ(picture.at(1, 0), Color(1, 0.5, 0));
+  EXPECT_EQ(picture.at(2, 0), Color(1, 1, 0));
+  EXPECT_EQ(picture.at(7, 0), Color(1, 0, 0));
+  for (size_t length = 0; length < file.size(); ++length)
+    EXPECT_THROW(decodePicture(file.substr(0, length), "cut"), Error);
+}
+
+// The checksum once more, bit by bit, so that the table of the program is not its own judge.
+std::uint32_t crc(std::string_view bytes) {
+  std::uint32_t c = ~0u;
+  for (char byte : bytes) {
+    c ^= static_cast<std::uint8_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) c = c & 1 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
+  }
+  return ~c;
+}
+std::string big(std::uint32_t n) {
+  return text({int(n >> 24), int(n >> 16 & 255), int(n >> 8 & 255), int(n & 255)});
+}
+std::string chunk(const std::string& typeAndData) {
+  return big(static_cast<std::uint32_t>(typeAndData.size() - 4)) + typeAndData + big(crc(typeAndData));
+}
+const std::string kPngSignature = text({0x89, 'P', 'N', 'G', 13, 10, 26, 10});
+
+TEST(CodecKnownAnswer, PngChunks) {
+  const Metadata words{{"Software", "Trace"}, {"Author", "J\xC3\xBCrgen"}, {"Title", "\xE2\x88\x9E"}};
+  const std::string file = encodePicture(formatNamed("PNG"), fromBytes(kKnown), Rounding::truncate, words);
+  const std::string begin = kPngSignature + chunk("IHDR" + big(2) + big(2) + text({8, 2, 0, 0, 0})) +
+                            chunk("tEXtSoftware" + text({0}) + "Trace") +
+                            chunk("tEXtAuthor" + text({0}) + "J\xFCrgen") +
+                            chunk("iTXtTitle" + text({0, 0, 0, 0, 0}) + "\xE2\x88\x9E");
+  ASSERT_EQ(file.substr(0, begin.size()), begin);
+  const std::string end = text({0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82});
+  ASSERT_EQ(file.substr(file.size() - 12), end);
+  const std::string data = file.substr(begin.size(), file.size() - begin.size() - 12);
+  EXPECT_EQ(data, chunk(data.substr(4, data.size() - 8)));
+  EXPECT_EQ(data.substr(4, 4), "IDAT");
+}
+
+TEST(CodecKnownAnswer, PngRead) {
+  // One stored deflate block; rows from above, each with filter 0; Adler-32 worked out apart.
+  const std::string rows = text({0, 255, 0, 0, 10, 10, 10, 0, 1, 2, 3, 4, 5, 6});
+  std::uint32_t a = 1, b = 0;
+  for (char byte : rows) b = (b + (a = (a + static_cast<std::uint8_t>(byte)) % 65521)) % 65521;
+  const std::string zlib = text({0x78, 0x01, 1, 14, 0, 0xF1, 0xFF}) + rows + big(b << 16 | a);
+  const std::string file = kPngSignature + chunk("IHDR" + big(2) + big(2) + text({8, 2, 0, 0, 0})) +
+                           chunk("IDAT" + zlib) + chunk("IEND");
+  EXPECT_EQ(toBytes(decodePicture(file, "png"), Rounding::nearest), kKnown);
+  std::string damaged = file;
+  damaged[damaged.size() - 25] ^= 1;  // within the pixels
+  EXPECT_THROW(decodePicture(damaged, "png"), Error);
+}
+
+// --- words stored with a picture -----------------------------------------------------------------------
+
+TEST(CodecMetadata, ComesBack) {
+  const Folder folder;
+  const Metadata words{
+      {"Scene", "caf\xC3\xA9 \xE2\x88\x9E.ray"}, {"Settings", "width=400 depth=5: all"}, {"Void", ""}};
+  const Picture picture = smoothPicture(17, 5);
+  for (const PictureFormat& format : pictureFormats()) {
+    SCOPED_TRACE(format.name);
+    const std::string path = folder / ("words" + std::string(format.suffixes[0]));
+    writePicture(path, picture, Rounding::truncate, words);
+    if (format.name == "BMP" || format.name == "TGA")
+      EXPECT_TRUE(readMetadata(path).empty());
+    else
+      EXPECT_EQ(readMetadata(path), words);
+    // and the pixels are those of the picture without words
+    EXPECT_EQ(readPicture(path), decodePicture(encodePicture(format, picture), "plain"));
+  }
+}
+
+TEST(CodecMetadata, AwkwardWordsNeverLoseThePicture) {
+  const std::string longText(200'000, 'x');
+  const Metadata words{{"", "no key"},
+                       {std::string(300, 'k'), "long key"},
+                       {" \n\xFF ", "odd key"},
+                       {"Lines", "one\ntwo\r\nthree"},
+                       {"Zero", std::string("a\0b", 3)},
+                       {"Broken", "\xFF\xC3"},
+                       {"Long", longText}};
+  const Picture picture = smoothPicture(3, 2);
+  const Folder folder;
+  for (const PictureFormat& format : pictureFormats()) {
+    SCOPED_TRACE(format.name);
+    const std::string path = folder / ("awkward" + std::string(format.suffixes[0]));
+    writePicture(path, picture, Rounding::truncate, words);
+    EXPECT_EQ(readPicture(path), decodePicture(encodePicture(format, picture), "plain"));
+    const Metadata back = readMetadata(path);
+    if (!back.empty()) {
+      EXPECT_EQ(back.size(), words.size());
+      EXPECT_NE(std::find(back.begin(), back.end(), std::pair(std::string("Long"), longText)), back.end());
+      EXPECT_NE(std::find(back.begin(), back.end(), std::pair(std::string("Comment"), std::string("no key"))),
+                back.end());
+    }
+  }
+}
+
+// --- names and errors ------------------------------------------------------------------------------------
+
+std::string messageOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(CodecNames, SuffixInAnyCase) {
+  for (const PictureFormat& format : pictureFormats())
+    for (std::string_view suffix : format.suffixes) {
+      EXPECT_EQ(pictureFormatFor("folder.x/a.b" + std::string(suffix)).name, format.name);
+      std::string upper(suffix);
+      std::transform(upper.begin(), upper.end(), upper.begin(),
+                     [](char c) { return c == '.' ? c : char(c - 32); });
+      EXPECT_EQ(pictureFormatFor("A" + upper).name, format.name);
+    }
+}
+
+TEST(CodecNames, UnknownSuffixNamesAllKnownOnes) {
+  const std::string message = messageOf([] { pictureFormatFor("out.pngg"); });
+  for (const PictureFormat& format : pictureFormats())
+    for (std::string_view suffix : format.suffixes)
+      EXPECT_NE(message.find(suffix), std::string::npos) << message;
+  EXPECT_NE(message.find("did you mean \".png\"?"), std::string::npos) << message;
+  for (const char* path : {"out", "out.", "folder.png/out", "", ".", "C:\\folder.png\\out"})
+    EXPECT_THROW(pictureFormatFor(path), Error) << path;
+  try {
+    pictureFormatFor("out.gif");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.fault(), Fault::usage);
+  }
+}
+
+TEST(CodecErrors, UnwritablePathLeavesNothing) {
+  const Folder folder;
+  EXPECT_THROW(writePicture(folder / "no/such/folder/a.png", Picture(1, 1)), Error);
+  fs::create_directory(folder / "taken.png");
+  EXPECT_THROW(writePicture(folder / "taken.png", Picture(1, 1)), Error);
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(CodecErrors, SizesThatDoNotFit) {
+  for (const PictureFormat& format : pictureFormats()) {
+    EXPECT_NO_THROW(checkEncodable(format, 8000, 6000)) << format.name;
+    EXPECT_THROW(checkEncodable(format, 0, 5), Error);
+    EXPECT_THROW(checkEncodable(format, 5, -1), Error);
+    EXPECT_THROW(checkEncodable(format, 2'000'000'000, 2'000'000'000), Error);
+    EXPECT_THROW(encodePicture(format, Picture()), Error);
+  }
+  EXPECT_THROW(checkEncodable(formatNamed("TGA"), 65536, 1), Error);
+  EXPECT_THROW(checkEncodable(formatNamed("JPEG"), 1, 65536), Error);
+  EXPECT_THROW(checkEncodable(formatNamed("PNG"), 20000, 20000), Error);
+}
+
+TEST(CodecErrors, MissingFileAndNoPicture) {
+  const Folder folder;
+  EXPECT_THROW(readPicture(folder / "none.png"), Error);
+  EXPECT_THROW(readPicture(folder / ""), Error);
+  for (const char* content :
+       {"", "P", "P6", "BM", "hello, this is a text and no picture at all", "\xFF\xD8\xFF", "#?RGBE\n"}) {
+    writeFile(folder / "bad.png", content);
+    const std::string message = messageOf([&] { readPicture(folder / "bad.png"); });
+    EXPECT_NE(message.find("bad.png"), std::string::npos) << message;
+  }
+}
+
+TEST(CodecErrors, AbsurdSizesAreRefusedBeforeAnyMemoryIsTaken) {
+  for (const std::string& file :
+       {std::string("P6 99999999 99999999 255\n"), std::string("P5 60000 60000 255\nabc"),
+        std::string("P6 0 5 255\n"),
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 900000 +X 900000\n" + std::string(100, 'a'),
+        text({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 24, 0, 1, 2, 3}),
+        kPngSignature + chunk("IHDR" + big(1 << 23) + big(1 << 23) + text({8, 2, 0, 0, 0})) +
+            chunk("IDATabc") + chunk("IEND")})
+    EXPECT_THROW(decodePicture(file, "absurd"), Error) << file.substr(0, 20);
+}
+
+TEST(CodecErrors, EveryTruncationIsRefused) {
+  for (const PictureFormat& format : pictureFormats())
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(17, 5)}) {
+      const std::string whole =
+          encodePicture(format, noisyPicture(width, height), Rounding::truncate, {{"Key", "some words"}});
+      for (size_t length = 0; length < whole.size(); ++length)
+        // a copy of exact length, so that the address sanitizer sees every byte read too far
+        EXPECT_THROW(decodePicture(std::string(whole, 0, length), "cut"), Error)
+            << format.name << " " << width << "x" << height << " cut to " << length << " of " << whole.size();
+    }
+}
+
+TEST(CodecErrors, DamagedBytesNeverCrash) {
+  std::uint32_t state = 7;
+  const auto random = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string whole =
+        encodePicture(format, noisyPicture(17, 5), Rounding::truncate, {{"Key", "words"}});
+    for (int trial = 0; trial < 1500; ++trial) {
+      std::string damaged = whole;
+      // most changes to the header, where the sizes are
+      const size_t reach =
+          trial % 3 == 0 ? damaged.size() : std::min<size_t>(damaged.size(), 64 + trial % 300);
+      for (std::uint32_t changes = 1 + random() % 4; changes > 0; --changes)
+        damaged[random() % reach] = static_cast<char>(random());
+      try {
+        const Picture picture = decodePicture(damaged, "damaged");
+        EXPECT_EQ(picture.pixels.size(), size_t(picture.width) * size_t(picture.height));
+        format.metadata(damaged);
+      } catch (const std::exception&) {
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trace

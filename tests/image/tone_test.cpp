@@ -1,0 +1,57 @@
+// Levels from colours: the two roundings to the last value, and numbers that are none.
+#include "image/tone.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace trace {
+namespace {
+
+TEST(Tone, RoundsAsTheCoursesDo) {
+  EXPECT_EQ(toLevel(0.5, Rounding::truncate), 127);
+  EXPECT_EQ(toLevel(0.5, Rounding::nearest), 128);
+  EXPECT_EQ(toLevel(1.0, Rounding::truncate), 255);
+  EXPECT_EQ(toLevel(1.0, Rounding::nearest), 255);
+  EXPECT_EQ(toLevel(std::nextafter(1.0, 0.0), Rounding::truncate), 254);
+  EXPECT_EQ(toLevel(std::nextafter(1.0, 0.0), Rounding::nearest), 255);
+  EXPECT_EQ(toLevel(0.0, Rounding::truncate), 0);
+  EXPECT_EQ(toLevel(0.49 / 255, Rounding::nearest), 0);
+  EXPECT_EQ(toLevel(0.51 / 255, Rounding::nearest), 1);
+}
+
+TEST(Tone, ClampsAndMakesNanBlack) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (Rounding rounding : {Rounding::truncate, Rounding::nearest}) {
+    EXPECT_EQ(toLevel(std::numeric_limits<double>::quiet_NaN(), rounding), 0);
+    EXPECT_EQ(toLevel(kInfinity, rounding), 255);
+    EXPECT_EQ(toLevel(-kInfinity, rounding), 0);
+    EXPECT_EQ(toLevel(-0.7, rounding), 0);
+    EXPECT_EQ(toLevel(-0.0, rounding), 0);
+    EXPECT_EQ(toLevel(1e300, rounding), 255);
+  }
+}
+
+TEST(Tone, EveryLevelComesBack) {
+  Bytes bytes{256, 1, {}};
+  for (int level = 0; level < 256; ++level)
+    for (int channel = 0; channel < 3; ++channel) bytes.rgb.push_back(static_cast<std::uint8_t>(level));
+  EXPECT_EQ(toBytes(fromBytes(bytes), Rounding::truncate), bytes);
+  EXPECT_EQ(toBytes(fromBytes(bytes), Rounding::nearest), bytes);
+}
+
+TEST(Tone, KeepsTheOrderOfChannelsAndRows) {
+  Picture picture(1, 2);
+  picture.at(0, 0) = {1, 0, 0};
+  picture.at(0, 1) = {0, 1, 0.5};
+  EXPECT_EQ(toBytes(picture, Rounding::truncate), (Bytes{1, 2, {255, 0, 0, 0, 255, 127}}));
+}
+
+TEST(Tone, EmptyPicture) {
+  EXPECT_EQ(toBytes(Picture(), Rounding::nearest), Bytes());
+  EXPECT_EQ(fromBytes(Bytes()), Picture());
+}
+
+}  // namespace
+}  // namespace trace

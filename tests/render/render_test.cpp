@@ -1,0 +1,175 @@
+// Properties of whole pictures.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "render/integrator.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+bool sameBits(const Picture& a, const Picture& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Color)) == 0;
+}
+
+TEST(Render, SameBitsAndCountsForAnyNumberOfThreads) {
+  Random random(1);
+  const Scene scene = randomScene(random, 20);
+  Settings settings{.width = 130, .spp = 4, .depth = 4, .threads = 1};
+  Statistics one;
+  const Picture reference = picture(scene, settings, &one);
+  for (int threads : {2, 7}) {
+    settings.threads = threads;
+    Statistics counts;
+    EXPECT_TRUE(sameBits(reference, picture(scene, settings, &counts))) << threads;
+    EXPECT_EQ(one, counts);
+  }
+}
+
+TEST(Render, SameBitsWithAndWithoutHierarchy) {
+  Random random(2);
+  for (int s = 0; s < 5; ++s) {
+    const Scene scene = randomScene(random, 15);
+    Settings settings{.width = 80, .depth = 4};
+    const Picture fast = picture(scene, settings);
+    settings.accel = Accel::none;
+    EXPECT_TRUE(sameBits(fast, picture(scene, settings)));
+  }
+}
+
+TEST(Render, ScaleLeavesThePictureAlike) {
+  for (double scale : {1e-4, 1e-2, 1e3, 1e6}) {
+    Random a(3), b(3);
+    const Scene unit = randomScene(a, 20), scaled = randomScene(b, 20, scale);
+    const Settings settings{.width = 120, .depth = 4};
+    const Picture x = picture(unit, settings), y = picture(scaled, settings);
+    const Levels levels = compareLevels(x, y);
+    // Rounding may decide a silhouette differently; powers of ten are not exact in binary.
+    EXPECT_LE(levels.beyondOne, 30) << scale;
+  }
+  Random a(4), b(4);  // powers of two are: the same bits
+  Settings settings{.width = 120, .depth = 4};
+  EXPECT_LE(compareLevels(picture(randomScene(a, 20), settings), picture(randomScene(b, 20, 1024), settings)).beyondOne, 3);
+}
+
+TEST(Render, BoxFilteredDisk) {
+  // A glowing sphere whose outline is a circle of radius 0.3 of the picture: mean coverage 0.282743.
+  Scene scene;
+  Phong glow;
+  glow.emissive = Color(1);
+  scene.camera.position = {0, 0, 5};
+  const Real tangent = 0.3;  // at distance 1 the picture is 1 high: radius 0.3 there
+  const Real radius = 5 * std::sin(std::atan(tangent));
+  addObject(scene, Sphere{}, Affine::scaling({radius, radius, radius}), glow);
+  const Picture p = picture(scene, {.width = 200, .spp = 16});
+  double sum = 0;
+  for (const Color& c : p.pixels) sum += c.r;
+  EXPECT_NEAR(sum / static_cast<double>(p.pixels.size()), 0.282743, 2e-4);
+}
+
+TEST(Render, PixelPositionsAreCornersOrCentres) {
+  // A square that fills exactly the right half of the picture.
+  Scene scene;
+  Phong glow;
+  glow.emissive = Color(1);
+  addObject(scene, Square{}, Affine::translation({0.5, 0, -1}) * Affine::scaling({1, 2, 1}), glow);
+  for (PixelPosition position : {PixelPosition::corner, PixelPosition::center}) {
+    const Picture p = picture(scene, {.width = 10, .pixelPosition = position});
+    EXPECT_EQ(p.at(4, 5).r, 0);
+    EXPECT_EQ(p.at(5, 5).r, 1);  // the corner of column width / 2 lies exactly on the axis
+  }
+  // Row 0 is the top: look at the upper half only.
+  Scene upper;
+  addObject(upper, Square{}, Affine::translation({0, 0.5, -1}) * Affine::scaling({2, 1, 1}), glow);
+  const Picture p = picture(upper, {.width = 10, .pixelPosition = PixelPosition::center});
+  EXPECT_EQ(p.at(5, 0).r, 1);
+  EXPECT_EQ(p.at(5, 9).r, 0);
+}
+
+TEST(Render, RegionIsTheSamePixelsAndBlackElsewhere) {
+  Random random(5);
+  const Scene scene = randomScene(random, 15);
+  Settings settings{.width = 90};
+  const Picture whole = picture(scene, settings);
+  settings.region = {10, 20, 50, 60};
+  const Picture part = picture(scene, settings);
+  for (int y = 0; y < whole.height; ++y)
+    for (int x = 0; x < whole.width; ++x) {
+      const bool inside = x >= 10 && x < 50 && y >= 20 && y < 60;
+      EXPECT_EQ(part.at(x, y), inside ? whole.at(x, y) : Color(0));
+    }
+}
+
+TEST(Render, HeightFollowsTheAspectRatio) {
+  Camera camera;
+  camera.aspectratio = 1.9;
+  EXPECT_EQ(pictureSize({.width = 400}, camera).height, 211);  // floor(400 / 1.9 + 0.5)
+  EXPECT_EQ(pictureSize({.width = 400, .height = 7}, camera).height, 7);
+  camera.aspectratio = 1e9;
+  EXPECT_EQ(pictureSize({.width = 400}, camera).height, 1);
+  camera.aspectratio = 1e-9;
+  EXPECT_THROW(pictureSize({.width = 400}, camera), Error);
+}
+
+TEST(Render, BadSamplesAreDroppedCountedAndFound) {
+  Scene scene;
+  Phong bad;
+  bad.emissive = Color(std::numeric_limits<double>::quiet_NaN());
+  addObject(scene, Square{}, Affine::translation({0.5, 0, -1}) * Affine::scaling({1, 2, 1}), bad);
+  const World world = build(scene);
+  const Settings settings{.width = 10};
+  Film film(10, 10);
+  Job job;
+  const RenderResult result = render(world, settings, film, job);
+  EXPECT_EQ(result.statistics.badSamples, 50u);
+  ASSERT_EQ(result.badSamples.size(), 50u);
+  EXPECT_EQ(result.badSamples[0], (BadSample{5, 0, 0}));
+  for (const Color& c : film.picture().pixels) EXPECT_EQ(c, Color(0));
+}
+
+TEST(Render, StopsWhenCancelledOrOutOfTime) {
+  Random random(6);
+  const Scene scene = randomScene(random, 30);
+  const World world = build(scene);
+  {
+    Film film(400, 400);
+    Job job;
+    job.cancel = true;
+    EXPECT_EQ(render(world, {.width = 400}, film, job).end, End::cancelled);
+  }
+  {
+    Film film(4000, 4000);
+    Job job;
+    const RenderResult result = render(world, {.width = 4000, .spp = 100, .timeLimit = 0.05}, film, job);
+    EXPECT_EQ(result.end, End::timeLimit);
+    EXPECT_GT(job.done, 0);
+    EXPECT_LT(job.fraction(), 1);
+  }
+}
+
+TEST(Render, SupersampledPictureIsTheMeanOfTheGrid) {
+  // 2 x 2 rays per pixel are the corner rays of a picture of twice the size.
+  Random random(7);
+  const Scene scene = randomScene(random, 15);
+  const Picture fine = picture(scene, {.width = 80}), coarse = picture(scene, {.width = 40, .spp = 4});
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const Color mean = (fine.at(2 * x, 2 * y) + fine.at(2 * x + 1, 2 * y) + fine.at(2 * x, 2 * y + 1) +
+                          fine.at(2 * x + 1, 2 * y + 1)) / 4;
+      EXPECT_NEAR(coarse.at(x, y).r, mean.r, 1e-12);
+    }
+}
+
+TEST(Integrators, EveryChoiceHasItsRow) {
+  const auto names = findOption("integrator").choices;
+  ASSERT_EQ(integrators().size(), names.size());
+  for (size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(integrators()[i].name, names[i]);
+    EXPECT_EQ(static_cast<size_t>(integrators()[i].integrator), i);
+  }
+}
+
+}  // namespace
+}  // namespace trace::test

@@ -1,0 +1,176 @@
+// Rays and the compiled world: the hierarchy against brute force, and rays that start from surfaces.
+#include <gtest/gtest.h>
+
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+Ray rayThrough(Random& random, double scale) {
+  return {random.inCube(3 * scale), normalize(random.inCube(1.5 * scale) - random.inCube(1.5 * scale))};
+}
+
+// 20 scenes: a million rays, or a tenth of that under the slow sanitizers.
+constexpr int kRays = kSanitized ? 5000 : 50000;
+
+TEST(World, HierarchyFindsWhatBruteForceFinds) {
+  Random random(1);
+  Statistics statistics;
+  int hits = 0;
+  for (int s = 0; s < 20; ++s) {
+    const Scene scene = randomScene(random, 12);
+    const World fast = build(scene), slow = build(scene, {.accel = Accel::none});
+    for (int i = 0; i < kRays; ++i) {
+      const Ray ray = rayThrough(random, 1);
+      const auto a = fast.closest(ray, Faces::both, statistics), b = slow.closest(ray, Faces::both, statistics);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (!a) continue;
+      ++hits;
+      ASSERT_EQ(a->t, b->t);
+      ASSERT_EQ(a->object, b->object);
+      ASSERT_EQ(a->part, b->part);
+    }
+  }
+  EXPECT_GT(hits, kRays);
+}
+
+TEST(World, AllCrossingsAreThoseOfBruteForce) {
+  Random random(2);
+  Statistics statistics;
+  for (int s = 0; s < 5; ++s) {
+    const Scene scene = randomScene(random, 12);
+    const World fast = build(scene), slow = build(scene, {.accel = Accel::none});
+    for (int i = 0; i < 5000; ++i) {
+      const Ray ray = rayThrough(random, 1);
+      const Real tMost = random.coin() ? kInfinity : random.uniform(0, 5);
+      const auto collect = [&](const World& world) {
+        std::vector<Found> found;
+        world.crossings(ray, tMost, Faces::both, statistics, [&](const Found& f) { return found.push_back(f), false; });
+        std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.before(b); });
+        return found;
+      };
+      const auto a = collect(fast), b = collect(slow);
+      ASSERT_EQ(a.size(), b.size());
+      for (size_t k = 0; k < a.size(); ++k) {
+        ASSERT_TRUE(a[k].t == b[k].t && a[k].object == b[k].object && a[k].part == b[k].part);
+        ASSERT_LT(a[k].t, tMost);
+      }
+    }
+  }
+}
+
+/// A ray restarted from a hit, on either side, does not meet the same place again, at any scale.
+TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {
+  Random random(3);
+  Statistics statistics;
+  std::vector<Shape> shapes = analyticShapes();
+  shapes.push_back(Mesh{ballMesh(10, random)});
+  int restarts = 0;
+  for (double scale : {1e-4, 1e-2, 1.0, 1e3, 1e6}) {
+    for (const Shape& shape : shapes) {
+      for (int i = 0; i < 40; ++i) {
+        Scene scene;
+        addObject(scene, shape, random.affine(scale), {});
+        const World world = build(scene);
+        const Vec3 center = world.bounds().center(), size = world.bounds().size();
+        for (int k = 0; k < 100; ++k) {
+          const Vec3 target = center + Vec3{size.x * random.uniform(-0.5, 0.5), size.y * random.uniform(-0.5, 0.5),
+                                            size.z * random.uniform(-0.5, 0.5)};
+          const Vec3 d = random.direction();
+          const Ray ray{target - d * (10 * length(size)), d};
+          const auto found = world.closest(ray, Faces::both, statistics);
+          if (!found) continue;
+          const SurfacePoint surface = world.surface(ray, *found);
+          // Even the most glancing directions must get away.
+          Vec3 out = random.direction();
+          if (k % 4 == 0) out = normalize(cross(out, surface.normal) + surface.normal * random.uniform(-1e-6, 1e-6));
+          const Ray next = spawnRay(surface, out);
+          ++restarts;
+          ASSERT_LT(length(next.origin - surface.point), 1e-11 * (length(size) + length(surface.point)));
+          const auto again = world.closest(next, Faces::both, statistics);
+          if (!again) continue;
+          // Only a true crossing of the other side is left: it lies farther than rounding reaches.
+          EXPECT_GT(again->t, 1e-9 * length(size))
+              << nameOf(shape) << " at scale " << scale << ", along " << dot(out, surface.normal);
+        }
+      }
+    }
+  }
+  EXPECT_GT(restarts, 50000);
+}
+
+TEST(World, HitsLieInTheBoundsAndNormalsAreUnit) {
+  Random random(4);
+  Statistics statistics;
+  for (int s = 0; s < 20; ++s) {
+    const World world = build(randomScene(random, 10));
+    for (int i = 0; i < 2000; ++i) {
+      const Ray ray = rayThrough(random, 1);
+      const auto found = world.closest(ray, Faces::both, statistics);
+      if (!found) continue;
+      const SurfacePoint surface = world.surface(ray, *found);
+      const Vec3 e = surface.error;
+      const Box3 padded{world.bounds().low - e, world.bounds().high + e};
+      EXPECT_TRUE(padded.contains(surface.point));
+      EXPECT_NEAR(length(surface.normal), 1, 1e-14);
+      EXPECT_NEAR(length(surface.shading), 1, 1e-14);
+      EXPECT_LT(length(surface.point - ray.at(found->t)), 1e-11);
+    }
+  }
+}
+
+TEST(World, ASphereScaledUnevenlyIsAnEllipsoid) {
+  Scene scene;
+  addObject(scene, Sphere{}, Affine::scaling({1, 2, 3}), {});
+  const World world = build(scene);
+  Statistics statistics;
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 d = random.direction();
+    const Ray ray{d * 10, -d};
+    const auto found = world.closest(ray, Faces::both, statistics);
+    ASSERT_TRUE(found);
+    const SurfacePoint s = world.surface(ray, *found);
+    const Vec3 q{s.point.x, s.point.y / 2, s.point.z / 3};
+    EXPECT_NEAR(dot(q, q), 1, 1e-14);
+    const Vec3 gradient = normalize({q.x, q.y / 2, q.z / 3});
+    EXPECT_LT(length(gradient - s.normal), 1e-14);
+  }
+}
+
+TEST(World, MeshesNamedTwiceShareTheirTree) {
+  Random random(6);
+  Scene scene;
+  const Mesh mesh{ballMesh(20, random)};
+  for (int i = 0; i < 3; ++i) addObject(scene, mesh, Affine::translation({3.0 * i, 0, 0}), {});
+  const World world = build(scene);
+  EXPECT_EQ(world.triangleCount(), 3 * mesh.data->triangles.size());
+  EXPECT_EQ(mesh.data.use_count(), 8);  // here, three objects of the scene and three of the world, one tree
+}
+
+TEST(World, FlatTransformsAreLeftOutWithAWarning) {
+  Scene scene;
+  addObject(scene, Sphere{}, Affine::scaling({1, 0, 1}), {});
+  addObject(scene, Sphere{}, {}, {});
+  Messages messages;
+  const World world = compile(scene, {}, messages);
+  ASSERT_EQ(messages.all().size(), 1u);
+  Statistics statistics;
+  const auto found = world.closest({{0, 0, 5}, {0, 0, -1}}, Faces::both, statistics);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->object, 1u);
+  for (Accel accel : {Accel::bvh, Accel::none}) {
+    Messages unused;
+    const World other = compile(scene, {.accel = accel}, unused);
+    EXPECT_EQ(other.closest({{0, 0.5, 5}, {0, 0, -1}}, Faces::both, statistics)->object, 1u);
+  }
+}
+
+TEST(World, CameraThatCannotLookIsRefused) {
+  Scene scene;
+  scene.camera.updir = scene.camera.viewdir;
+  EXPECT_THROW(build(scene), Error);
+}
+
+}  // namespace
+}  // namespace trace::test

@@ -1,0 +1,144 @@
+// The options table: one test per promise that every row keeps.
+#include "scene/options.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scene/conventions.h"
+
+namespace trace {
+namespace {
+
+std::vector<std::string> someValues(const Option& option) {
+  switch (option.kind) {
+    case Option::Kind::boolean: return {"on", "off"};
+    case Option::Kind::choice: return {option.choices.begin(), option.choices.end()};
+    case Option::Kind::region: return {"1,2,30,40", "0,0,0,0"};
+    default: return {option.get({}), std::to_string(static_cast<int>(option.least) + 1)};
+  }
+}
+
+TEST(Options, NamesAreUniqueAndTextsComplete) {
+  std::set<std::string_view> names;
+  for (const Option& option : options()) {
+    EXPECT_TRUE(names.insert(option.name).second) << option.name;
+    EXPECT_FALSE(option.help.empty() || option.group.empty() || option.integrators.empty()) << option.name;
+    EXPECT_NE(option.help.back(), '.') << option.name;
+    EXPECT_EQ(option.kind == Option::Kind::choice, !option.choices.empty()) << option.name;
+  }
+}
+
+TEST(Options, TextRoundTrips) {
+  for (const Option& option : options())
+    for (const std::string& value : someValues(option)) {
+      Settings settings;
+      option.assign(settings, value);
+      EXPECT_EQ(option.get(settings), value) << option.name;
+    }
+}
+
+TEST(Options, BadValuesAreRefusedByNameAndChangeNothing) {
+  for (const Option& option : options())
+    for (const char* bad : {"", "banana", "nan", "inf", "1e99", "-1e99", "1;2"}) {
+      Settings settings;
+      try {
+        option.assign(settings, bad);
+        ADD_FAILURE() << option.name << " took \"" << bad << '"';
+      } catch (const Error& error) {
+        EXPECT_EQ(error.fault(), Fault::usage);
+        const std::string what = error.what();
+        EXPECT_NE(what.find("--" + std::string(option.name) + ": expected "), std::string::npos) << what;
+        EXPECT_NE(what.find("found \"" + std::string(bad) + "\""), std::string::npos) << what;
+      }
+      EXPECT_EQ(settings, Settings{});
+    }
+}
+
+TEST(Options, ARowChangesItsOwnFieldOnly) {
+  for (const Option& option : options()) {
+    Settings settings;
+    for (const std::string& value : someValues(option)) option.assign(settings, value);
+    for (const Option& other : options())
+      EXPECT_TRUE(other.name == option.name || other.get(settings) == other.get({})) << option.name << other.name;
+  }
+}
+
+TEST(Options, ExtrasAreOffByDefault) {
+  for (const Option& option : options()) {
+    if (!option.extra) continue;
+    const std::string value = option.get({});
+    EXPECT_TRUE(value == "off" || value == "0" || (option.name == "spp" && value == "1")) << option.name;
+  }
+}
+
+TEST(Options, UnknownNamesGetAHint) {
+  try {
+    findOption("widht");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"width\""), std::string::npos);
+  }
+}
+
+TEST(Conventions, EachGivesAValueToEveryOptionOfTheGroup) {
+  std::set<std::string_view> group;
+  for (const Option& option : options())
+    if (option.group == "Conventions" && option.name != "like") group.insert(option.name);
+  const auto likes = findOption("like").choices;
+  ASSERT_EQ(conventions().size(), likes.size());
+  for (size_t i = 0; i < likes.size(); ++i) {
+    const Convention& row = conventions()[i];
+    EXPECT_EQ(row.name, likes[i]);
+    EXPECT_EQ(static_cast<size_t>(row.like), i);
+    std::set<std::string_view> given;
+    Settings settings;
+    for (const auto& [option, value] : row.values) {
+      EXPECT_TRUE(given.insert(option).second) << option;
+      EXPECT_NO_THROW(findOption(option).assign(settings, value));
+    }
+    EXPECT_EQ(given, group) << row.name;
+  }
+}
+
+TEST(Conventions, TheDefaultsAreThoseOfTheFirstRow) {
+  const std::vector<Choice> like{{"like", "uw", {}}};
+  EXPECT_EQ(resolve({like}), Settings{});
+}
+
+TEST(Resolve, LikeComesFirstInItsLayerAndLaterLayersWin) {
+  const std::vector<Choice> file{{"highlight", "blinn", {}}, {"like", "ut", {}}, {"depth", "2", {}}};
+  Settings settings = resolve({file});
+  EXPECT_EQ(settings.highlight, Highlight::blinn);
+  EXPECT_EQ(settings.glass, Glass::perDistance);
+  EXPECT_EQ(settings.depth, 2);
+
+  const std::vector<Choice> line{{"like", "uw2001", {}}, {"depth", "7", {}}};
+  settings = resolve({file, line});
+  EXPECT_EQ(settings.like, Like::uw2001);
+  EXPECT_EQ(settings.highlight, Highlight::phong);  // the line's convention overrides the file's single choice
+  EXPECT_EQ(settings.glass, Glass::perCrossing);
+  EXPECT_EQ(settings.depth, 7);
+}
+
+TEST(Resolve, ErrorsCarryTheChoicesPlace) {
+  const std::vector<Choice> file{{"depth", "many", {"a.ray", 4, 9, "depth = many"}}};
+  try {
+    resolve({file});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::scene);
+    EXPECT_EQ(std::string(error.what()).find("a.ray:4:9: error: --depth: expected"), 0u);
+  }
+}
+
+TEST(ChangedOptions, AreWhatRecreatesTheSettings) {
+  const std::vector<Choice> line{{"like", "ut", {}}, {"width", "37", {}}, {"region", "1,2,3,4", {}}};
+  const Settings settings = resolve({line});
+  const std::vector<Choice> changed = changedOptions(settings);
+  EXPECT_EQ(resolve({changed}), settings);
+  EXPECT_TRUE(changedOptions({}).empty());
+}
+
+}  // namespace
+}  // namespace trace

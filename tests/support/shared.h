@@ -1,0 +1,27 @@
+// Real scenes and pictures that lie outside the repository. Tests that need them skip when they are absent.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace trace::test {
+
+/// Skips the calling test, by name and loudly, when `folder` of the shared material is not there.
+#define TRACE_NEEDS_SHARED(folder)                                                     \
+  if (!std::filesystem::is_directory(std::string(TRACE_SHARED) + "/" + (folder)))      \
+  GTEST_SKIP() << "SKIPPED: needs the shared material in " << TRACE_SHARED << "/" << (folder)
+
+inline std::vector<std::string> filesUnder(const std::string& folder, const std::string& suffix) {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none))
+    if (entry.is_regular_file() && entry.path().extension() == suffix) files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace trace::test
