@@ -44,7 +44,8 @@ class Session {
 
   /// What is rendered so far. May be called from other threads while render() runs.
   Picture picture() const { return film_->picture(); }
-  /// Writes picture() with the settings as metadata. Throws Error(Fault::io), Error(Fault::usage).
+  /// Writes picture() with the settings as metadata; not while render() runs, since both note their time.
+  /// Throws Error(Fault::io), Error(Fault::usage).
   void save(const std::string& path);
 
   const std::vector<Phase>& phases() const { return phases_; }

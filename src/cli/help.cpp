@@ -156,6 +156,13 @@ std::string cell(std::string_view text) {
   return result;
 }
 
+/// "render info" as "render, info".
+std::string spaced(std::string_view words) {
+  std::string result;
+  for (char c : words) result += c == ' ' ? std::string(", ") : std::string(1, c);
+  return result;
+}
+
 std::string code(std::string_view text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
 
 }  // namespace
@@ -226,7 +233,7 @@ std::string optionsMarkdown() {
   }
   text += "\n## The program\n\n| flag | of | what it does |\n|---|---|---|\n";
   for (const Flag& flag : flags())
-    text += "| " + code(flagsOf(flag)) + " | " + cell(flag.commands) + " | " + cell(flag.help) + " |\n";
+    text += "| " + code(flagsOf(flag)) + " | " + spaced(flag.commands) + " | " + cell(flag.help) + " |\n";
   text += "\nExit codes: " + std::string(kExitCodes) + ".\n\nSignals: " + std::string(kSignals) + ".\n";
   return text;
 }

@@ -33,6 +33,8 @@ class Program {
     arguments.push_back(nullptr);
     child_ = ::fork();
     if (child_ != 0) return;
+    for (int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
+      ::signal(signal, SIG_DFL);  // even in a background job
     for (const char* name : {"RAY_THREADS", "RAY_LOG", "COLUMNS", "NO_COLOR"}) ::unsetenv(name);
     for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
     const bool ready = ::chdir(folder.c_str()) == 0 && redirect("/dev/null", O_RDONLY, 0) &&

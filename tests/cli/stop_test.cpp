@@ -27,10 +27,8 @@ class Stop : public ProgramTest {
     EXPECT_EQ(picture.at(picture.width - 1, picture.height - 1), Color(0));
   }
 
-  static bool hasBegun(Program& program) {
-    return program.says("\"done\":") && !program.err().empty() && waitForTiles(program);
-  }
-  static bool waitForTiles(Program& program) {
+  /// Waits until some tiles are done; false after a minute.
+  static bool hasBegun(const Program& program) {
     for (int i = 0; i < 6000; ++i) {
       const std::string text = program.err();
       const size_t end = text.rfind('\n');
@@ -49,9 +47,7 @@ TEST_F(Stop, CtrlCKeepsThePart) {
     ASSERT_TRUE(hasBegun(program)) << program.err();
     program.kill(signal);
     EXPECT_EQ(program.wait(), 4);
-    EXPECT_EQ(program.lastLine().substr(0, 49),
-              "stopped by the user: wrote out.png (1000x800, " + program.lastLine().substr(47, 2))
-        << program.err();
+    EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote out.png (1000x800, "));
     EXPECT_TRUE(contains(program.lastLine(), " % done) in "));
     EXPECT_EQ(json::parse(program.out())["end"], "cancelled");
     expectPart();
@@ -130,12 +126,12 @@ TEST_F(Stop, JsonProgress) {
 }
 
 TEST_F(Stop, PlainProgressInALog) {
-  Program program(folder(), {"white.ray", "-w", "64", "--time-limit", "3", "--spp", "16000", "-t", "1"});
+  Program program(folder(), longRender({"--progress=auto"}));
+  EXPECT_TRUE(program.says(" % done, ")) << program.err();
+  program.kill(SIGINT);
   program.wait();
-  // Two tiles of 64 x 51 pixels are 4 in all: a tenth is done with each.
   EXPECT_FALSE(contains(program.err(), "\r"));
-  EXPECT_TRUE(contains(program.err(), " % done, ")) << program.err();
-  EXPECT_TRUE(contains(program.err(), " elapsed")) << program.err();
+  EXPECT_TRUE(contains(program.err(), " elapsed"));
   Program brief(folder(), {"white.ray", "-w", "64"});
   brief.wait();
   EXPECT_EQ(brief.err().substr(0, 6), "wrote ");

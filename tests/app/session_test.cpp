@@ -1,0 +1,112 @@
+// A document from file to picture, over our own example scenes.
+#include "app/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+
+#include "image/codec.h"
+#include "support/random.h"
+#include "support/shared.h"
+
+namespace trace::test {
+namespace {
+
+const std::string kExamples = std::string(TRACE_SOURCE) + "/scenes";
+
+Picture renderFile(const std::string& file, std::vector<Choice> choices) {
+  Session session;
+  session.open(file, choices);
+  session.build();
+  session.render();
+  return session.picture();
+}
+
+TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
+  const std::vector<std::string> scenes = filesUnder(kExamples, ".ray");
+  ASSERT_FALSE(scenes.empty());
+  for (const std::string& scene : scenes) {
+    Session session;
+    session.open(scene, std::vector<Choice>{{"width", "64", {}}});
+    session.build();
+    EXPECT_TRUE(session.messages().all().empty()) << toString(session.messages().all().front());
+    const Picture one = renderFile(scene, {{"width", "64", {}}, {"threads", "1", {}}});
+    double brightest = 0;
+    for (const Color& c : one.pixels) brightest = std::max(brightest, maxComponent(c));
+    EXPECT_GT(brightest, 0.2) << scene;
+    for (const char* threads : {"2", "7"})
+      EXPECT_EQ(one, renderFile(scene, {{"width", "64", {}}, {"threads", threads, {}}})) << scene;
+  }
+}
+
+/// The example scene of each extra, and a value that turns it on.
+const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
+    {"spp", {"antialias.ray", "9"}},
+    {"threshold", {"threshold.ray", "0.3"}},
+};
+
+TEST(Extras, EachChangesThePictureOfItsExampleAndNothingWhenOff) {
+  for (const Option& option : options()) {
+    if (!option.extra) continue;
+    const auto extra = kExtras.find(option.name);
+    ASSERT_NE(extra, kExtras.end()) << option.name << " has no example scene";
+    const auto [scene, on] = extra->second;
+    const std::string file = kExamples + "/" + scene, name(option.name);
+    const Choice width{"width", "100", {}}, off{name, option.get({}), {}};
+    std::vector<Choice> allOff{width};
+    for (const Option& other : options())
+      if (other.extra) allOff.push_back({std::string(other.name), other.get({}), {}});
+    const Picture plain = renderFile(file, allOff);
+    EXPECT_EQ(plain, renderFile(file, {width, off})) << name;
+    EXPECT_NE(plain, renderFile(file, {width, {name, on, {}}})) << name;
+  }
+}
+
+TEST(Session, PicturesKeepHowTheyWereMade) {
+  const std::string path = testing::TempDir() + "/trace_metadata.png";
+  Session session;
+  session.open(kExamples + "/shapes.ray", std::vector<Choice>{{"width", "20", {}}, {"like", "ut", {}}});
+  session.build();
+  session.render();
+  session.save(path);
+  std::map<std::string, std::string> metadata;
+  for (const auto& [key, value] : readMetadata(path)) metadata[key] = value;
+  EXPECT_EQ(metadata["Software"], "Trace " TRACE_VERSION);
+  EXPECT_EQ(metadata["Title"], "shapes.ray");
+  EXPECT_NE(metadata["Settings"].find("like=ut"), std::string::npos);
+  EXPECT_NE(metadata["Settings"].find("width=20"), std::string::npos);
+}
+
+TEST(Session, RefusesPicturesBeyondItsMemory) {
+  Session session;
+  session.open(kExamples + "/shapes.ray", std::vector<Choice>{{"width", "2000", {}}, {"max-memory", "1", {}}});
+  try {
+    session.build();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::limit);
+  }
+}
+
+/// Resident memory in KiB, or 0 where the system does not tell.
+long residentMemory() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * 4;
+}
+
+TEST(Session, MemoryStaysFlatOverTwoHundredRenders) {
+  if (kSanitized) GTEST_SKIP() << "SKIPPED: the sanitizers keep freed memory (and look for leaks themselves)";
+  const auto renders = [](int n) {
+    for (int i = 0; i < n; ++i) renderFile(kExamples + "/mesh.ray", {{"width", "50", {}}});
+  };
+  renders(30);
+  const long before = residentMemory();
+  renders(200);
+  EXPECT_LT(residentMemory() - before, 2048) << "KiB more after 200 renders";
+}
+
+}  // namespace
+}  // namespace trace::test
