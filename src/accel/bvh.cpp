@@ -8,9 +8,8 @@ namespace trace {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kMostInLeaf = 4;
 constexpr int kDepthOfHeuristic = 60;  // deeper, nodes are halved by count: 32 more levels hold 2^32 items
-constexpr Real kCostOfStep = 1;        // of visiting a node, in tests of one item
+constexpr float kCostOfNode = 1, kCostOfLeaf = 1;  // of visiting one; a leaf's items are tested together
 
 float roundDown(Real x) {
   const float f = static_cast<float>(x);
@@ -18,106 +17,227 @@ float roundDown(Real x) {
 }
 float roundUp(Real x) { return -roundDown(-x); }
 
-struct Bin {
-  Box3 box;
-  std::uint32_t count = 0;
+/// A box in float. Empty as made.
+struct Bounds {
+  float low[3] = {kFar, kFar, kFar}, high[3] = {-kFar, -kFar, -kFar};
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+
+  void extend(const Bounds& b) {
+    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], b.low[i]), high[i] = std::max(high[i], b.high[i]);
+  }
+  float halfArea() const {
+    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x < 0 ? 0 : x * y + y * z + z * x;
+  }
+};
+
+/// An item on its way into the tree.
+struct Reference {
+  Bounds box;
+  std::uint32_t item;
+  float center(int axis) const { return box.low[axis] + box.high[axis]; }  // twice the centre
+};
+
+/// Of the binary tree.
+struct Branch {
+  Bounds box;
+  std::uint32_t first;  ///< of the left child, the right one follows; of a leaf: the first reference
+  std::uint32_t count;  ///< 0 for inner nodes
 };
 
 }  // namespace
 
 struct Bvh::Builder {
-  std::span<const Box3> boxes;
-  std::vector<Vec3> centers;
-  std::vector<Node>& nodes;
-  std::vector<std::uint32_t>& items;
+  std::vector<Reference> references;
+  std::vector<Branch> branches;
+  Bvh& bvh;
+
+  // --- the binary tree ---
 
   struct Split {
-    Real cost = kInfinity;
+    float cost = Bounds::kFar;
     int axis = 0, bin = 0;
   };
+  struct Bins {  // from centre to bin number
+    float low[3], scale[3];
+    int operator()(const Reference& r, int axis) const {
+      return std::min(static_cast<int>((r.center(axis) - low[axis]) * scale[axis]), kBins - 1);
+    }
+  };
 
-  int binOf(const Box3& centroids, int axis, std::uint32_t item) const {
-    const Real scale = kBins / (centroids.high[axis] - centroids.low[axis]);
-    const Real bin = (centers[item][axis] - centroids.low[axis]) * scale;
-    return std::clamp(static_cast<int>(std::min(bin, Real{kBins})), 0, kBins - 1);
+  static float leafCost(std::uint32_t count) {
+    return kCostOfLeaf * static_cast<float>((count + kLeafSize - 1) / kLeafSize);
   }
 
-  /// The cheapest of the planes between bins: sum of half-area times count on both sides.
-  Split cheapestSplit(std::uint32_t first, std::uint32_t count, const Box3& centroids) const {
+  /// The cheapest of the planes between bins: on each side, half-area times the leaves its items fill.
+  Split cheapestSplit(std::uint32_t first, std::uint32_t count, const Bins& bins) const {
+    struct Bin {
+      Bounds box;
+      std::uint32_t count = 0;
+    };
+    std::array<std::array<Bin, kBins>, 3> all;
+    for (std::uint32_t i = first; i < first + count; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        Bin& bin = all[static_cast<size_t>(axis)][static_cast<size_t>(bins(references[i], axis))];
+        bin.box.extend(references[i].box), ++bin.count;
+      }
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      const Real extent = centroids.high[axis] - centroids.low[axis];
-      if (!(extent > 0) || !std::isfinite(kBins / extent)) continue;
-      std::array<Bin, kBins> bins;
-      for (std::uint32_t i = first; i < first + count; ++i) {
-        Bin& bin = bins[static_cast<size_t>(binOf(centroids, axis, items[i]))];
-        bin.box.extend(boxes[items[i]]), ++bin.count;
-      }
-      std::array<Real, kBins> rightCost{};
+      if (bins.scale[axis] == 0) continue;
+      const auto& row = all[static_cast<size_t>(axis)];
+      std::array<float, kBins> rightCost{};
       Bin right, left;
       for (size_t b = kBins - 1; b > 0; --b) {
-        right.box.extend(bins[b].box), right.count += bins[b].count;
-        rightCost[b] = right.count ? halfArea(right.box) * right.count : 0;
+        right.box.extend(row[b].box), right.count += row[b].count;
+        rightCost[b] = right.box.halfArea() * leafCost(right.count);
       }
       for (size_t b = 0; b + 1 < kBins; ++b) {
-        left.box.extend(bins[b].box), left.count += bins[b].count;
+        left.box.extend(row[b].box), left.count += row[b].count;
         if (left.count == 0 || left.count == count) continue;
-        const Real cost = halfArea(left.box) * left.count + rightCost[b + 1];
+        const float cost = left.box.halfArea() * leafCost(left.count) + rightCost[b + 1];
         if (cost < best.cost) best = {cost, axis, static_cast<int>(b)};
       }
     }
     return best;
   }
 
-  void setBounds(Node& node, const Box3& box) const {
-    const Real pad = std::max(maxComponent(abs(box.low)), maxComponent(abs(box.high))) / (1 << 22);
-    for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis] = roundDown(box.low[axis] - pad);
-      node.high[axis] = roundUp(box.high[axis] + pad);
+  void branch(std::uint32_t index, std::uint32_t first, std::uint32_t count, int depth) {
+    Bounds box, centers;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      box.extend(references[i].box);
+      for (int axis = 0; axis < 3; ++axis) {
+        const float c = references[i].center(axis);
+        centers.low[axis] = std::min(centers.low[axis], c),
+        centers.high[axis] = std::max(centers.high[axis], c);
+      }
     }
-  }
+    branches[index].box = box;
 
-  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, int depth) {
-    Box3 box, centroids;
-    for (std::uint32_t i = first; i < first + count; ++i)
-      box.extend(boxes[items[i]]), centroids.extend(centers[items[i]]);
-    setBounds(nodes[index], box);
-
-    const Split split = depth < kDepthOfHeuristic ? cheapestSplit(first, count, centroids) : Split{};
-    const Real asLeaf = halfArea(box) * count, asNode = halfArea(box) * kCostOfStep + split.cost;
-    if (count == 1 || (count <= kMostInLeaf && !(asNode < asLeaf))) {
-      nodes[index].first = first, nodes[index].count = count;
+    Bins bins;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float scale = kBins * 0.9999f / (centers.high[axis] - centers.low[axis]);
+      bins.low[axis] = centers.low[axis];
+      bins.scale[axis] = std::isfinite(scale) ? scale : 0;
+    }
+    const Split split = depth < kDepthOfHeuristic && count > 1 ? cheapestSplit(first, count, bins) : Split{};
+    const float asLeaf = box.halfArea() * leafCost(count), asNode = box.halfArea() * kCostOfNode + split.cost;
+    if (count == 1 || (count <= kLeafSize && !(asNode < asLeaf))) {
+      branches[index].first = first, branches[index].count = count;
       return;
     }
-    const auto begin = items.begin() + first, end = begin + count;
+    const auto begin = references.begin() + first, end = begin + count;
     auto middle = begin + count / 2;  // items that no plane separates are halved by number
-    if (split.cost < kInfinity)
-      middle = std::stable_partition(begin, end, [&](std::uint32_t item) {
-        return binOf(centroids, split.axis, item) <= split.bin;
-      });
+    if (split.cost < Bounds::kFar)
+      middle =
+          std::partition(begin, end, [&](const Reference& r) { return bins(r, split.axis) <= split.bin; });
     const auto leftCount = static_cast<std::uint32_t>(middle - begin);
-    const auto children = static_cast<std::uint32_t>(nodes.size());
-    nodes[index].first = children, nodes[index].count = 0;
-    nodes.resize(nodes.size() + 2);
-    build(children, first, leftCount, depth + 1);
-    build(children + 1, first + leftCount, count - leftCount, depth + 1);
+    const auto children = static_cast<std::uint32_t>(branches.size());
+    branches[index].first = children, branches[index].count = 0;
+    branches.resize(branches.size() + 2);
+    branch(children, first, leftCount, depth + 1);
+    branch(children + 1, first + leftCount, count - leftCount, depth + 1);
+  }
+
+  // --- eight to a node ---
+
+  std::uint32_t addLeaf(const Branch& leaf) {
+    const std::uint32_t number = bvh.leafCount();
+    for (std::uint32_t i = 0; i < kLeafSize; ++i)
+      bvh.items_.push_back(i < leaf.count ? references[leaf.first + i].item : kNoItem);
+    return number | BvhNode::kLeaf;
+  }
+
+  /// Opens the largest inner child again and again until eight are found; writes the node and all below it.
+  std::uint32_t collapse(std::uint32_t index) {
+    std::array<std::uint32_t, 8> children{index};
+    size_t count = 1;
+    while (count < 8) {
+      size_t largest = 8;
+      for (size_t i = 0; i < count; ++i) {
+        const Branch& b = branches[children[i]];
+        if (b.count == 0 && (largest == 8 || b.box.halfArea() > branches[children[largest]].box.halfArea()))
+          largest = i;
+      }
+      if (largest == 8) break;
+      const std::uint32_t left = branches[children[largest]].first;
+      children[largest] = left, children[count++] = left + 1;
+    }
+
+    const auto number = static_cast<std::uint32_t>(bvh.nodes_.size());
+    bvh.nodes_.emplace_back();
+    for (size_t lane = 0; lane < 8; ++lane) {
+      Bounds box;
+      std::uint32_t child = BvhNode::kLeaf;
+      if (lane < count) {
+        const Branch& b = branches[children[lane]];
+        box = b.box;
+        child = b.count > 0 ? addLeaf(b) : collapse(children[lane]);
+      }
+      BvhNode& node = bvh.nodes_[number];
+      for (int axis = 0; axis < 3; ++axis)
+        node.low[axis][lane] = box.low[axis], node.high[axis][lane] = box.high[axis];
+      node.child[lane] = child;
+    }
+    return number;
   }
 };
+
+Bvh::Bvh(std::span<const Box3> boxes) {
+  for (const Box3& box : boxes)
+    if (!box.empty()) bounds_.extend(box);
+  if (bounds_.empty()) return;
+
+  // The slab test's rounding moves a box's face by less than 2^-21 of the largest coordinate: origin and
+  // difference each by 2^-24, the inverse direction by 2^-23 of a distance of at most twice that coordinate.
+  const Real pad = std::max(maxComponent(abs(bounds_.low)), maxComponent(abs(bounds_.high))) * 0x1p-20;
+  const Vec3 padding{pad, pad, pad};
+  bounds_ = {bounds_.low - padding, bounds_.high + padding};
+
+  Builder builder{{}, {}, *this};
+  builder.references.reserve(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].empty()) continue;
+    Reference r{{}, i};
+    for (int axis = 0; axis < 3; ++axis) {
+      r.box.low[axis] = roundDown(boxes[i].low[axis] - pad);
+      r.box.high[axis] = roundUp(boxes[i].high[axis] + pad);
+    }
+    builder.references.push_back(r);
+  }
+  builder.branches.reserve(builder.references.size());
+  builder.branches.resize(1);
+  builder.branch(0, 0, static_cast<std::uint32_t>(builder.references.size()), 0);
+  builder.collapse(0);
+}
 
 Bvh Bvh::bruteForce(std::span<const Box3> boxes) {
   Bvh bvh;
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     if (!boxes[i].empty()) bvh.items_.push_back(i);
+  while (bvh.items_.size() % kLeafSize != 0) bvh.items_.push_back(kNoItem);
   return bvh;
 }
 
-Bvh::Bvh(std::span<const Box3> boxes) : Bvh(bruteForce(boxes)) {
-  if (items_.empty()) return;
-  Builder builder{boxes, std::vector<Vec3>(boxes.size()), nodes_, items_};
-  for (std::uint32_t i : items_) builder.centers[i] = boxes[i].center();
-  nodes_.reserve(2 * items_.size());
-  nodes_.resize(1);
-  builder.build(0, 0, static_cast<std::uint32_t>(items_.size()), 0);
+bool Bvh::prepare(const Vec3& origin, const Vec3& direction, Real tMost, SlabRay& ray) const {
+  Real enter = 0, leave = tMost;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real inverse = 1 / direction[axis];
+    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse,
+               t1 = (bounds_.high[axis] - origin[axis]) * inverse;
+    // A NaN (0 * infinity: the ray lies in the plane of a face) leaves the interval as it is.
+    const Real near = inverse < 0 ? t1 : t0, far = inverse < 0 ? t0 : t1;
+    enter = near > enter ? near : enter;
+    leave = far < leave ? far : leave;
+    // No infinities below: a direction along an axis gives a very large inverse.
+    constexpr Real kMostInverse = 1e18;
+    ray.inverse[axis] =
+        static_cast<float>(std::abs(inverse) < kMostInverse ? inverse : std::copysign(kMostInverse, inverse));
+  }
+  if (!(enter <= leave)) return false;
+  ray.start = enter;
+  for (int axis = 0; axis < 3; ++axis)
+    ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
+  return true;
 }
 
 }  // namespace trace

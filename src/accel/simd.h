@@ -1,8 +1,8 @@
 // A thin type for eight floats and one for four doubles: what the traversal and the triangle test need, no
 // more. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for plain C++.
 //
-// Each instruction set has its own inline namespace, so that code compiled for one is never linked in place of
-// another's. Comparisons give masks with bit i for lane i.
+// Each instruction set has its own inline namespace, so that code compiled for one is never linked in place
+// of another's. Comparisons give masks with bit i for lane i.
 #pragma once
 
 #if defined(__AVX2__)
@@ -115,17 +115,29 @@ Lanes<T, N> map(const Lanes<T, N>& a, const Lanes<T, N>& b, F f) {
   return r;
 }
 template <class T, int N>
-Lanes<T, N> operator-(const Lanes<T, N>& a, const Lanes<T, N>& b) { return map(a, b, [](T x, T y) { return x - y; }); }
+Lanes<T, N> operator-(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x - y; });
+}
 template <class T, int N>
-Lanes<T, N> operator+(const Lanes<T, N>& a, const Lanes<T, N>& b) { return map(a, b, [](T x, T y) { return x + y; }); }
+Lanes<T, N> operator+(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x + y; });
+}
 template <class T, int N>
-Lanes<T, N> operator*(const Lanes<T, N>& a, const Lanes<T, N>& b) { return map(a, b, [](T x, T y) { return x * y; }); }
+Lanes<T, N> operator*(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x * y; });
+}
 template <class T, int N>
-Lanes<T, N> min(const Lanes<T, N>& a, const Lanes<T, N>& b) { return map(a, b, [](T x, T y) { return x < y ? x : y; }); }
+Lanes<T, N> min(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x < y ? x : y; });
+}
 template <class T, int N>
-Lanes<T, N> max(const Lanes<T, N>& a, const Lanes<T, N>& b) { return map(a, b, [](T x, T y) { return x > y ? x : y; }); }
+Lanes<T, N> max(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x > y ? x : y; });
+}
 template <class T, int N>
-Lanes<T, N> abs(const Lanes<T, N>& a) { return map(a, a, [](T x, T) { return x < 0 ? -x : x; }); }
+Lanes<T, N> abs(const Lanes<T, N>& a) {
+  return map(a, a, [](T x, T) { return x < 0 ? -x : x; });
+}
 template <class T, int N>
 unsigned lessEqual(const Lanes<T, N>& a, const Lanes<T, N>& b) {
   unsigned mask = 0;

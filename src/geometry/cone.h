@@ -53,8 +53,10 @@ struct Frustum {
         return;
       }
       const Crossing root{-C / (2 * B), side};
-      if (B > 0) within(in, std::min(root, out, byT), visit);
-      else within(std::max(root, in, byT), out, visit);
+      if (B > 0)
+        within(in, std::min(root, out, byT), visit);
+      else
+        within(std::max(root, in, byT), out, visit);
       return;
     }
     const Roots2 roots = solveQuadratic(A, B, C, discriminant(o, d, A));
@@ -139,7 +141,8 @@ struct Cylinder {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"capped", &Cylinder::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return std::tuple{
+        Field{"capped", &Cylinder::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const Cylinder&) const = default;
 

@@ -35,19 +35,19 @@ Real edgeSide(const Vec2& p, const Vec2& q) {
 
 }  // namespace
 
-TriangleRay::TriangleRay(const Ray& ray) : ray_(ray) {
+TriangleRay::TriangleRay(const Ray& ray) : origin(ray.origin), direction(ray.direction) {
   const Vec3 size = abs(ray.direction);
-  z_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  x_ = (z_ + 1) % 3, y_ = (z_ + 2) % 3;
-  if (ray.direction[z_] < 0) std::swap(x_, y_);  // keeps the winding
-  shearX_ = ray.direction[x_] / ray.direction[z_];
-  shearY_ = ray.direction[y_] / ray.direction[z_];
+  z = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  x = (z + 1) % 3, y = (z + 2) % 3;
+  if (ray.direction[z] < 0) std::swap(x, y);  // keeps the winding
+  shearX = ray.direction[x] / ray.direction[z];
+  shearY = ray.direction[y] / ray.direction[z];
 }
 
 std::optional<TriangleHit> TriangleRay::intersect(const MeshData& mesh, std::uint32_t index) const {
   const Corners v = corners(mesh, index);
-  const Vec3 a = v.a - ray_.origin, b = v.b - ray_.origin, c = v.c - ray_.origin;
-  const auto project = [&](const Vec3& p) { return Vec2{p[x_] - shearX_ * p[z_], p[y_] - shearY_ * p[z_]}; };
+  const Vec3 a = v.a - origin, b = v.b - origin, c = v.c - origin;
+  const auto project = [&](const Vec3& p) { return Vec2{p[x] - shearX * p[z], p[y] - shearY * p[z]}; };
   const Vec2 pa = project(a), pb = project(b), pc = project(c);
   const Real e0 = edgeSide(pb, pc), e1 = edgeSide(pc, pa), e2 = edgeSide(pa, pb);
   if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0)) return {};
@@ -60,9 +60,9 @@ std::optional<TriangleHit> TriangleRay::intersect(const MeshData& mesh, std::uin
   // in the triangle's plane, by rounding, the corners' distances must do.
   const Vec3 normal = cross(v.b - v.a, v.c - v.a);
   if (normal == Vec3{}) return {};
-  const Real along = dot(normal, ray_.direction);
+  const Real along = dot(normal, direction);
   hit.t = along != 0 ? dot(normal, a) / along
-                     : (hit.b[0] * a[z_] + hit.b[1] * b[z_] + hit.b[2] * c[z_]) / ray_.direction[z_];
+                     : (hit.b[0] * a[z] + hit.b[1] * b[z] + hit.b[2] * c[z]) / direction[z];
   hit.front = along != 0 ? along < 0 : sum < 0;
   return hit;
 }
@@ -87,7 +87,8 @@ SurfacePoint surface(const MeshData& mesh, std::uint32_t index, const TriangleHi
   s.uv = {hit.b[1], hit.b[2]};
   if (!mesh.uvs.empty()) {
     const Vec2 &p = mesh.uvs[t[0]], &q = mesh.uvs[t[1]], &r = mesh.uvs[t[2]];
-    s.uv = {p.x * hit.b[0] + q.x * hit.b[1] + r.x * hit.b[2], p.y * hit.b[0] + q.y * hit.b[1] + r.y * hit.b[2]};
+    s.uv = {p.x * hit.b[0] + q.x * hit.b[1] + r.x * hit.b[2],
+            p.y * hit.b[0] + q.y * hit.b[1] + r.y * hit.b[2]};
   }
   return s;
 }

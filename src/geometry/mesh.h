@@ -33,7 +33,8 @@ struct MeshData {
 
 struct Mesh {
   static constexpr std::string_view kKeyword = "polymesh";
-  static constexpr std::string_view kHelp = "triangle mesh: points, faces, and per-point normals, materials, uv";
+  static constexpr std::string_view kHelp =
+      "triangle mesh: points, faces, and per-point normals, materials, uv";
   static constexpr auto fields() { return std::tuple{}; }
 
   std::shared_ptr<const MeshData> data = std::make_shared<MeshData>();
@@ -49,18 +50,16 @@ struct TriangleHit {
 
 /// A ray prepared for many triangles: sheared so that it runs along an axis from the origin (Woop, Benthin
 /// and Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013).
-class TriangleRay {
- public:
+struct TriangleRay {
+  Vec3 origin, direction;
+  int x, y, z;  ///< axes, z that of the largest component of the direction
+  Real shearX, shearY;
+
   explicit TriangleRay(const Ray& ray);
 
   /// Where the line of the ray meets the triangle, if it does. Watertight: of the triangles around an edge or
   /// a vertex that the ray hits exactly, one is hit per crossing of the surface.
   std::optional<TriangleHit> intersect(const MeshData& mesh, std::uint32_t index) const;
-
- private:
-  Ray ray_;
-  int x_, y_, z_;       ///< axes, z_ that of the largest component of the direction
-  Real shearX_, shearY_;
 };
 
 SurfacePoint surface(const MeshData& mesh, std::uint32_t index, const TriangleHit& hit);

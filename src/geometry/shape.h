@@ -33,7 +33,7 @@ concept AnalyticShape = requires(const S s, const Ray ray, const Crossing crossi
   s.crossings(ray, [](const Crossing&) {});
   { s.surface(ray, crossing) } -> std::same_as<SurfacePoint>;
 };
-static_assert(AnalyticShape<Sphere> && AnalyticShape<Cube> && AnalyticShape<Square> && AnalyticShape<Cylinder> &&
-              AnalyticShape<Cone>);
+static_assert(AnalyticShape<Sphere> && AnalyticShape<Cube> && AnalyticShape<Square> &&
+              AnalyticShape<Cylinder> && AnalyticShape<Cone>);
 
 }  // namespace trace

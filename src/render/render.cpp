@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <tuple>
@@ -66,8 +67,9 @@ Size pictureSize(const Settings& settings, const Camera& camera) {
   double height = settings.height;
   if (settings.height == 0) height = std::max(1.0, std::floor(settings.width / camera.aspectratio + 0.5));
   if (!(height <= kMost))
-    throw Error(Fault::limit, "the picture would be " + std::to_string(settings.width) + " pixels wide and more than " +
-                                  std::to_string(static_cast<int>(kMost)) + " high",
+    throw Error(Fault::limit,
+                "the picture would be " + std::to_string(settings.width) + " pixels wide and more than " +
+                    std::to_string(static_cast<int>(kMost)) + " high",
                 "the camera's aspect ratio (width / height) is very small; --height N sets the height");
   return {settings.width, static_cast<int>(height)};
 }
@@ -82,26 +84,34 @@ RenderResult render(const World& world, const Settings& settings, Film& film, Jo
 
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
-  parallelChunks(film.tiles(), threads, job, [&](std::int64_t chunk, int worker) {
+  const auto renderTile = [&](std::int64_t chunk, int worker) {
     auto& renderer = workers[static_cast<std::size_t>(worker)];
     if (!renderer) renderer = std::make_unique<TileRenderer>(world, settings, film);
     renderer->render(film.tile(chunk));
     film.markDone(chunk);
     if (settings.timeLimit > 0 && Clock::now() - start > limit) late = true, job.cancel = true;
-  });
+  };
 
   RenderResult result;
+  try {
+    parallelChunks(film.tiles(), threads, job, renderTile);
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
   for (const auto& renderer : workers) {
     if (!renderer) continue;
     result.statistics += renderer->statistics();
-    result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(), renderer->badSamples().end());
+    result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(),
+                             renderer->badSamples().end());
   }
   std::sort(result.badSamples.begin(), result.badSamples.end(), [](const BadSample& a, const BadSample& b) {
     return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
   });
   result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
-  const bool complete = job.done == job.total;
-  result.end = complete ? End::finished : late ? End::timeLimit : End::cancelled;
+  result.end = job.done == job.total     ? End::finished
+               : !result.failure.empty() ? End::failed
+               : late                    ? End::timeLimit
+                                         : End::cancelled;
   return result;
 }
 

@@ -1,8 +1,7 @@
 // World -> Film: all camera rays, by any number of threads, in fixed tiles.
 #pragma once
 
-#include <chrono>
-#include <vector>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
@@ -19,10 +18,11 @@ struct BadSample {
   bool operator==(const BadSample&) const = default;
 };
 
-enum class End { finished, cancelled, timeLimit };
+enum class End { finished, cancelled, timeLimit, failed };
 
 struct RenderResult {
   End end = End::finished;
+  std::string failure;  ///< of End::failed: what went wrong, such as a lack of memory
   Statistics statistics;
   std::vector<BadSample> badSamples;  ///< in picture order, the first kMostBadSamples
 };
@@ -39,7 +39,8 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 int gridSize(const Settings& settings);
 
 /// Renders into `film`, whose size must be pictureSize(). Returns early when job.cancel is set or the time
-/// limit is over; tiles that were begun are finished. The same bits for any number of threads.
+/// limit is over; tiles that were begun are finished. What is finished survives a failure too. The same bits
+/// for any number of threads.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

@@ -11,15 +11,16 @@
 namespace trace {
 
 enum class RayKind { camera, reflection, refraction, shadow };
-inline constexpr std::array<std::string_view, 4> kRayKindNames{"camera", "reflection", "refraction", "shadow"};
+inline constexpr std::array<std::string_view, 4> kRayKindNames{"camera", "reflection", "refraction",
+                                                               "shadow"};
 
 struct Statistics {
   static constexpr std::size_t kShapes = std::variant_size_v<Shape>;
 
   std::array<std::uint64_t, kRayKindNames.size()> rays{};
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of the list of shapes
-  std::uint64_t nodes = 0;                              ///< hierarchy nodes visited
-  std::uint64_t badSamples = 0;                         ///< NaN or infinite, dropped
+  std::uint64_t nodes = 0;                             ///< hierarchy nodes visited
+  std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
 
   std::uint64_t allRays() const {
     std::uint64_t sum = 0;

@@ -38,8 +38,10 @@ Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distan
   for (const Found& found : crossed_) {
     const Color filter = world_.material(found).transmissive;
     if (isBlack(filter)) return Color(0);
-    if (settings_.glass == Glass::perCrossing) passed *= filter;
-    else if (dot(toLight, world_.surface(ray, found).normal) > 0) passed *= pow(filter, found.t - last);
+    if (settings_.glass == Glass::perCrossing)
+      passed *= filter;
+    else if (dot(toLight, world_.surface(ray, found).normal) > 0)
+      passed *= pow(filter, found.t - last);
     last = found.t;
   }
   return passed;

@@ -32,22 +32,25 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
     const auto arriving = match(light, [&](const auto& l) { return l.illuminate(surface.point); });
     if (!arriving) continue;
     const Color scattered = arriving->intensity * material.scatter(normal, arriving->toLight, -ray.direction);
-    if (!isBlack(scattered)) sum += scattered * tracer.visible(surface, arriving->toLight, arriving->distance);
+    if (!isBlack(scattered))
+      sum += scattered * tracer.visible(surface, arriving->toLight, arriving->distance);
   }
 
-  const auto worthwhile = [&](const Color& w) { return !isBlack(w) && !(maxComponent(w) < settings.threshold); };
+  const auto worthwhile = [&](const Color& w) {
+    return !isBlack(w) && !(maxComponent(w) < settings.threshold);
+  };
   if (path.depth < settings.depth) {
     if (const Color share = path.weight * material.reflective; worthwhile(share)) {
       const Vec3 direction = mirrored(ray.direction, normal);
-      sum += material.reflective *
-             radianceAlong(tracer, spawnRay(surface, direction),
-                           {RayKind::reflection, path.depth + 1, share, path.medium});
+      sum += material.reflective * radianceAlong(tracer, spawnRay(surface, direction),
+                                                 {RayKind::reflection, path.depth + 1, share, path.medium});
     }
     const bool perCrossing = settings.glass == Glass::perCrossing;
     const Color filter = perCrossing ? material.transmissive : Color(1);
     if (const Color share = path.weight * filter; material.transmits() && worthwhile(share)) {
       const Color medium = perCrossing || hit->leaving ? Color(1) : material.transmissive;
-      const Real ratio = hit->leaving ? material.index / settings.airIndex : settings.airIndex / material.index;
+      const Real ratio =
+          hit->leaving ? material.index / settings.airIndex : settings.airIndex / material.index;
       if (const auto direction = refracted(ray.direction, normal, ratio))
         sum += filter * radianceAlong(tracer, spawnRay(surface, *direction),
                                       {RayKind::refraction, path.depth + 1, share, medium});

@@ -2,7 +2,6 @@
 
 #include <map>
 
-
 namespace trace {
 
 std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
@@ -12,7 +11,7 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& sta
     return false;
   };
   bvh_.query(ray.origin, ray.direction, best.t, statistics.nodes, [&](std::uint32_t object) {
-    return visitObject(object, ray, best.t, faces, statistics, keepNearest);
+    return visitObject(object, ray, best.t, true, faces, statistics, keepNearest);
   });
   if (best.t == kInfinity) return {};
   return best;
@@ -23,9 +22,12 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
   const Ray ray{toObject * worldRay.origin, linear(toObject, worldRay.direction)};
   SurfacePoint s = match(
-      instance.shape,
-      Overloaded{[&](const Mesh&) { return trace::surface(*instance.mesh->data, found.part, found.triangle); },
-                 [&](const auto& shape) { return shape.surface(ray, {found.t, static_cast<int>(found.part)}); }});
+      instance.shape, Overloaded{[&](const Mesh&) {
+                                   return trace::surface(instance.mesh->data(), found.part, found.triangle);
+                                 },
+                                 [&](const auto& shape) {
+                                   return shape.surface(ray, {found.t, static_cast<int>(found.part)});
+                                 }});
 
   // Rounding on the way to the world, and on the way back when the next ray is brought to this object.
   const Vec3 p = s.point;
@@ -40,8 +42,8 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
 
 Phong World::material(const Found& found) const {
   const Instance& instance = objects_[found.object];
-  if (instance.mesh && !instance.mesh->data->materials.empty()) {
-    const MeshData& data = *instance.mesh->data;
+  if (instance.mesh && !instance.mesh->data().materials.empty()) {
+    const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
     const auto at = [&](int corner) -> const Phong& {
       return materials_[data.materials[t[static_cast<size_t>(corner)]]];
@@ -54,7 +56,7 @@ Phong World::material(const Found& found) const {
 std::size_t World::triangleCount() const {
   std::size_t count = 0;
   for (const Instance& instance : objects_)
-    if (instance.mesh) count += instance.mesh->data->triangles.size();
+    if (instance.mesh) count += instance.mesh->data().triangles.size();
   return count;
 }
 
@@ -64,7 +66,8 @@ namespace {
 
 Phong bake(const Material& material, const Settings& settings) {
   Phong phong = std::get<Phong>(material.model);
-  if (phong.mirrorsSpecular && settings.mirrorDefault == MirrorDefault::specular) phong.reflective = phong.specular;
+  if (phong.mirrorsSpecular && settings.mirrorDefault == MirrorDefault::specular)
+    phong.reflective = phong.specular;
   phong.shininess *= settings.shininessScale;
   phong.highlight = settings.highlight;
   phong.litFromBehind = settings.diffuseSides == DiffuseSides::bothOnGlass && phong.transmits();
@@ -93,11 +96,12 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   const Camera& camera = scene.camera;
   if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
       !(length(cross(camera.viewdir, camera.updir)) > 0))
-    throw Error(Fault::scene, Place{.file = scene.file}, "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
+    throw Error(Fault::scene, Place{.file = scene.file},
+                "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
   world.camera_ = frame(camera, settings.cameraAxes);
 
-  std::map<const MeshData*, std::shared_ptr<const World::MeshTree>> trees;
+  std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees;
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
     World::Instance instance{object.shape, object.worldFromObject, {}, {}, object.material, true, {}};
@@ -111,25 +115,22 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
     }
     instance.opaque = !world.materials_[object.material].transmits();
     Box3 box;
-    match(instance.shape, Overloaded{[&](Mesh& mesh) {
-                                       auto& tree = trees[mesh.data.get()];
-                                       if (!tree) {
-                                         auto data = mesh.data;
-                                         if (data->generateNormals)
-                                           data = std::make_shared<const MeshData>(withGeneratedNormals(
-                                               *data, settings.vertexNormals == VertexNormals::unit));
-                                         std::vector<Box3> triangles(data->triangles.size());
-                                         for (std::uint32_t i = 0; i < triangles.size(); ++i)
-                                           if (faceNormal(*data, i) != Vec3{}) triangles[i] = bounds(*data, i);
-                                         tree = std::make_shared<const World::MeshTree>(
-                                             World::MeshTree{data, hierarchy(triangles, settings.accel)});
-                                       }
-                                       instance.mesh = tree;
-                                       for (std::uint32_t m : tree->data->materials)
-                                         if (world.materials_.at(m).transmits()) instance.opaque = false;
-                                       box = bounds(*tree->data);
-                                     },
-                                     [&](const auto& shape) { box = shape.bounds(); }});
+    match(instance.shape,
+          Overloaded{[&](Mesh& mesh) {
+                       auto& tree = trees[mesh.data.get()];
+                       if (!tree) {
+                         auto data = mesh.data;
+                         if (data->generateNormals)
+                           data = std::make_shared<const MeshData>(
+                               withGeneratedNormals(*data, settings.vertexNormals == VertexNormals::unit));
+                         tree = std::make_shared<const MeshTree>(data, settings.accel == Accel::none);
+                       }
+                       instance.mesh = tree;
+                       for (std::uint32_t m : tree->data().materials)
+                         if (world.materials_.at(m).transmits()) instance.opaque = false;
+                       box = bounds(tree->data());
+                     },
+                     [&](const auto& shape) { box = shape.bounds(); }});
     if (invertible(object.worldFromObject)) instance.bounds = object.worldFromObject * box;
     boxes.push_back(instance.bounds);
     world.bounds_.extend(instance.bounds);

@@ -12,6 +12,7 @@
 
 #include "accel/bvh.h"
 #include "base/match.h"
+#include "geometry/mesh_tree.h"
 #include "geometry/shape.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -38,9 +39,10 @@ struct Found {
 /// interpolated at the hit, turns to it.
 enum class Faces { both, front, shadedFront };
 
-inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, std::uint32_t triangle, const TriangleHit& hit) {
-  return faces == Faces::both || (faces == Faces::front ? hit.front
-                                                        : dot(surface(mesh, triangle, hit).shading, ray.direction) < 0);
+inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, std::uint32_t triangle,
+                 const TriangleHit& hit) {
+  return faces == Faces::both ||
+         (faces == Faces::front ? hit.front : dot(surface(mesh, triangle, hit).shading, ray.direction) < 0);
 }
 
 class World {
@@ -48,7 +50,8 @@ class World {
   /// The nearest crossing at t > 0.
   std::optional<Found> closest(const Ray& ray, Faces faces, Statistics& statistics) const;
 
-  /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns true.
+  /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
+  /// true. The way to ask whether anything is hit at all.
   template <class Visit>
   void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const;
 
@@ -68,24 +71,18 @@ class World {
  private:
   friend World compile(const Scene&, const Settings&, Messages&);
 
-  /// A mesh as rays meet it; shared by all objects that name the same data.
-  struct MeshTree {
-    std::shared_ptr<const MeshData> data;
-    Bvh bvh;
-  };
-
   struct Instance {
     Shape shape;
     Affine worldFromObject, objectFromWorld;
     Box3 bounds;
     std::uint32_t material = 0;
     bool opaque = true;
-    std::shared_ptr<const MeshTree> mesh;
+    std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
   };
 
   template <class Visit>
-  bool visitObject(std::uint32_t object, const Ray& ray, const Real& tMost, Faces faces, Statistics& statistics,
-                   Visit& visit) const;
+  bool visitObject(std::uint32_t object, const Ray& ray, const Real& tMost, bool nearestFirst, Faces faces,
+                   Statistics& statistics, Visit& visit) const;
 
   std::vector<Instance> objects_;
   Bvh bvh_;
@@ -103,35 +100,36 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages);
 
 /// Calls visit(Found) for the object's crossings at 0 < t <= tMost; true if a visit ended the query.
 template <class Visit>
-bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& tMost, Faces faces,
-                        Statistics& statistics, Visit& visit) const {
+bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& tMost, bool nearestFirst,
+                        Faces faces, Statistics& statistics, Visit& visit) const {
   const Instance& instance = objects_[object];
   const std::size_t kind = instance.shape.index();
-  const Ray ray{instance.objectFromWorld * worldRay.origin, linear(instance.objectFromWorld, worldRay.direction)};
+  const Ray ray{instance.objectFromWorld * worldRay.origin,
+                linear(instance.objectFromWorld, worldRay.direction)};
   bool ended = false;
   const auto report = [&](const Found& found) {
     if (ended || !(found.t > 0 && found.t <= tMost)) return;
     ++statistics.hits[kind];
     ended = visit(found);
   };
-  match(instance.shape, Overloaded{[&](const Mesh&) {
-                                     const MeshData& data = *instance.mesh->data;
-                                     const TriangleRay triangleRay(ray);
-                                     instance.mesh->bvh.query(
-                                         ray.origin, ray.direction, tMost, statistics.nodes, [&](std::uint32_t i) {
-                                           ++statistics.tests[kind];
-                                           const auto hit = triangleRay.intersect(data, i);
-                                           if (hit && sees(faces, ray, data, i, *hit))
-                                             report({hit->t, object, i, *hit});
-                                           return ended;
-                                         });
-                                   },
-                                   [&](const auto& shape) {
-                                     ++statistics.tests[kind];
-                                     shape.crossings(ray, [&](const Crossing& crossing) {
-                                       report({crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
-                                     });
-                                   }});
+  match(instance.shape,
+        Overloaded{[&](const Mesh&) {
+                     const MeshData& data = instance.mesh->data();
+                     const TriangleRay triangleRay(ray);
+                     const auto test = [&](std::uint32_t i) {
+                       ++statistics.tests[kind];
+                       const auto hit = triangleRay.intersect(data, i);
+                       if (hit && sees(faces, ray, data, i, *hit)) report({hit->t, object, i, *hit});
+                       return ended;
+                     };
+                     instance.mesh->query(ray, tMost, nearestFirst, statistics.nodes, test);
+                   },
+                   [&](const auto& shape) {
+                     ++statistics.tests[kind];
+                     shape.crossings(ray, [&](const Crossing& crossing) {
+                       report({crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
+                     });
+                   }});
   return ended;
 }
 
@@ -139,7 +137,7 @@ template <class Visit>
 void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
   const auto before = [&](const Found& found) { return found.t < tMost && visit(found); };
   bvh_.query(ray.origin, ray.direction, tMost, statistics.nodes, [&](std::uint32_t object) {
-    return visitObject(object, ray, tMost, faces, statistics, before);
+    return visitObject(object, ray, tMost, false, faces, statistics, before);
   });
 }
 

@@ -1,8 +1,9 @@
+#include "accel/bvh.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "accel/bvh.h"
 #include "support/random.h"
 
 namespace trace::test {
@@ -38,8 +39,7 @@ TEST(Bvh, NeverMissesABox) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 o = random.inCube(15), d = random.direction();
     const auto items = visited(bvh, o, d);
-    for (std::uint32_t k = 0; k < boxes.size(); ++k)
-      EXPECT_TRUE(!meets(boxes[k], o, d) || items.count(k));
+    for (std::uint32_t k = 0; k < boxes.size(); ++k) EXPECT_TRUE(!meets(boxes[k], o, d) || items.count(k));
   }
 }
 
@@ -81,7 +81,8 @@ TEST(Bvh, StopsBeyondTheLimitAndWhenTold) {
   std::vector<Box3> boxes;
   for (int i = 0; i < 100; ++i) boxes.push_back({{i + 0.1, 0, 0}, {i + 0.9, 1, 1}});
   const Bvh bvh(boxes);
-  const size_t near = visited(bvh, {-1, 0.5, 0.5}, {1, 0, 0}, 5.5).size();  // five boxes, and what shares a leaf
+  const size_t near =
+      visited(bvh, {-1, 0.5, 0.5}, {1, 0, 0}, 5.5).size();  // five boxes, and what shares a leaf
   EXPECT_GE(near, 5u);
   EXPECT_LE(near, 5u + 3u);
   std::uint64_t nodes = 0;
@@ -91,7 +92,8 @@ TEST(Bvh, StopsBeyondTheLimitAndWhenTold) {
 }
 
 TEST(Bvh, BruteForceVisitsEverything) {
-  EXPECT_EQ(visited(Bvh::bruteForce(std::vector<Box3>(7, Box3{{8, 8, 8}, {9, 9, 9}})), {}, {1, 0, 0}).size(), 7u);
+  EXPECT_EQ(visited(Bvh::bruteForce(std::vector<Box3>(7, Box3{{8, 8, 8}, {9, 9, 9}})), {}, {1, 0, 0}).size(),
+            7u);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ TEST(Mesh, WatertightAtEdgesAndVertices) {
   const auto mesh = ballMesh(12, random);
   int escapes = 0, odd = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Triangle& t = mesh->triangles[static_cast<size_t>(random.below(static_cast<int>(mesh->triangles.size())))];
+    const Triangle& t =
+        mesh->triangles[static_cast<size_t>(random.below(static_cast<int>(mesh->triangles.size())))];
     const Vec3 a(mesh->points[t[0]]), b(mesh->points[t[1]]);
     const Vec3 target = i % 3 == 0 ? a : i % 3 == 1 ? (a + b) * 0.5 : a + (b - a) * random.uniform();
     const Vec3 inside = i % 5 == 0 ? Vec3{} : random.inCube(0.3);

@@ -95,7 +95,8 @@ double volume(const Shape& shape, int n) {
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Ray ray{{box.low.x - 1, box.low.y + size.y * (i + 0.5) / n, box.low.z + size.z * (j + 0.5) / n}, {1, 0, 0}};
+      const Ray ray{{box.low.x - 1, box.low.y + size.y * (i + 0.5) / n, box.low.z + size.z * (j + 0.5) / n},
+                    {1, 0, 0}};
       const auto crossings = crossingsOf(shape, ray);
       for (size_t k = 0; k + 1 < crossings.size(); k += 2) sum += crossings[k + 1].t - crossings[k].t;
     }
@@ -107,8 +108,8 @@ TEST(Shapes, VolumeByParallelProjection) {
   EXPECT_NEAR(volume(Cube{}, 100), 1, 1e-12);
   EXPECT_NEAR(volume(Cylinder{}, 1000), kPi, 2e-4);
   EXPECT_NEAR(volume(Cone{}, 1000), 1.04720, 2e-4);
-  EXPECT_NEAR(volume(Cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5}, 1000), kPi * 2 * (1 + 0.5 + 0.25) / 3,
-              5e-4);
+  EXPECT_NEAR(volume(Cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5}, 1000),
+              kPi * 2 * (1 + 0.5 + 0.25) / 3, 5e-4);
 }
 
 /// Mean chord of uniform isotropic lines that meet a convex body: 4 V / S (Cauchy).
@@ -155,7 +156,8 @@ TEST(Shapes, RaysAlongAxesAndInFacesGiveNoNaN) {
     for (Real x : values)
       for (Real y : values)
         for (Real z : values)
-          for (const Vec3& d : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 1, -1}, Vec3{1, 1, 1}}) {
+          for (const Vec3& d :
+               {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 1, -1}, Vec3{1, 1, 1}}) {
             const Ray ray{{x, y, z}, d};
             for (const Crossing& c : crossingsOf(shape, ray)) {
               const SurfacePoint s = surfaceOf(shape, ray, c);

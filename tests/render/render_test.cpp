@@ -51,7 +51,9 @@ TEST(Render, ScaleLeavesThePictureAlike) {
   }
   Random a(4), b(4);  // powers of two are: the same bits
   Settings settings{.width = 120, .depth = 4};
-  EXPECT_LE(compareLevels(picture(randomScene(a, 20), settings), picture(randomScene(b, 20, 1024), settings)).beyondOne, 3);
+  EXPECT_LE(compareLevels(picture(randomScene(a, 20), settings), picture(randomScene(b, 20, 1024), settings))
+                .beyondOne,
+            3);
 }
 
 TEST(Render, BoxFilteredDisk) {
@@ -157,7 +159,8 @@ TEST(Render, SupersampledPictureIsTheMeanOfTheGrid) {
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       const Color mean = (fine.at(2 * x, 2 * y) + fine.at(2 * x + 1, 2 * y) + fine.at(2 * x, 2 * y + 1) +
-                          fine.at(2 * x + 1, 2 * y + 1)) / 4;
+                          fine.at(2 * x + 1, 2 * y + 1)) /
+                         4;
       EXPECT_NEAR(coarse.at(x, y).r, mean.r, 1e-12);
     }
 }

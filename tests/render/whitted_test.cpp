@@ -8,7 +8,8 @@
 namespace trace::test {
 namespace {
 
-Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {}, Statistics* statistics = nullptr) {
+Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {},
+            Statistics* statistics = nullptr) {
   const World world = build(scene, settings);
   Tracer tracer(world, settings);
   const Color color = whitted(tracer, ray);
@@ -131,7 +132,8 @@ TEST(Whitted, HighlightsOfBlinnAndPhong) {
   const Real a = 0.3;  // the light leans by a: half-way vector by a / 2, mirrored light by a
   scene.lights = {sun({-std::sin(a), 0, -std::cos(a)})};
   EXPECT_NEAR(trace(scene, kDown, {.depth = 0}).r, std::pow(std::cos(a / 2), 10), 1e-14);
-  EXPECT_NEAR(trace(scene, kDown, {.depth = 0, .highlight = Highlight::phong}).r, std::pow(std::cos(a), 10), 1e-14);
+  EXPECT_NEAR(trace(scene, kDown, {.depth = 0, .highlight = Highlight::phong}).r, std::pow(std::cos(a), 10),
+              1e-14);
   Random random(3);
   for (Highlight highlight : {Highlight::blinn, Highlight::phong}) {
     Phong p = phong;
@@ -141,7 +143,7 @@ TEST(Whitted, HighlightsOfBlinnAndPhong) {
     }
     p.shininess = 0;
     EXPECT_EQ(p.scatter({0, 0, 1}, {0, 1, 0}, {1, 0, 0}).r, 1);  // pow(0, 0) = 1: covers everything
-    for (int i = 0; i < 100; ++i) {  // light and eye may be swapped
+    for (int i = 0; i < 100; ++i) {                              // light and eye may be swapped
       const Vec3 n = random.direction(), l = random.direction(), v = random.direction();
       p.shininess = 7;
       EXPECT_NEAR(p.scatter(n, l, v).r, p.scatter(n, v, l).r, 1e-12);
@@ -230,7 +232,8 @@ TEST(Whitted, BeerAlongTheViewRay) {
     glass.transmissive = Color(std::exp(-0.5)), glass.index = 1;
     addObject(scene, Square{}, at(0, 0, -5), glow);
     addObject(scene, Cube{}, Affine::scaling({1, 1, thickness}), glass);
-    EXPECT_NEAR(trace(scene, kDown, {.glass = Glass::perDistance, .airIndex = 1}).r, std::exp(-0.5 * thickness), 1e-14);
+    EXPECT_NEAR(trace(scene, kDown, {.glass = Glass::perDistance, .airIndex = 1}).r,
+                std::exp(-0.5 * thickness), 1e-14);
     EXPECT_NEAR(trace(scene, kDown, {.airIndex = 1}).r, std::exp(-1.0), 1e-14);  // kt at each of two surfaces
   }
 }
@@ -270,7 +273,8 @@ TEST(Whitted, ThresholdStopsRaysThatAddLittle) {
   mirror.emissive = Color(1), mirror.reflective = Color(0.5);
   addObject(scene, Square{}, {}, mirror);
   addObject(scene, Square{}, at(0, 0, 20), mirror);
-  EXPECT_NEAR(trace(scene, kDown, {.depth = 50, .threshold = 0.2}).r, 1.75, 1e-15);  // 1 + 1/2 + 1/4, 1/8 is less
+  EXPECT_NEAR(trace(scene, kDown, {.depth = 50, .threshold = 0.2}).r, 1.75,
+              1e-15);  // 1 + 1/2 + 1/4, 1/8 is less
   EXPECT_NEAR(trace(scene, kDown, {.depth = 50}).r, 2, 1e-12);
 }
 

@@ -22,7 +22,8 @@ TEST(World, HierarchyFindsWhatBruteForceFinds) {
     const World fast = build(scene), slow = build(scene, {.accel = Accel::none});
     for (int i = 0; i < kRays; ++i) {
       const Ray ray = rayThrough(random, 1);
-      const auto a = fast.closest(ray, Faces::both, statistics), b = slow.closest(ray, Faces::both, statistics);
+      const auto a = fast.closest(ray, Faces::both, statistics),
+                 b = slow.closest(ray, Faces::both, statistics);
       ASSERT_EQ(a.has_value(), b.has_value());
       if (!a) continue;
       ++hits;
@@ -45,7 +46,8 @@ TEST(World, AllCrossingsAreThoseOfBruteForce) {
       const Real tMost = random.coin() ? kInfinity : random.uniform(0, 5);
       const auto collect = [&](const World& world) {
         std::vector<Found> found;
-        world.crossings(ray, tMost, Faces::both, statistics, [&](const Found& f) { return found.push_back(f), false; });
+        world.crossings(ray, tMost, Faces::both, statistics,
+                        [&](const Found& f) { return found.push_back(f), false; });
         std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.before(b); });
         return found;
       };
@@ -74,8 +76,9 @@ TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {
         const World world = build(scene);
         const Vec3 center = world.bounds().center(), size = world.bounds().size();
         for (int k = 0; k < 100; ++k) {
-          const Vec3 target = center + Vec3{size.x * random.uniform(-0.5, 0.5), size.y * random.uniform(-0.5, 0.5),
-                                            size.z * random.uniform(-0.5, 0.5)};
+          const Vec3 target =
+              center + Vec3{size.x * random.uniform(-0.5, 0.5), size.y * random.uniform(-0.5, 0.5),
+                            size.z * random.uniform(-0.5, 0.5)};
           const Vec3 d = random.direction();
           const Ray ray{target - d * (10 * length(size)), d};
           const auto found = world.closest(ray, Faces::both, statistics);
@@ -83,7 +86,8 @@ TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {
           const SurfacePoint surface = world.surface(ray, *found);
           // Even the most glancing directions must get away.
           Vec3 out = random.direction();
-          if (k % 4 == 0) out = normalize(cross(out, surface.normal) + surface.normal * random.uniform(-1e-6, 1e-6));
+          if (k % 4 == 0)
+            out = normalize(cross(out, surface.normal) + surface.normal * random.uniform(-1e-6, 1e-6));
           const Ray next = spawnRay(surface, out);
           ++restarts;
           ASSERT_LT(length(next.origin - surface.point), 1e-11 * (length(size) + length(surface.point)));

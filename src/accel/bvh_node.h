@@ -1,0 +1,25 @@
+// What a hierarchy's nodes hold and what a query needs of a ray: plain data, shared by the code for all
+// instruction sets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace trace {
+
+/// Eight children: their boxes, lane by lane, and what they are.
+struct alignas(32) BvhNode {
+  static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
+
+  float low[3][8], high[3][8];  ///< an empty lane has low > high
+  std::uint32_t child[8];
+};
+
+/// A ray ready for the slab test: moved to where it enters the hierarchy's whole box, so that its float copy
+/// is as good for rays from far away.
+struct SlabRay {
+  float origin[3], inverse[3];
+  double start = 0;  ///< t of the ray at `origin`
+};
+
+}  // namespace trace

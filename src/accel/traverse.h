@@ -1,0 +1,95 @@
+// The way of a ray through a hierarchy. Compiled once for each instruction set that
+// includes it, hence inside its namespace and free of other templates (simd.h).
+#pragma once
+
+#include "accel/bvh_node.h"
+#include "accel/simd.h"
+
+namespace trace::simd {
+#if defined(__AVX2__)
+inline namespace avx2 {
+#elif defined(__SSE2__)
+inline namespace sse2 {
+#else
+inline namespace plain {
+#endif
+
+/// Calls visit(leaf), which returns true to end, for each leaf whose box the ray may meet before tMost, which
+/// may shrink during the calls. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
+template <bool kNearestFirst, class VisitLeaf>
+void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std::uint64_t& visited,
+              VisitLeaf& visit) {
+  struct Pending {
+    std::uint32_t child;
+    float near;  // where the ray enters its box
+  };
+  Pending stack[8 * 96];  // seven waiting siblings for each level
+  int top = 0;
+
+  Float8 origin[3], inverse[3];
+  const float* nearest[3];  // in the root; the offsets are the same in every node
+  const float* farthest[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    origin[axis] = Float8::all(ray.origin[axis]);
+    inverse[axis] = Float8::all(ray.inverse[axis]);
+    const bool backward = ray.inverse[axis] < 0;
+    nearest[axis] = backward ? nodes->high[axis] : nodes->low[axis];
+    farthest[axis] = backward ? nodes->low[axis] : nodes->high[axis];
+  }
+  constexpr float kRoundUp = 1 + 0x1p-22f;
+  float limit = static_cast<float>(tMost - ray.start) * kRoundUp;
+
+  Pending next{0, 0};
+  for (;;) {
+    if (next.child & BvhNode::kLeaf) {
+      if (visit(next.child & ~BvhNode::kLeaf)) return;
+      limit = static_cast<float>(tMost - ray.start) * kRoundUp;
+    } else {
+      ++visited;
+      const BvhNode& node = nodes[next.child];
+      const std::size_t offset = std::size_t{next.child} * (sizeof(BvhNode) / sizeof(float));
+      Float8 enter = Float8::all(0), leave = Float8::all(limit);
+      for (int axis = 0; axis < 3; ++axis) {
+        enter = max((Float8::load(nearest[axis] + offset) - origin[axis]) * inverse[axis], enter);
+        leave = min((Float8::load(farthest[axis] + offset) - origin[axis]) * inverse[axis], leave);
+      }
+      unsigned met = lessEqual(enter, leave);
+      if (met) {
+        alignas(32) float near[8];
+        enter.store(near);
+        const auto take = [&] {
+          const int lane = __builtin_ctz(met);
+          met &= met - 1;
+          return Pending{node.child[lane], near[lane]};
+        };
+        next = take();
+        const int bottom = top;
+        while (met) {
+          Pending other = take();
+          if constexpr (kNearestFirst) {  // keep the nearest in hand, the others sorted, nearest on top
+            if (other.near < next.near) {
+              const Pending nearer = other;
+              other = next;
+              next = nearer;
+            }
+            int place = top;
+            for (; place > bottom && stack[place - 1].near < other.near; --place)
+              stack[place] = stack[place - 1];
+            stack[place] = other;
+            ++top;
+          } else {
+            stack[top++] = other;
+          }
+        }
+        continue;
+      }
+    }
+    do {
+      if (top == 0) return;
+      next = stack[--top];
+    } while (next.near > limit);
+  }
+}
+
+}  // inline namespace
+}  // namespace trace::simd

@@ -1,0 +1,43 @@
+#include "geometry/mesh_tree.h"
+
+#include <array>
+
+namespace trace {
+
+// Compiled from mesh_kernel.h, each in its own file with its own flags.
+#if defined(TRACE_HAS_AVX2)
+extern const MeshKernel kMeshKernelAvx2;
+#endif
+extern const MeshKernel kMeshKernelBase;
+
+std::span<const MeshKernel> meshKernels() {
+#if defined(TRACE_HAS_AVX2)
+  static const std::array<MeshKernel, 2> kAll{kMeshKernelAvx2, kMeshKernelBase};
+  static const bool avx2 = __builtin_cpu_supports("avx2");
+  return std::span(kAll).subspan(avx2 ? 0 : 1);
+#else
+  return {&kMeshKernelBase, 1};
+#endif
+}
+
+MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce) : data_(std::move(data)) {
+  std::vector<Box3> boxes(data_->triangles.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    if (faceNormal(*data_, i) != Vec3{}) boxes[i] = bounds(*data_, i);
+  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes);
+
+  blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
+  for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
+    const auto items = bvh_.leaf(block);
+    for (std::size_t lane = 0; lane < items.size(); ++lane)
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        for (int axis = 0; axis < 3; ++axis) {
+          // An unused lane holds one point three times.
+          const std::uint32_t triangle = items[lane] == Bvh::kNoItem ? items[0] : items[lane];
+          const std::uint32_t point = data_->triangles[triangle][items[lane] == Bvh::kNoItem ? 0 : corner];
+          blocks_[block].corner[corner][axis][lane] = data_->points[point][axis];
+        }
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,110 @@
+// The hierarchy of a mesh, for each instruction set that this machine can run, against testing every
+// triangle.
+#include "geometry/mesh_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/shapes.h"
+
+namespace trace::test {
+namespace {
+
+struct Nearest {
+  Real t = kInfinity;
+  std::uint32_t triangle = 0;
+  bool operator==(const Nearest&) const = default;
+};
+
+Nearest nearest(const MeshTree& tree, const Ray& ray, const MeshKernel& kernel) {
+  Nearest best;
+  std::uint64_t visited = 0;
+  const TriangleRay triangleRay(ray);
+  const auto test = [&](std::uint32_t i) {
+    const auto hit = triangleRay.intersect(tree.data(), i);
+    if (hit && hit->t > 0 && (hit->t < best.t || (hit->t == best.t && i < best.triangle))) best = {hit->t, i};
+    return false;
+  };
+  tree.query(ray, best.t, true, visited, test, kernel);
+  return best;
+}
+
+std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost, const MeshKernel& kernel) {
+  std::set<std::uint32_t> hits;
+  std::uint64_t visited = 0;
+  const TriangleRay triangleRay(ray);
+  const auto test = [&](std::uint32_t i) {
+    const auto hit = triangleRay.intersect(tree.data(), i);
+    if (hit && hit->t > 0 && hit->t < tMost) {
+      EXPECT_TRUE(hits.insert(i).second) << "visited twice";
+    }
+    return false;
+  };
+  tree.query(ray, tMost, false, visited, test, kernel);
+  return hits;
+}
+
+/// The ball, scaled and moved: far from the origin, floats are coarse.
+std::shared_ptr<MeshData> movedBall(Random& random, double scale, const Vec3& offset) {
+  auto mesh = ballMesh(16, random);
+  for (Vec3f& p : mesh->points) p = Vec3f(Vec3(p) * scale + offset);
+  return mesh;
+}
+
+TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
+  Random random(1);
+  for (const auto& [scale, offset] : {std::pair{1.0, Vec3{}},
+                                      {1e-4, Vec3{}},
+                                      {1e6, Vec3{}},
+                                      {1.0, Vec3{1000, -500, 300}},
+                                      {1e-3, Vec3{5, 5, 5}}}) {
+    const auto mesh = movedBall(random, scale, offset);
+    const MeshTree tree(mesh, false), every(mesh, true);
+    for (int i = 0; i < (kSanitized ? 200 : 2000); ++i) {
+      // From near and from very far, through the ball, along axes, and exactly at vertices.
+      const Real away = scale * std::pow(10, random.uniform(-1, 6));
+      const Vec3 target =
+          i % 4 == 0
+              ? Vec3(mesh->points[static_cast<size_t>(random.below(static_cast<int>(mesh->points.size())))])
+              : offset + random.inCube(1.2 * scale);
+      Vec3 d = random.direction();
+      if (i % 5 == 0) d = {i % 2 ? 1.0 : 0.0, i % 2 ? 0.0 : -1.0, 0};
+      const Ray ray{target - d * away, d * random.uniform(0.1, 10)};
+      const Real tMost = random.coin() ? kInfinity : random.uniform(0, 2 * away);
+      const Nearest expected = nearest(every, ray, meshKernels().front());
+      const auto expectedAll = allHits(every, ray, tMost, meshKernels().front());
+      for (const MeshKernel& kernel : meshKernels()) {
+        EXPECT_EQ(nearest(tree, ray, kernel), expected) << kernel.name;
+        EXPECT_EQ(allHits(tree, ray, tMost, kernel), expectedAll) << kernel.name;
+      }
+    }
+  }
+}
+
+TEST(MeshTree, AnyOrderStopsWhenTold) {
+  Random random(2);
+  const MeshTree tree(ballMesh(20, random), false);
+  for (const MeshKernel& kernel : meshKernels()) {
+    std::uint64_t visited = 0;
+    int calls = 0;
+    const Real tMost = kInfinity;
+    tree.query(
+        {{0, 0, 5}, {0.001, 0.002, -1}}, tMost, false, visited, [&](std::uint32_t) { return ++calls == 1; },
+        kernel);
+    EXPECT_EQ(calls, 1);
+  }
+}
+
+TEST(MeshTree, EmptyAndDegenerateMeshes) {
+  for (bool brute : {false, true}) {
+    auto mesh = std::make_shared<MeshData>();
+    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {0, 0, 1}}, meshKernels().front()).t, kInfinity);
+    mesh->points = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+    mesh->triangles = {{0, 1, 2}, {0, 0, 0}};
+    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {1, 1, 1}}, meshKernels().front()).t, kInfinity);
+  }
+}
+
+}  // namespace
+}  // namespace trace::test
