@@ -34,8 +34,8 @@ constexpr std::uint64_t kBytesPerPixel = 2 * sizeof(Color) + 16;
 
 std::uint64_t machineMemory() {
 #if defined(_SC_PHYS_PAGES)
-  std::uint64_t bytes =
-      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
+  std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
   std::uint64_t limit = 0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit) bytes = std::min(bytes, limit);
   return bytes;
@@ -66,13 +66,15 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
 void Session::build() {
   const Stopwatch watch;
   const Size picture = size();
-  const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height) * kBytesPerPixel;
+  const std::uint64_t needed =
+      static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height) * kBytesPerPixel;
   const std::uint64_t allowed =
       settings_.maxMemory > 0 ? static_cast<std::uint64_t>(settings_.maxMemory) << 20 : machineMemory();
   if (needed > allowed)
     throw Error(Fault::limit,
-                "a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " needs " +
-                    std::to_string(needed >> 20) + " MiB of memory; allowed are " + std::to_string(allowed >> 20),
+                "a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                    " needs " + std::to_string(needed >> 20) + " MiB of memory; allowed are " +
+                    std::to_string(allowed >> 20),
                 "choose a smaller --width" +
                     std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
   world_.emplace(compile(scene_, settings_, messages_));

@@ -22,9 +22,9 @@ template <class Struct, class Value>
 struct Field {
   std::string_view keyword;  ///< as in scene files
   Value Struct::*member;
-  std::string_view unit;     ///< "" for pure numbers
-  double least, most;        ///< the range of each component; outside it a reader warns
-  std::string_view help;     ///< one sentence, no full stop
+  std::string_view unit;  ///< "" for pure numbers
+  double least, most;     ///< the range of each component; outside it a reader warns
+  std::string_view help;  ///< one sentence, no full stop
 };
 template <class Struct, class Value>
 Field(const char*, Value Struct::*, const char*, double, double, const char*) -> Field<Struct, Value>;

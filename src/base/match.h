@@ -21,7 +21,8 @@ template <std::size_t I = 0, class Variant, class Visitor>
 constexpr decltype(auto) match(Variant&& variant, Visitor&& visitor) {
   constexpr std::size_t kCount = std::variant_size_v<std::remove_cvref_t<Variant>>;
   if constexpr (I + 1 < kCount) {
-    if (variant.index() != I) return match<I + 1>(std::forward<Variant>(variant), std::forward<Visitor>(visitor));
+    if (variant.index() != I)
+      return match<I + 1>(std::forward<Variant>(variant), std::forward<Visitor>(visitor));
   }
   return std::forward<Visitor>(visitor)(*std::get_if<I>(&variant));
 }
@@ -31,7 +32,8 @@ template <class Variant, class Visit>
 constexpr void forEachType(Visit&& visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (visit(static_cast<std::variant_alternative_t<I, Variant>*>(nullptr)), ...);
-  }(std::make_index_sequence<std::variant_size_v<Variant>>{});
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>{});
 }
 
 }  // namespace trace

@@ -12,9 +12,9 @@ namespace trace {
 
 /// How the owner of a running job watches and stops it, from any thread.
 struct Job {
-  std::atomic<bool> cancel{false};          ///< set to stop after the chunks now in work
-  std::atomic<std::int64_t> done{0};        ///< chunks finished
-  std::atomic<std::int64_t> total{0};       ///< chunks in all; 0 until known
+  std::atomic<bool> cancel{false};     ///< set to stop after the chunks now in work
+  std::atomic<std::int64_t> done{0};   ///< chunks finished
+  std::atomic<std::int64_t> total{0};  ///< chunks in all; 0 until known
   double fraction() const {
     const std::int64_t all = total.load();
     return all > 0 ? static_cast<double>(done.load()) / static_cast<double>(all) : 0.0;

@@ -41,7 +41,8 @@ std::optional<ParsedNumber> parseNumber(std::string_view text) {
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc::invalid_argument) return {};
   const size_t length = static_cast<size_t>(end - digits.data());
-  if (status == std::errc::result_out_of_range) value = std::strtod(std::string(digits, 0, length).c_str(), nullptr);
+  if (status == std::errc::result_out_of_range)
+    value = std::strtod(std::string(digits, 0, length).c_str(), nullptr);
   return ParsedNumber{value, length + plus};
 #else  // libraries without floating from_chars (the web build); the "C" locale is never changed
   const std::string copy(digits.substr(0, 400));

@@ -21,11 +21,17 @@ bool isSwitch(std::string_view word) {
   return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
 }
 
+/// Whether the word is one of the values, which stand with "|" between.
+bool isOneOf(std::string_view word, std::string_view values) {
+  const std::string all = "|" + std::string(values) + "|";
+  return !word.empty() && all.find("|" + std::string(word) + "|") != std::string::npos;
+}
+
 /// Flags whose value may be left out become `--name=value`: CLI11 would take the scene for the value.
 std::vector<std::string> withValues(const std::vector<std::string>& words, std::string_view command) {
   std::vector<std::string> result;
   for (size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
+    std::string word = words[i];
     const std::string next = i + 1 < words.size() ? words[i + 1] : "";
     std::string value;
     if (word.size() > 3 && word.substr(0, 2) == "--" && word.back() == '=' &&
@@ -33,10 +39,12 @@ std::vector<std::string> withValues(const std::vector<std::string>& words, std::
       throw Error(Fault::usage, "\"" + word + "\": expected a value after \"=\"");
     for (const Flag& flag : flags()) {
       if (!knows(command, flag) || flag.takes != Flag::Takes::optional) continue;
-      if (word == "--" + std::string(flag.name)) value = flag.alone;
+      const std::string name = "--" + std::string(flag.name);
+      if (word != name && !(flag.letter && word == std::string("-") + flag.letter)) continue;
+      word = name, value = flag.alone;
+      if (isOneOf(next, flag.values)) value = next, ++i;
+      break;
     }
-    const bool asksAll = (word == "--help" || word == "-h") && next == "all";
-    if (asksAll) value = next, ++i;
     if (takesOptions(command)) {
       for (const Option& option : options()) {
         if (option.kind != Option::Kind::boolean || word != "--" + std::string(option.name)) continue;
@@ -44,7 +52,7 @@ std::vector<std::string> withValues(const std::vector<std::string>& words, std::
         if (isSwitch(next)) value = next, ++i;
       }
     }
-    result.push_back(asksAll ? "--help=all" : value.empty() ? word : word + "=" + value);
+    result.push_back(value.empty() ? word : word + "=" + value);
   }
   return result;
 }

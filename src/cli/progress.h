@@ -11,8 +11,7 @@ namespace trace::cli {
 
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
-/// Seconds left, from the share done so far. Tiles differ in cost, so the estimated end moves: it is smoothed
-/// over some seconds.
+/// Seconds left, from the share done so far. Tiles differ in cost, so the estimate jumps: it is smoothed.
 class RemainingTime {
  public:
   /// Nothing is said before this share is done.
@@ -21,7 +20,7 @@ class RemainingTime {
   std::optional<double> update(double elapsed, double fraction);
 
  private:
-  std::optional<double> end_;
+  std::optional<double> left_;
   double last_ = 0;
 };
 

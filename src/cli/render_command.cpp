@@ -109,9 +109,11 @@ int render(const Arguments& arguments, const Console& console) {
 
   const std::string stopped = result.end == End::cancelled   ? "stopped by the user: "
                               : result.end == End::timeLimit ? "stopped by the time limit: "
+                              : result.end == End::failed    ? "broke off (" + result.failure + "): "
                                                              : "";
   int code = result.end == End::cancelled   ? kStopped
              : result.end == End::timeLimit ? static_cast<int>(Fault::limit)
+             : result.end == End::failed    ? kFailed
                                             : kDone;
   if (session.job().done == 0) {  // a black picture is worth less than what the file may hold now
     console.line(LogLevel::error, stopped + "nothing written, for nothing was finished");

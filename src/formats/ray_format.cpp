@@ -126,9 +126,9 @@ std::string_view repair(S&, Affine&) {
   return {};
 }
 
-/// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of less
-/// than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h: it is the
-/// mirror image of the cone of height -h, and the mirror goes into the transform.
+/// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of
+/// less than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h:
+/// it is the mirror image of the cone of height -h, and the mirror goes into the transform.
 std::string_view repair(Cone& cone, Affine& worldFromObject) {
   cone.bottomRadius = std::abs(cone.bottomRadius);
   cone.topRadius = std::abs(cone.topRadius);

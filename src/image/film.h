@@ -30,13 +30,16 @@ class Film {
   int height() const { return picture_.height; }
   std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
   Tile tile(std::int64_t index) const {
-    const int x = static_cast<int>(index % columns_) * kTileSize, y = static_cast<int>(index / columns_) * kTileSize;
+    const int x = static_cast<int>(index % columns_) * kTileSize,
+              y = static_cast<int>(index / columns_) * kTileSize;
     return {x, y, std::min(x + kTileSize, width()), std::min(y + kTileSize, height())};
   }
 
   /// Each pixel is set by the one worker that has its tile, before that tile is marked done.
   void set(int x, int y, const Color& color) { picture_.at(x, y) = color; }
-  void markDone(std::int64_t index) { done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release); }
+  void markDone(std::int64_t index) {
+    done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release);
+  }
 
   /// What is done so far, black elsewhere. May be called from any thread while workers write.
   Picture picture() const {

@@ -24,7 +24,9 @@ constexpr Color& operator+=(Color& a, const Color& b) { return a = a + b; }
 constexpr Color& operator*=(Color& a, const Color& b) { return a = a * b; }
 
 constexpr bool isBlack(const Color& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-inline bool isFinite(const Color& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+inline bool isFinite(const Color& c) {
+  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
 constexpr double maxComponent(const Color& c) { return std::max(c.r, std::max(c.g, c.b)); }
 /// Each channel raised to the power: kt^distance of an absorbing medium.
 inline Color pow(const Color& c, double e) { return {std::pow(c.r, e), std::pow(c.g, e), std::pow(c.b, e)}; }

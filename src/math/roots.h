@@ -8,7 +8,7 @@
 namespace trace {
 
 struct Roots2 {
-  int count = 0;     ///< 0 or 2 (a double root is given twice)
+  int count = 0;        ///< 0 or 2 (a double root is given twice)
   Real t0 = 0, t1 = 0;  ///< t0 <= t1
 };
 

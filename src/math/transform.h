@@ -36,14 +36,18 @@ struct Affine {
 };
 
 /// A direction or a difference of points.
-inline Vec3 linear(const Affine& m, const Vec3& v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
+inline Vec3 linear(const Affine& m, const Vec3& v) {
+  return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
+}
 inline Vec3 operator*(const Affine& m, const Vec3& p) { return linear(m, p) + m.offset; }
 /// The linear part with every entry made positive, applied to a vector of error bounds.
 inline Vec3 absLinear(const Affine& m, const Vec3& e) {
   return {dot(abs(m.row[0]), e), dot(abs(m.row[1]), e), dot(abs(m.row[2]), e)};
 }
 /// m's linear part transposed: transposed(objectFromWorld, n) takes a normal to the world.
-inline Vec3 transposed(const Affine& m, const Vec3& n) { return m.row[0] * n.x + m.row[1] * n.y + m.row[2] * n.z; }
+inline Vec3 transposed(const Affine& m, const Vec3& n) {
+  return m.row[0] * n.x + m.row[1] * n.y + m.row[2] * n.z;
+}
 
 inline Affine operator*(const Affine& a, const Affine& b) {
   Affine m;
@@ -71,7 +75,8 @@ inline bool invertible(const Affine& m) {
   const Real d = determinant(m);
   if (!std::isfinite(d) || d == 0) return false;
   const Affine r = inverse(m);
-  return isFinite(r.row[0]) && isFinite(r.row[1]) && isFinite(r.row[2]) && isFinite(r.offset) && isFinite(m.offset);
+  return isFinite(r.row[0]) && isFinite(r.row[1]) && isFinite(r.row[2]) && isFinite(r.offset) &&
+         isFinite(m.offset);
 }
 
 inline Box3 operator*(const Affine& m, const Box3& b) {

@@ -15,7 +15,7 @@ namespace trace {
 struct Convention {
   Like like;
   std::string_view name;
-  std::string_view help;  ///< whose rules these are
+  std::string_view help;                                              ///< whose rules these are
   std::vector<std::pair<std::string_view, std::string_view>> values;  ///< (option, value), complete
 };
 

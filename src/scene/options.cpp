@@ -45,9 +45,10 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 
 [[noreturn]] void refuse(const Option& option, const std::string& expected, std::string_view found,
                          std::string hint = {}) {
-  throw Error(Fault::usage,
-              "--" + std::string(option.name) + ": expected " + expected + ", found \"" + std::string(found) + "\"",
-              std::move(hint));
+  throw Error(
+      Fault::usage,
+      "--" + std::string(option.name) + ": expected " + expected + ", found \"" + std::string(found) + "\"",
+      std::move(hint));
 }
 
 std::string range(const Option& option) {
@@ -58,13 +59,15 @@ std::string range(const Option& option) {
 
 double parseIn(const Option& option, std::string_view text, const char* what) {
   const auto number = parseNumber(text);
-  if (!number || number->length != text.size() || !std::isfinite(number->value) || number->value < option.least ||
-      number->value > option.most)
+  if (!number || number->length != text.size() || !std::isfinite(number->value) ||
+      number->value < option.least || number->value > option.most)
     refuse(option, std::string(what) + " " + range(option), text);
   return number->value;
 }
 
-void parse(const Option& option, std::string_view text, double& value) { value = parseIn(option, text, "a number"); }
+void parse(const Option& option, std::string_view text, double& value) {
+  value = parseIn(option, text, "a number");
+}
 
 void parse(const Option& option, std::string_view text, int& value) {
   const double number = parseIn(option, text, "a whole number");
@@ -74,7 +77,8 @@ void parse(const Option& option, std::string_view text, int& value) {
 
 void parse(const Option& option, std::string_view text, bool& value) {
   const bool on = text == "on" || text == "true" || text == "1" || text == "yes";
-  if (!on && text != "off" && text != "false" && text != "0" && text != "no") refuse(option, "on or off", text);
+  if (!on && text != "off" && text != "false" && text != "0" && text != "no")
+    refuse(option, "on or off", text);
   value = on;
 }
 
@@ -84,7 +88,8 @@ void parse(const Option& option, std::string_view text, Region& value) {
   bool good = true;
   for (int i = 0; i < 4 && good; ++i) {
     const auto number = parseNumber(rest);
-    good = number && number->value >= 0 && number->value <= option.most && number->value == std::floor(number->value);
+    good = number && number->value >= 0 && number->value <= option.most &&
+           number->value == std::floor(number->value);
     if (!good) break;
     numbers[i] = static_cast<int>(number->value);
     rest.remove_prefix(number->length);
@@ -93,12 +98,13 @@ void parse(const Option& option, std::string_view text, Region& value) {
     if (comma) rest.remove_prefix(1);
   }
   const Region region{numbers[0], numbers[1], numbers[2], numbers[3]};
-  if (!good || (region.whole() && !(region == Region{}))) refuse(option, "x0,y0,x1,y1 with x0 < x1 and y0 < y1", text);
+  if (!good || (region.whole() && !(region == Region{})))
+    refuse(option, "x0,y0,x1,y1 with x0 < x1 and y0 < y1", text);
   value = region;
 }
 
 template <class Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 void parse(const Option& option, std::string_view text, Enum& value) {
   for (size_t i = 0; i < kNames<Enum>.size(); ++i)
     if (kNames<Enum>[i] == text) {
@@ -114,11 +120,11 @@ std::string format(double value) { return toText(value); }
 std::string format(int value) { return std::to_string(value); }
 std::string format(bool value) { return value ? "on" : "off"; }
 std::string format(const Region& r) {
-  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," + std::to_string(r.y1);
+  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
+         std::to_string(r.y1);
 }
 template <class Enum>
-  requires std::is_enum_v<Enum>
-std::string format(Enum value) {
+requires std::is_enum_v<Enum> std::string format(Enum value) {
   return std::string(kNames<Enum>[static_cast<size_t>(value)]);
 }
 
@@ -133,11 +139,16 @@ struct MemberType<Member> {
 
 template <class T>
 constexpr Option::Kind kindOf() {
-  if constexpr (std::is_same_v<T, bool>) return Option::Kind::boolean;
-  else if constexpr (std::is_same_v<T, int>) return Option::Kind::integer;
-  else if constexpr (std::is_same_v<T, double>) return Option::Kind::real;
-  else if constexpr (std::is_same_v<T, Region>) return Option::Kind::region;
-  else return Option::Kind::choice;
+  if constexpr (std::is_same_v<T, bool>)
+    return Option::Kind::boolean;
+  else if constexpr (std::is_same_v<T, int>)
+    return Option::Kind::integer;
+  else if constexpr (std::is_same_v<T, double>)
+    return Option::Kind::real;
+  else if constexpr (std::is_same_v<T, Region>)
+    return Option::Kind::region;
+  else
+    return Option::Kind::choice;
 }
 
 /// What a row says beside its field.
@@ -155,9 +166,18 @@ constexpr Option row(const Text& t) {
   using T = typename MemberType<Member>::type;
   Names names;
   if constexpr (std::is_enum_v<T>) names = kNames<T>;
-  return {t.name,    t.group,       t.unit,       t.least,
-          t.most,    t.help,        t.source,     t.integrators,
-          t.repeats, t.extra,       kindOf<T>(),  names,
+  return {t.name,
+          t.group,
+          t.unit,
+          t.least,
+          t.most,
+          t.help,
+          t.source,
+          t.integrators,
+          t.repeats,
+          t.extra,
+          kindOf<T>(),
+          names,
           [](const Settings& s) { return format(s.*Member); },
           [](const Option& option, Settings& s, std::string_view text) { parse(option, text, s.*Member); }};
 }
@@ -165,81 +185,160 @@ constexpr Option row(const Text& t) {
 constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
 
 constexpr std::array kTable{
-    row<&Settings::width>({.name = "width", .group = "Picture", .help = "width of the picture",
-                           .source = "courses: -w", .least = 1, .most = kMostPixels, .unit = "pixels"}),
-    row<&Settings::height>({.name = "height", .group = "Picture",
+    row<&Settings::width>({.name = "width",
+                           .group = "Picture",
+                           .help = "width of the picture",
+                           .source = "courses: -w",
+                           .least = 1,
+                           .most = kMostPixels,
+                           .unit = "pixels"}),
+    row<&Settings::height>({.name = "height",
+                            .group = "Picture",
                             .help = "height of the picture; 0 takes it from the camera's aspect ratio",
-                            .source = "", .least = 0, .most = kMostPixels, .unit = "pixels"}),
-    row<&Settings::region>({.name = "region", .group = "Picture",
+                            .source = "",
+                            .least = 0,
+                            .most = kMostPixels,
+                            .unit = "pixels"}),
+    row<&Settings::region>({.name = "region",
+                            .group = "Picture",
                             .help = "render only the pixels x0 <= x < x1, y0 <= y < y1; the rest stays black",
-                            .source = "", .least = 0, .most = kMostPixels, .unit = "pixels"}),
-    row<&Settings::spp>({.name = "spp", .group = "Picture",
-                         .help = "camera rays per pixel, on a regular grid of 1, 4, 9, 16 ... (the next square)",
-                         .source = "courses: -a (3 x 3) and -A (1)", .least = 1, .most = 65536, .unit = "rays",
-                         .extra = true}),
-    row<&Settings::integrator>({.name = "integrator", .group = "Tracing",
+                            .source = "",
+                            .least = 0,
+                            .most = kMostPixels,
+                            .unit = "pixels"}),
+    row<&Settings::spp>(
+        {.name = "spp",
+         .group = "Picture",
+         .help = "camera rays per pixel, on a regular grid of 1, 4, 9, 16 ... (the next square)",
+         .source = "courses: -a (3 x 3) and -A (1)",
+         .least = 1,
+         .most = 65536,
+         .unit = "rays",
+         .extra = true}),
+    row<&Settings::integrator>({.name = "integrator",
+                                .group = "Tracing",
                                 .help = "how light is found; whitted is recursive ray tracing",
                                 .source = "Whitted 1980"}),
-    row<&Settings::depth>({.name = "depth", .group = "Tracing",
+    row<&Settings::depth>({.name = "depth",
+                           .group = "Tracing",
                            .help = "bounces a camera ray may make; 0 shows local shading only",
-                           .source = "courses: -r", .least = 0, .most = 1000, .unit = "bounces"}),
-    row<&Settings::threshold>({.name = "threshold", .group = "Tracing",
+                           .source = "courses: -r",
+                           .least = 0,
+                           .most = 1000,
+                           .unit = "bounces"}),
+    row<&Settings::threshold>({.name = "threshold",
+                               .group = "Tracing",
                                .help = "stop rays that would add less than this to the pixel; 0 never stops",
-                               .source = "Hall and Greenberg 1983, adaptive depth", .least = 0, .most = 1,
-                               .integrators = "whitted", .extra = true}),
-    row<&Settings::like>({.name = "like", .group = "Conventions",
-                          .help = "whose rules hold: sets every option of this group", .source = "docs/conventions.md",
+                               .source = "Hall and Greenberg 1983, adaptive depth",
+                               .least = 0,
+                               .most = 1,
+                               .integrators = "whitted",
+                               .extra = true}),
+    row<&Settings::like>({.name = "like",
+                          .group = "Conventions",
+                          .help = "whose rules hold: sets every option of this group",
+                          .source = "docs/conventions.md",
                           .repeats = Repeats::world}),
-    row<&Settings::highlight>({.name = "highlight", .group = "Conventions",
-                               .help = "highlight by the half-way vector (blinn) or the mirrored light (phong)",
-                               .source = "Blinn 1977; Phong 1975", .repeats = Repeats::world}),
-    row<&Settings::shininessScale>({.name = "shininess-scale", .group = "Conventions",
+    row<&Settings::highlight>(
+        {.name = "highlight",
+         .group = "Conventions",
+         .help = "highlight by the half-way vector (blinn) or the mirrored light (phong)",
+         .source = "Blinn 1977; Phong 1975",
+         .repeats = Repeats::world}),
+    row<&Settings::shininessScale>({.name = "shininess-scale",
+                                    .group = "Conventions",
                                     .help = "factor on every shininess; 128 where scenes give it from 0 to 1",
-                                    .source = "courses of 2001", .repeats = Repeats::world, .least = 0, .most = 1e6}),
-    row<&Settings::mirrorDefault>({.name = "mirror-default", .group = "Conventions",
+                                    .source = "courses of 2001",
+                                    .repeats = Repeats::world,
+                                    .least = 0,
+                                    .most = 1e6}),
+    row<&Settings::mirrorDefault>({.name = "mirror-default",
+                                   .group = "Conventions",
                                    .help = "what reflects when a material gives specular but not reflective",
-                                   .source = "courses; zero in Austin", .repeats = Repeats::world}),
-    row<&Settings::diffuseSides>({.name = "diffuse-sides", .group = "Conventions",
+                                   .source = "courses; zero in Austin",
+                                   .repeats = Repeats::world}),
+    row<&Settings::diffuseSides>({.name = "diffuse-sides",
+                                  .group = "Conventions",
                                   .help = "light glass surfaces from the front only, or from behind as well",
-                                  .source = "both-on-glass in Austin", .repeats = Repeats::world}),
-    row<&Settings::limitAttenuation>({.name = "limit-attenuation", .group = "Conventions",
+                                  .source = "both-on-glass in Austin",
+                                  .repeats = Repeats::world}),
+    row<&Settings::limitAttenuation>({.name = "limit-attenuation",
+                                      .group = "Conventions",
                                       .help = "attenuation by distance never amplifies a light",
-                                      .source = "courses: min(1, 1 / (a + b d + c d^2))", .repeats = Repeats::world}),
-    row<&Settings::glass>({.name = "glass", .group = "Conventions",
-                           .help = "filter by transmissive at each surface crossed, or by its power of the distance "
-                                   "inside",
-                           .source = "courses; Beer's law in Austin", .integrators = "whitted"}),
-    row<&Settings::airIndex>({.name = "air-index", .group = "Conventions",
-                              .help = "index of refraction outside all objects", .source = "courses: 1.0003",
-                              .least = 0.01, .most = 100, .integrators = "whitted"}),
-    row<&Settings::backFaces>({.name = "back-faces", .group = "Conventions",
-                               .help = "mesh triangles seen from behind: shown; hidden from camera and mirror rays, "
-                                       "judged by the interpolated normal; hidden from all rays, by the face",
-                               .source = "cull-all in 2001, cull-seen in Austin"}),
-    row<&Settings::vertexNormals>({.name = "vertex-normals", .group = "Conventions",
-                                   .help = "generated vertex normals have length 1, or stay the mean of the faces'",
-                                   .source = "unit since 2013", .repeats = Repeats::world}),
-    row<&Settings::cameraAxes>({.name = "camera-axes", .group = "Conventions",
-                                .help = "viewdir and updir made orthogonal unit vectors, used as written, or only "
-                                        "normalized",
-                                .source = "orthonormal since 2013", .repeats = Repeats::world}),
-    row<&Settings::pixelPosition>({.name = "pixel-position", .group = "Conventions",
-                                   .help = "the camera ray of a pixel goes through its lower left corner or its centre",
-                                   .source = "courses: corner"}),
-    row<&Settings::rounding>({.name = "rounding", .group = "Conventions",
+                                      .source = "courses: min(1, 1 / (a + b d + c d^2))",
+                                      .repeats = Repeats::world}),
+    row<&Settings::glass>(
+        {.name = "glass",
+         .group = "Conventions",
+         .help = "filter by transmissive at each surface crossed, or by its power of the distance "
+                 "inside",
+         .source = "courses; Beer's law in Austin",
+         .integrators = "whitted"}),
+    row<&Settings::airIndex>({.name = "air-index",
+                              .group = "Conventions",
+                              .help = "index of refraction outside all objects",
+                              .source = "courses: 1.0003",
+                              .least = 0.01,
+                              .most = 100,
+                              .integrators = "whitted"}),
+    row<&Settings::backFaces>(
+        {.name = "back-faces",
+         .group = "Conventions",
+         .help = "mesh triangles seen from behind: shown; hidden from camera and mirror rays, "
+                 "judged by the interpolated normal; hidden from all rays, by the face",
+         .source = "cull-all in 2001, cull-seen in Austin"}),
+    row<&Settings::vertexNormals>(
+        {.name = "vertex-normals",
+         .group = "Conventions",
+         .help = "generated vertex normals have length 1, or stay the mean of the faces'",
+         .source = "unit since 2013",
+         .repeats = Repeats::world}),
+    row<&Settings::cameraAxes>(
+        {.name = "camera-axes",
+         .group = "Conventions",
+         .help = "viewdir and updir made orthogonal unit vectors, used as written, or only "
+                 "normalized",
+         .source = "orthonormal since 2013",
+         .repeats = Repeats::world}),
+    row<&Settings::pixelPosition>(
+        {.name = "pixel-position",
+         .group = "Conventions",
+         .help = "the camera ray of a pixel goes through its lower left corner or its centre",
+         .source = "courses: corner"}),
+    row<&Settings::rounding>({.name = "rounding",
+                              .group = "Conventions",
                               .help = "8-bit values are cut off or rounded to the nearest",
-                              .source = "courses: (int)(255 c)", .repeats = Repeats::tone}),
-    row<&Settings::threads>({.name = "threads", .group = "Resources", .help = "threads that trace; 0 takes all",
-                             .source = "courses: -t", .repeats = Repeats::nothing, .least = 0, .most = 1024}),
-    row<&Settings::accel>({.name = "accel", .group = "Resources",
+                              .source = "courses: (int)(255 c)",
+                              .repeats = Repeats::tone}),
+    row<&Settings::threads>({.name = "threads",
+                             .group = "Resources",
+                             .help = "threads that trace; 0 takes all",
+                             .source = "courses: -t",
+                             .repeats = Repeats::nothing,
+                             .least = 0,
+                             .most = 1024}),
+    row<&Settings::accel>({.name = "accel",
+                           .group = "Resources",
                            .help = "bounding volume hierarchy, or none: every object is tested for every ray",
-                           .source = "courses: -b and -B", .repeats = Repeats::world}),
-    row<&Settings::timeLimit>({.name = "time-limit", .group = "Resources",
-                               .help = "stop after this time and keep what is done; 0 never stops", .source = "",
-                               .repeats = Repeats::nothing, .least = 0, .most = 1e9, .unit = "seconds"}),
-    row<&Settings::maxMemory>({.name = "max-memory", .group = "Resources",
-                               .help = "refuse to start a render that needs more; 0 allows what the machine has",
-                               .source = "", .repeats = Repeats::nothing, .least = 0, .most = 1 << 24, .unit = "MiB"}),
+                           .source = "courses: -b and -B",
+                           .repeats = Repeats::world}),
+    row<&Settings::timeLimit>({.name = "time-limit",
+                               .group = "Resources",
+                               .help = "stop after this time and keep what is done; 0 never stops",
+                               .source = "",
+                               .repeats = Repeats::nothing,
+                               .least = 0,
+                               .most = 1e9,
+                               .unit = "seconds"}),
+    row<&Settings::maxMemory>(
+        {.name = "max-memory",
+         .group = "Resources",
+         .help = "refuse to start a render that needs more; 0 allows what the machine has",
+         .source = "",
+         .repeats = Repeats::nothing,
+         .least = 0,
+         .most = 1 << 24,
+         .unit = "MiB"}),
 };
 
 // --- every field has a row: count the members of Settings by how many initialisers it takes -----------
@@ -250,8 +349,10 @@ struct Anything {
 };
 template <class... Args>
 constexpr size_t fieldCount() {
-  if constexpr (requires { Settings{Args{}..., Anything{}}; }) return fieldCount<Args..., Anything>();
-  else return sizeof...(Args);
+  if constexpr (requires { Settings{Args{}..., Anything{}}; })
+    return fieldCount<Args..., Anything>();
+  else
+    return sizeof...(Args);
 }
 static_assert(kTable.size() == fieldCount<>(), "a field of Settings has no row in the options table, or two");
 

@@ -17,15 +17,15 @@ enum class Repeats { nothing, tone, picture, world };
 struct Option {
   enum class Kind { boolean, integer, real, choice, region };
 
-  std::string_view name;   ///< flag without "--", keyword in a scene file's settings { }
+  std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
-  std::string_view unit;   ///< "" for pure numbers
-  double least, most;      ///< of numbers
-  std::string_view help;   ///< one sentence, no full stop
-  std::string_view source; ///< where the choice comes from; "" if it is Trace's own
+  std::string_view unit;         ///< "" for pure numbers
+  double least, most;            ///< of numbers
+  std::string_view help;         ///< one sentence, no full stop
+  std::string_view source;       ///< where the choice comes from; "" if it is Trace's own
   std::string_view integrators;  ///< which it concerns: "all" or names
   Repeats repeats;
-  bool extra;              ///< an extension that is off by default
+  bool extra;  ///< an extension that is off by default
   Kind kind;
   std::span<const std::string_view> choices;  ///< of Kind::choice, in the order of the enum
 

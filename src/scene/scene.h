@@ -18,11 +18,11 @@
 namespace trace {
 
 struct Object {
-  std::string name;          ///< as in the file; may be empty
+  std::string name;  ///< as in the file; may be empty
   Shape shape;
   Affine worldFromObject;
   std::uint32_t material = 0;  ///< index into Scene::materials
-  Place place;               ///< where the file defines it
+  Place place;                 ///< where the file defines it
   bool operator==(const Object&) const = default;
 };
 
@@ -43,12 +43,12 @@ struct Unrendered {
 
 struct Scene {
   std::string file;
-  std::string format;              ///< name of the format it was read from
+  std::string format;  ///< name of the format it was read from
   Camera camera;
   std::vector<LightSource> lights;
   std::vector<Material> materials;
   std::vector<Object> objects;
-  std::vector<Choice> choices;     ///< options that the file sets, or that follow from its dialect
+  std::vector<Choice> choices;  ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
 
   bool operator==(const Scene&) const = default;

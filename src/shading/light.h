@@ -14,26 +14,26 @@
 namespace trace {
 
 struct Illumination {
-  Vec3 toLight;         ///< unit
-  Real distance;        ///< beyond it nothing casts a shadow; infinite for directional lights
-  Color intensity;      ///< with attenuation by distance
+  Vec3 toLight;     ///< unit
+  Real distance;    ///< beyond it nothing casts a shadow; infinite for directional lights
+  Color intensity;  ///< with attenuation by distance
 };
 
 struct PointLight {
   static constexpr std::string_view kKeyword = "point_light";
-  static constexpr std::string_view kHelp = "light from a point, attenuated by 1 / (a + b d + c d^2) at distance d";
+  static constexpr std::string_view kHelp =
+      "light from a point, attenuated by 1 / (a + b d + c d^2) at distance d";
 
   Vec3 position{};
   Color color{};
   Real constant = 0, linear = 0, quadratic = 1;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-        Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
-        Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
-        Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
-        Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"}};
+    return std::tuple{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
+                      Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
+                      Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
+                      Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
+                      Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"}};
   }
   bool operator==(const PointLight&) const = default;
 
@@ -56,9 +56,9 @@ struct DirectionalLight {
   Color color{};
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit, "where its light travels to"},
-        Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"}};
+    return std::tuple{Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
+                            "where its light travels to"},
+                      Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"}};
   }
   bool operator==(const DirectionalLight&) const = default;
 

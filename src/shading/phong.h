@@ -29,7 +29,8 @@ struct Phong {
         Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
         Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
         Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
-        Field{"transmissive", &Phong::transmissive, "", 0, 1, "weight of the refracted ray, filter of shadows"},
+        Field{"transmissive", &Phong::transmissive, "", 0, 1,
+              "weight of the refracted ray, filter of shadows"},
         Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
         Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"}};
   }

@@ -32,11 +32,12 @@ std::string sceneOf(std::string name) {
 }
 
 struct Outcome {
-  double within = 0;     ///< share of channel values within one level
-  bool textures = false; ///< the scene has texture maps, which are not rendered yet
+  double within = 0;      ///< share of channel values within one level
+  bool textures = false;  ///< the scene has texture maps, which are not rendered yet
 };
 
-Outcome renderAndCompare(const std::string& scene, const std::string& reference, const std::vector<Choice>& choices) {
+Outcome renderAndCompare(const std::string& scene, const std::string& reference,
+                         const std::vector<Choice>& choices) {
   Session session;
   session.open(scene, choices);
   session.build();
@@ -49,8 +50,9 @@ Outcome renderAndCompare(const std::string& scene, const std::string& reference,
   return outcome;
 }
 
-/// Glass with many grazing edges, looked at one by one: the differences are single pixels where a ray meets an
-/// edge of stacked glass boxes, whose faces coincide, so that the order of two crossings is a matter of rounding.
+/// Glass with many grazing edges, looked at one by one: the differences are single pixels where a ray meets
+/// an edge of stacked glass boxes, whose faces coincide, so that the order of two crossings is a matter of
+/// rounding.
 const std::map<std::string, double> kExceptions{{"polymesh_easy3b", 0.998}};
 
 TEST(Reference, AustinsPicturesAreRepeated) {
@@ -64,7 +66,8 @@ TEST(Reference, AustinsPicturesAreRepeated) {
     }
     const Outcome outcome =
         renderAndCompare(scene, picture, {{"like", "ut", {}}, {"width", "400", {}}, {"depth", "5", {}}});
-    std::printf("%-32s %9.5f %%%s\n", name.c_str(), 100 * outcome.within, outcome.textures ? "  (texture maps)" : "");
+    std::printf("%-32s %9.5f %%%s\n", name.c_str(), 100 * outcome.within,
+                outcome.textures ? "  (texture maps)" : "");
     if (outcome.textures) continue;
     const auto exception = kExceptions.find(name);
     EXPECT_GE(outcome.within, exception == kExceptions.end() ? 0.999 : exception->second) << name;
@@ -78,8 +81,9 @@ TEST(Reference, AustinsPicturesOfEachDepthAreRepeated) {
   for (const std::string& picture : filesUnder(kReference + "ut-w200-depth-series", ".png")) {
     const std::string stem = fs::path(picture).stem().string();
     const size_t split = stem.rfind("_r");
-    const Outcome outcome = renderAndCompare(sceneOf(stem.substr(0, split)), picture,
-                                             {{"like", "ut", {}}, {"width", "200", {}}, {"depth", stem.substr(split + 2), {}}});
+    const Outcome outcome =
+        renderAndCompare(sceneOf(stem.substr(0, split)), picture,
+                         {{"like", "ut", {}}, {"width", "200", {}}, {"depth", stem.substr(split + 2), {}}});
     EXPECT_GE(outcome.within, 0.999) << stem;
   }
 }
@@ -88,12 +92,15 @@ TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
   // Opaque scenes without `specular`; the camera's axes are the one rule left to match.
   TRACE_NEEDS_SHARED("reference/uw");
   int compared = 0;
-  for (const char* name : {"polymesh_easy1", "polymesh_simple", "polymesh_sier", "polymesh_z-polytest", "polymesh_cube",
-                           "polymesh_trimesh2", "hitchcock", "simple_cyl_ambient", "simple_cyl_diffuse",
-                           "simple_cyl_emissive", "simple_box", "simple_box_dist_atten", "simple_box_cyl_opaque_shadow"}) {
+  for (const char* name :
+       {"polymesh_easy1", "polymesh_simple", "polymesh_sier", "polymesh_z-polytest", "polymesh_cube",
+        "polymesh_trimesh2", "hitchcock", "simple_cyl_ambient", "simple_cyl_diffuse", "simple_cyl_emissive",
+        "simple_box", "simple_box_dist_atten", "simple_box_cyl_opaque_shadow"}) {
     const std::string picture = kReference + "ut-w400-r5/" + name + ".png";
     if (!fs::exists(picture)) continue;
-    EXPECT_GE(renderAndCompare(sceneOf(name), picture, {{"camera-axes", "raw", {}}, {"like", "uw", {}}}).within, 0.999)
+    EXPECT_GE(
+        renderAndCompare(sceneOf(name), picture, {{"camera-axes", "raw", {}}, {"like", "uw", {}}}).within,
+        0.999)
         << name;
     ++compared;
   }
@@ -115,7 +122,8 @@ TEST(Reference, EverySceneLoadsAndRenders) {
     } catch (const Error& error) {
       EXPECT_EQ(error.fault(), Fault::scene) << scene;
       EXPECT_GT(error.messages().front().place.line, 0) << error.what();
-      EXPECT_EQ(scene.find("/uw2005/"), std::string::npos) << error.what();  // the projects' own scenes all render
+      EXPECT_EQ(scene.find("/uw2005/"), std::string::npos)
+          << error.what();  // the projects' own scenes all render
       ++refused;
       std::printf("refused: %s", error.what());
     }

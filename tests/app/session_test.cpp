@@ -81,7 +81,8 @@ TEST(Session, PicturesKeepHowTheyWereMade) {
 
 TEST(Session, RefusesPicturesBeyondItsMemory) {
   Session session;
-  session.open(kExamples + "/shapes.ray", std::vector<Choice>{{"width", "2000", {}}, {"max-memory", "1", {}}});
+  session.open(kExamples + "/shapes.ray",
+               std::vector<Choice>{{"width", "2000", {}}, {"max-memory", "1", {}}});
   try {
     session.build();
     FAIL();

@@ -8,9 +8,15 @@ namespace trace {
 namespace {
 
 TEST(ParseNumber, TakesWhatScenesContain) {
-  for (auto [text, value, length] : {std::tuple{"0.25", 0.25, 4u}, {"-3", -3.0, 2u}, {"4.5492e-05", 4.5492e-05, 10u},
-                                     {".5", 0.5, 2u}, {"7.", 7.0, 2u}, {"+1.5)", 1.5, 4u}, {"1E3,", 1000.0, 3u},
-                                     {"-.2e1 ", -2.0, 5u}, {"12abc", 12.0, 2u}}) {
+  for (auto [text, value, length] : {std::tuple{"0.25", 0.25, 4u},
+                                     {"-3", -3.0, 2u},
+                                     {"4.5492e-05", 4.5492e-05, 10u},
+                                     {".5", 0.5, 2u},
+                                     {"7.", 7.0, 2u},
+                                     {"+1.5)", 1.5, 4u},
+                                     {"1E3,", 1000.0, 3u},
+                                     {"-.2e1 ", -2.0, 5u},
+                                     {"12abc", 12.0, 2u}}) {
     const auto number = parseNumber(text);
     ASSERT_TRUE(number) << text;
     EXPECT_EQ(number->value, value);
@@ -47,12 +53,17 @@ TEST(PlaceAt, CountsLinesAndColumns) {
 }
 
 TEST(Message, ShowsTheLineWithACaret) {
-  const Message message{Message::Severity::error, {"a.ray", 3, 5, "  x y"}, "expected a number, found y", "try 1"};
-  EXPECT_EQ(toString(message), "a.ray:3:5: error: expected a number, found y\n    x y\n      ^\n  hint: try 1\n");
+  const Message message{
+      Message::Severity::error, {"a.ray", 3, 5, "  x y"}, "expected a number, found y", "try 1"};
+  EXPECT_EQ(toString(message),
+            "a.ray:3:5: error: expected a number, found y\n    x y\n      ^\n  hint: try 1\n");
 }
 
 TEST(Message, LongLinesAreShownAroundTheCaret) {
-  const Message message{Message::Severity::warning, {"a.ray", 1, 5001, std::string(5000, 'a') + "!" + std::string(5000, 'b')}, "w", ""};
+  const Message message{Message::Severity::warning,
+                        {"a.ray", 1, 5001, std::string(5000, 'a') + "!" + std::string(5000, 'b')},
+                        "w",
+                        ""};
   const std::string text = toString(message);
   EXPECT_LT(text.size(), 400u);
   EXPECT_NE(text.find('!'), std::string::npos);

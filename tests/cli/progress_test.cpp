@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cli/console.h"
 #include "cli/flags.h"
 #include "scene/options.h"
@@ -38,6 +40,16 @@ TEST(RemainingTime, AJumpIsSmoothed) {
   ASSERT_TRUE(left);
   EXPECT_GT(*left, 5);
   EXPECT_LT(*left, 6);
+}
+
+TEST(RemainingTime, WorkThatSlowsDownIsNotSaidToBeDone) {
+  RemainingTime estimate;
+  for (int i = 1; i < 200; ++i) {  // 20 s; the share grows as the square root of time
+    const double elapsed = 0.1 * i, fraction = std::sqrt(elapsed / 20);
+    const auto left = estimate.update(elapsed, fraction);
+    ASSERT_TRUE(left);
+    EXPECT_GE(*left, 0.5 * (elapsed / fraction - elapsed) - 1e-9);
+  }
 }
 
 TEST(RemainingTime, NeverNegative) {

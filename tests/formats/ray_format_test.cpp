@@ -73,7 +73,8 @@ TEST(RayFormat, MakesConesOfNegativeSizePositive) {
   EXPECT_EQ(moved(down, {2, 0, 0}), Vec3(2, 0, 5));
   EXPECT_EQ(moved(down, {1, 0, 3}), Vec3(1, 0, 2));
 
-  EXPECT_DOUBLE_EQ(onlyShape<Cone>("cone { height = 2; bottom_radius = 1; top_radius = 1; }").topRadius, 1.002);
+  EXPECT_DOUBLE_EQ(onlyShape<Cone>("cone { height = 2; bottom_radius = 1; top_radius = 1; }").topRadius,
+                   1.002);
   EXPECT_EQ(warningsOf("cone { height = 0; }"), "2:1: a cone of height 0 is left out");
   EXPECT_EQ(warningsOf("cone { bottom_radius = 0; }"), "2:1: a cone of radius 0 is left out");
 }

@@ -60,7 +60,8 @@ TEST(Options, ARowChangesItsOwnFieldOnly) {
     Settings settings;
     for (const std::string& value : someValues(option)) option.assign(settings, value);
     for (const Option& other : options())
-      EXPECT_TRUE(other.name == option.name || other.get(settings) == other.get({})) << option.name << other.name;
+      EXPECT_TRUE(other.name == option.name || other.get(settings) == other.get({}))
+          << option.name << other.name;
   }
 }
 
@@ -116,7 +117,8 @@ TEST(Resolve, LikeComesFirstInItsLayerAndLaterLayersWin) {
   const std::vector<Choice> line{{"like", "uw2001", {}}, {"depth", "7", {}}};
   settings = resolve({file, line});
   EXPECT_EQ(settings.like, Like::uw2001);
-  EXPECT_EQ(settings.highlight, Highlight::phong);  // the line's convention overrides the file's single choice
+  EXPECT_EQ(settings.highlight,
+            Highlight::phong);  // the line's convention overrides the file's single choice
   EXPECT_EQ(settings.glass, Glass::perCrossing);
   EXPECT_EQ(settings.depth, 7);
 }

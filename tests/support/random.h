@@ -32,7 +32,8 @@ class Random {
   /// Rotation, uneven scale around `scale`, sometimes mirrored, and a shift of a few times the size.
   Affine affine(double scale) {
     const Vec3 s = Vec3{uniform(0.3, 3), uniform(0.3, 3), uniform(coin() ? 0.3 : -3, 3)} * scale;
-    return Affine::translation(inCube(5 * scale)) * Affine::rotation(direction(), uniform(0, 6)) * Affine::scaling(s);
+    return Affine::translation(inCube(5 * scale)) * Affine::rotation(direction(), uniform(0, 6)) *
+           Affine::scaling(s);
   }
 
  private:

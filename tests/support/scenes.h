@@ -47,7 +47,9 @@ inline Scene randomScene(Random& random, int objects, double scale = 1) {
     addObject(scene, shape, random.affine(0.25 * scale), phong);
   }
   for (int i = 0; i < 2; ++i)
-    scene.lights.push_back({PointLight{.position = random.inCube(4 * scale), .color = Color(0.8), .constant = 1, .quadratic = 0}, {}});
+    scene.lights.push_back(
+        {PointLight{.position = random.inCube(4 * scale), .color = Color(0.8), .constant = 1, .quadratic = 0},
+         {}});
   scene.lights.push_back({DirectionalLight{.direction = random.direction(), .color = Color(0.5)}, {}});
   scene.camera.position = Vec3{0, 0, 6} * scale;
   return scene;

@@ -22,8 +22,8 @@ inline std::shared_ptr<MeshData> ballMesh(int rings, Random& random) {
   for (int i = 1; i < rings; ++i)
     for (int j = 0; j < sectors; ++j) {
       const double theta = kPi * i / rings, phi = 2 * kPi * j / sectors, r = random.uniform(0.8, 1.1);
-      mesh->points.push_back(Vec3f(Vec3{r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi),
-                                        r * std::cos(theta)}));
+      mesh->points.push_back(Vec3f(Vec3{r * std::sin(theta) * std::cos(phi),
+                                        r * std::sin(theta) * std::sin(phi), r * std::cos(theta)}));
     }
   mesh->points.push_back({0, 0, -1});
   const auto at = [&](int i, int j) {
@@ -70,8 +70,9 @@ inline std::string nameOf(const Shape& shape) {
 
 inline std::vector<Crossing> crossingsOf(const Shape& shape, const Ray& ray) {
   std::vector<Crossing> found;
-  match(shape, Overloaded{[](const Mesh&) {},
-                          [&](const auto& s) { s.crossings(ray, [&](const Crossing& c) { found.push_back(c); }); }});
+  match(shape,
+        Overloaded{[](const Mesh&) {},
+                   [&](const auto& s) { s.crossings(ray, [&](const Crossing& c) { found.push_back(c); }); }});
   std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
   return found;
 }
@@ -82,7 +83,8 @@ inline SurfacePoint surfaceOf(const Shape& shape, const Ray& ray, const Crossing
 }
 
 inline Box3 boundsOf(const Shape& shape) {
-  return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); }, [](const auto& s) { return s.bounds(); }});
+  return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); },
+                                 [](const auto& s) { return s.bounds(); }});
 }
 
 inline bool isSolid(const Shape& shape) {

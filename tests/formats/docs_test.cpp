@@ -1,0 +1,44 @@
+// docs/ray-format.md is written by hand; what it lists must be what the lists of the program say.
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "base/match.h"
+#include "scene/conventions.h"
+#include "scene/scene.h"
+
+namespace trace {
+namespace {
+
+std::string page(const char* name) { return readFile(std::string(TRACE_SOURCE) + "/docs/" + name); }
+
+template <class Struct>
+void expectDocumented(const std::string& text) {
+  const std::string node = "`" + std::string(Struct::kKeyword) + "`";
+  EXPECT_NE(text.find(node), std::string::npos) << node;
+  forEachField<Struct>([&](const auto& field) {
+    EXPECT_NE(text.find("`" + std::string(field.keyword) + "`"), std::string::npos)
+        << node << " " << field.keyword;
+  });
+}
+
+TEST(Docs, NameEveryNodeAndField) {
+  const std::string text = page("ray-format.md");
+  forEachType<Shape>([&]<class S>(S*) { expectDocumented<S>(text); });
+  forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
+  forEachType<MaterialModel>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
+  expectDocumented<Camera>(text + "`camera`");
+}
+
+TEST(Docs, TableOfConventionsIsThatOfTheProgram) {
+  const std::string text = page("conventions.md");
+  for (const auto& [option, value] : conventions().front().values) {
+    std::string row = "| `--" + std::string(option) + "` |";
+    for (const Convention& convention : conventions())
+      for (const auto& [other, given] : convention.values)
+        if (other == option) row += " " + std::string(given) + " |";
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+  }
+}
+
+}  // namespace
+}  // namespace trace
