@@ -54,13 +54,12 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 inline Real length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 inline Vec3 normalize(const Vec3& v) { return v / length(v); }
 inline Vec3 abs(const Vec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
-inline Vec3 min(const Vec3& a, const Vec3& b) {
-  return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)};
-}
-inline Vec3 max(const Vec3& a, const Vec3& b) {
-  return {std::fmax(a.x, b.x), std::fmax(a.y, b.y), std::fmax(a.z, b.z)};
-}
-inline Real maxComponent(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+// Not std::fmin: it is a call. A NaN in b is ignored.
+constexpr Real min(Real a, Real b) { return b < a ? b : a; }
+constexpr Real max(Real a, Real b) { return a < b ? b : a; }
+constexpr Vec3 min(const Vec3& a, const Vec3& b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)}; }
+constexpr Vec3 max(const Vec3& a, const Vec3& b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
+constexpr Real maxComponent(const Vec3& v) { return max(v.x, max(v.y, v.z)); }
 inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace trace
