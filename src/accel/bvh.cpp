@@ -187,9 +187,12 @@ Bvh::Bvh(std::span<const Box3> boxes) {
     if (!box.empty()) bounds_.extend(box);
   if (bounds_.empty()) return;
 
-  // The slab test's rounding moves a box's face by less than 2^-21 of the largest coordinate: origin and
-  // difference each by 2^-24, the inverse direction by 2^-23 of a distance of at most twice that coordinate.
-  const Real pad = std::max(maxComponent(abs(bounds_.low)), maxComponent(abs(bounds_.high))) * 0x1p-20;
+  // The slab test's rounding moves a box's face by less than 2^-19 of the largest coordinate m: the ray's origin,
+  // at most 4 m away, and its product with the inverse direction by 2^-22 m each; the inverse direction, with the
+  // distance of at most 5 m, by 2^-20.6 m; the face's own product and the difference by 2^-21.4 m.
+  const Real largest = max(maxComponent(abs(bounds_.low)), maxComponent(abs(bounds_.high)));
+  const Real pad = largest * 0x1p-19;
+  reach_ = 4 * largest;
   const Vec3 padding{pad, pad, pad};
   bounds_ = {bounds_.low - padding, bounds_.high + padding};
 
@@ -203,6 +206,10 @@ Bvh::Bvh(std::span<const Box3> boxes) {
       r.box.high[axis] = roundUp(boxes[i].high[axis] + pad);
     }
     builder.references.push_back(r);
+  }
+  if (builder.references.size() <= kLeafSize) {
+    *this = bruteForce(boxes);
+    return;
   }
   builder.branches.reserve(builder.references.size());
   builder.branches.resize(1);
@@ -219,24 +226,30 @@ Bvh Bvh::bruteForce(std::span<const Box3> boxes) {
 }
 
 bool Bvh::prepare(const Vec3& origin, const Vec3& direction, Real tMost, SlabRay& ray) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    // No infinities in the slab test: a direction along an axis gets a very large inverse.
+    constexpr float kLeast = 1e-18f;
+    const float d = static_cast<float>(direction[axis]);
+    ray.inverse[axis] = 1 / (std::abs(d) > kLeast ? d : std::copysign(kLeast, d));
+  }
+  const Vec3 size = abs(origin);
+  if (size.x <= reach_ && size.y <= reach_ && size.z <= reach_) {
+    ray.start = 0;
+    for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = static_cast<float>(origin[axis]);
+    return true;
+  }
+  // From far away: begin where the ray enters the whole box.
   Real enter = 0, leave = tMost;
   for (int axis = 0; axis < 3; ++axis) {
     const Real inverse = 1 / direction[axis];
-    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse,
-               t1 = (bounds_.high[axis] - origin[axis]) * inverse;
+    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse, t1 = (bounds_.high[axis] - origin[axis]) * inverse;
     // A NaN (0 * infinity: the ray lies in the plane of a face) leaves the interval as it is.
-    const Real near = inverse < 0 ? t1 : t0, far = inverse < 0 ? t0 : t1;
-    enter = near > enter ? near : enter;
-    leave = far < leave ? far : leave;
-    // No infinities below: a direction along an axis gives a very large inverse.
-    constexpr Real kMostInverse = 1e18;
-    ray.inverse[axis] =
-        static_cast<float>(std::abs(inverse) < kMostInverse ? inverse : std::copysign(kMostInverse, inverse));
+    enter = max(enter, inverse < 0 ? t1 : t0);
+    leave = min(leave, inverse < 0 ? t0 : t1);
   }
   if (!(enter <= leave)) return false;
   ray.start = enter;
-  for (int axis = 0; axis < 3; ++axis)
-    ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
+  for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
   return true;
 }
 

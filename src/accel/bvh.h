@@ -54,6 +54,7 @@ class Bvh {
   struct Builder;
 
   Box3 bounds_;                       ///< padded
+  Real reach_ = 0;                    ///< coordinates up to this are precise enough in float
   std::vector<BvhNode> nodes_;        ///< nodes_[0] is the root; none: brute force
   std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf
 };

@@ -26,12 +26,12 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
   Pending stack[8 * 96];  // seven waiting siblings for each level
   int top = 0;
 
-  Float8 origin[3], inverse[3];
+  Float8 inverse[3], shift[3];  // t of a plane at p: p inverse - shift
   const float* nearest[3];  // in the root; the offsets are the same in every node
   const float* farthest[3];
   for (int axis = 0; axis < 3; ++axis) {
-    origin[axis] = Float8::all(ray.origin[axis]);
     inverse[axis] = Float8::all(ray.inverse[axis]);
+    shift[axis] = Float8::all(ray.origin[axis] * ray.inverse[axis]);
     const bool backward = ray.inverse[axis] < 0;
     nearest[axis] = backward ? nodes->high[axis] : nodes->low[axis];
     farthest[axis] = backward ? nodes->low[axis] : nodes->high[axis];
@@ -50,8 +50,8 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
       const std::size_t offset = std::size_t{next.child} * (sizeof(BvhNode) / sizeof(float));
       Float8 enter = Float8::all(0), leave = Float8::all(limit);
       for (int axis = 0; axis < 3; ++axis) {
-        enter = max((Float8::load(nearest[axis] + offset) - origin[axis]) * inverse[axis], enter);
-        leave = min((Float8::load(farthest[axis] + offset) - origin[axis]) * inverse[axis], leave);
+        enter = max(timesMinus(Float8::load(nearest[axis] + offset), inverse[axis], shift[axis]), enter);
+        leave = min(timesMinus(Float8::load(farthest[axis] + offset), inverse[axis], shift[axis]), leave);
       }
       unsigned met = lessEqual(enter, leave);
       if (met) {

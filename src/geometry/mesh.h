@@ -8,12 +8,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/field.h"
 #include "geometry/ray.h"
+#include "geometry/triangle.h"
 #include "math/box.h"
 
 namespace trace {
@@ -42,25 +42,8 @@ struct Mesh {
   bool operator==(const Mesh& other) const { return data == other.data || *data == *other.data; }
 };
 
-struct TriangleHit {
-  Real t = 0;
-  Real b[3] = {};     ///< barycentric coordinates, sum 1
-  bool front = true;  ///< the ray comes from the side the normal points to
-};
-
-/// A ray prepared for many triangles: sheared so that it runs along an axis from the origin (Woop, Benthin
-/// and Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013).
-struct TriangleRay {
-  Vec3 origin, direction;
-  int x, y, z;  ///< axes, z that of the largest component of the direction
-  Real shearX, shearY;
-
-  explicit TriangleRay(const Ray& ray);
-
-  /// Where the line of the ray meets the triangle, if it does. Watertight: of the triangles around an edge or
-  /// a vertex that the ray hits exactly, one is hit per crossing of the surface.
-  std::optional<TriangleHit> intersect(const MeshData& mesh, std::uint32_t index) const;
-};
+/// The corners of a triangle, as a ray meets them.
+Corners corners(const MeshData& mesh, std::uint32_t index);
 
 SurfacePoint surface(const MeshData& mesh, std::uint32_t index, const TriangleHit& hit);
 

@@ -1,6 +1,7 @@
 #include "geometry/mesh_tree.h"
 
 #include <array>
+#include <limits>
 
 namespace trace {
 
@@ -13,7 +14,7 @@ extern const MeshKernel kMeshKernelBase;
 std::span<const MeshKernel> meshKernels() {
 #if defined(TRACE_HAS_AVX2)
   static const std::array<MeshKernel, 2> kAll{kMeshKernelAvx2, kMeshKernelBase};
-  static const bool avx2 = __builtin_cpu_supports("avx2");
+  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return std::span(kAll).subspan(avx2 ? 0 : 1);
 #else
   return {&kMeshKernelBase, 1};
@@ -27,17 +28,15 @@ MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce) : data
   bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes);
 
   blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
-  for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
-    const auto items = bvh_.leaf(block);
-    for (std::size_t lane = 0; lane < items.size(); ++lane)
+  for (std::uint32_t block = 0; block < blocks_.size(); ++block)
+    for (std::size_t lane = 0; lane < Bvh::kLeafSize; ++lane) {
+      const std::uint32_t triangle = bvh_.leaf(block)[lane];
       for (std::size_t corner = 0; corner < 3; ++corner)
-        for (int axis = 0; axis < 3; ++axis) {
-          // An unused lane holds one point three times.
-          const std::uint32_t triangle = items[lane] == Bvh::kNoItem ? items[0] : items[lane];
-          const std::uint32_t point = data_->triangles[triangle][items[lane] == Bvh::kNoItem ? 0 : corner];
-          blocks_[block].corner[corner][axis][lane] = data_->points[point][axis];
-        }
-  }
+        for (int axis = 0; axis < 3; ++axis)
+          blocks_[block].corner[corner][axis][lane] =
+              triangle == Bvh::kNoItem ? std::numeric_limits<float>::quiet_NaN()
+                                       : data_->points[data_->triangles[triangle][corner]][axis];
+    }
 }
 
 }  // namespace trace

@@ -16,9 +16,14 @@
 
 namespace trace {
 
-/// The corners of four triangles: corner, axis, lane. Unused lanes are degenerate and never met.
+/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never met.
 struct alignas(16) TriangleBlock {
   float corner[3][3][4];
+
+  Corners corners(std::size_t lane) const {
+    const auto at = [&](int i) { return Vec3{corner[i][0][lane], corner[i][1][lane], corner[i][2][lane]}; };
+    return {at(0), at(1), at(2)};
+  }
 };
 
 /// What the test of a block needs of a ray.
@@ -48,10 +53,10 @@ class MeshTree {
 
   const MeshData& data() const { return *data_; }
 
-  /// Calls visit(triangle), which returns true to end the query, for each triangle that the ray may meet at
+  /// Calls visit(triangle, corners), which returns true to end the query, for each triangle that the ray may meet at
   /// 0 <= t <= tMost, which may shrink during the calls; nearer ones first if asked.
   template <class Visit>
-  void query(const Ray& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited, Visit&& visit,
+  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited, Visit&& visit,
              const MeshKernel& kernel = meshKernels().front()) const;
 
   /// Of the structure for tracing, without the mesh's own arrays.
@@ -66,23 +71,24 @@ class MeshTree {
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void MeshTree::query(const Ray& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
+void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
                      Visit&& visit, const MeshKernel& kernel) const {
-  const auto visitLanes = [&](std::uint32_t block, unsigned lanes) {
-    const auto items = bvh_.leaf(block);
-    for (std::size_t lane = 0; lane < items.size(); ++lane)
-      if (lanes >> lane & 1 && items[lane] != Bvh::kNoItem && visit(items[lane])) return true;
-    return false;
-  };
   if (bvh_.nodes().empty()) {
-    for (std::uint32_t block = 0; block < bvh_.leafCount(); ++block)
-      if (visitLanes(block, 0xf)) return;
+    for (std::uint32_t number = 0; number < bvh_.leafCount(); ++number)
+      for (std::uint32_t triangle : bvh_.leaf(number))
+        if (triangle != Bvh::kNoItem && visit(triangle, corners(*data_, triangle))) return;
     return;
   }
   SlabRay slab;
   if (!bvh_.prepare(ray.origin, ray.direction, tMost, slab)) return;
-  const TriangleRay t(ray);
-  const LaneRay lanes{{t.origin.x, t.origin.y, t.origin.z}, t.x, t.y, t.z, t.shearX, t.shearY};
+  const LaneRay lanes{{ray.origin.x, ray.origin.y, ray.origin.z}, ray.x, ray.y, ray.z, ray.shearX, ray.shearY};
+  const auto visitLanes = [&](std::uint32_t block, unsigned met) {
+    for (; met != 0; met &= met - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(met));
+      if (visit(bvh_.leaf(block)[lane], blocks_[block].corners(lane))) return true;
+    }
+    return false;
+  };
   auto context = &visitLanes;
   kernel.query(
       bvh_.nodes().data(), blocks_.data(), slab, lanes, tMost, nearestFirst, visited,

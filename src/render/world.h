@@ -116,13 +116,14 @@ bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& t
         Overloaded{[&](const Mesh&) {
                      const MeshData& data = instance.mesh->data();
                      const TriangleRay triangleRay(ray);
-                     const auto test = [&](std::uint32_t i) {
+                     const auto test = [&](std::uint32_t i, const Corners& corners) {
                        ++statistics.tests[kind];
-                       const auto hit = triangleRay.intersect(data, i);
-                       if (hit && sees(faces, ray, data, i, *hit)) report({hit->t, object, i, *hit});
+                       TriangleHit hit;
+                       if (triangleRay.intersect(corners, hit) && sees(faces, ray, data, i, hit))
+                         report({hit.t, object, i, hit});
                        return ended;
                      };
-                     instance.mesh->query(ray, tMost, nearestFirst, statistics.nodes, test);
+                     instance.mesh->query(triangleRay, tMost, nearestFirst, statistics.nodes, test);
                    },
                    [&](const auto& shape) {
                      ++statistics.tests[kind];

@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "support/shapes.h"
 
 namespace trace::test {
 namespace {
 
 std::optional<TriangleHit> intersect(const MeshData& mesh, std::uint32_t index, const Ray& ray) {
-  return TriangleRay(ray).intersect(mesh, index);
+  TriangleHit hit;
+  if (!TriangleRay(ray).intersect(corners(mesh, index), hit)) return {};
+  return hit;
 }
 
 /// Crossings of the whole mesh ahead of the ray.

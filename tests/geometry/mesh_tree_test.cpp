@@ -21,12 +21,13 @@ Nearest nearest(const MeshTree& tree, const Ray& ray, const MeshKernel& kernel) 
   Nearest best;
   std::uint64_t visited = 0;
   const TriangleRay triangleRay(ray);
-  const auto test = [&](std::uint32_t i) {
-    const auto hit = triangleRay.intersect(tree.data(), i);
-    if (hit && hit->t > 0 && (hit->t < best.t || (hit->t == best.t && i < best.triangle))) best = {hit->t, i};
+  const auto test = [&](std::uint32_t i, const Corners& corners) {
+    TriangleHit hit;
+    if (!triangleRay.intersect(corners, hit) || !(hit.t > 0)) return false;
+    if (hit.t < best.t || (hit.t == best.t && i < best.triangle)) best = {hit.t, i};
     return false;
   };
-  tree.query(ray, best.t, true, visited, test, kernel);
+  tree.query(triangleRay, best.t, true, visited, test, kernel);
   return best;
 }
 
@@ -34,14 +35,14 @@ std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost
   std::set<std::uint32_t> hits;
   std::uint64_t visited = 0;
   const TriangleRay triangleRay(ray);
-  const auto test = [&](std::uint32_t i) {
-    const auto hit = triangleRay.intersect(tree.data(), i);
-    if (hit && hit->t > 0 && hit->t < tMost) {
+  const auto test = [&](std::uint32_t i, const Corners& corners) {
+    TriangleHit hit;
+    if (triangleRay.intersect(corners, hit) && hit.t > 0 && hit.t < tMost) {
       EXPECT_TRUE(hits.insert(i).second) << "visited twice";
     }
     return false;
   };
-  tree.query(ray, tMost, false, visited, test, kernel);
+  tree.query(triangleRay, tMost, false, visited, test, kernel);
   return hits;
 }
 
@@ -90,7 +91,7 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
     int calls = 0;
     const Real tMost = kInfinity;
     tree.query(
-        {{0, 0, 5}, {0.001, 0.002, -1}}, tMost, false, visited, [&](std::uint32_t) { return ++calls == 1; },
+        {{0, 0, 5}, {0.001, 0.002, -1}}, tMost, false, visited, [&](std::uint32_t, const Corners&) { return ++calls == 1; },
         kernel);
     EXPECT_EQ(calls, 1);
   }
