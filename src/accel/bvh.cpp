@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr int kDepthOfHeuristic = 60;  // deeper, nodes are halved by count: 32 more levels hold 2^32 items
-constexpr float kCostOfNode = 1, kCostOfLeaf = 1;  // of visiting one; a leaf's items are tested together
+constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;  // of visiting one; a leaf's items are tested together
 
 float roundDown(Real x) {
   const float f = static_cast<float>(x);

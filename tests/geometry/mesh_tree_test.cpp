@@ -91,7 +91,7 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
     int calls = 0;
     const Real tMost = kInfinity;
     tree.query(
-        {{0, 0, 5}, {0.001, 0.002, -1}}, tMost, false, visited, [&](std::uint32_t, const Corners&) { return ++calls == 1; },
+        TriangleRay(Ray{{0, 0, 5}, {0.001, 0.002, -1}}), tMost, false, visited, [&](std::uint32_t, const Corners&) { return ++calls == 1; },
         kernel);
     EXPECT_EQ(calls, 1);
   }
