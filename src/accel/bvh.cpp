@@ -51,6 +51,7 @@ struct Bvh::Builder {
   std::vector<Reference> references;
   std::vector<Branch> branches;
   Bvh& bvh;
+  std::uint32_t leafSize;
 
   // --- the binary tree ---
 
@@ -65,8 +66,8 @@ struct Bvh::Builder {
     }
   };
 
-  static float leafCost(std::uint32_t count) {
-    return kCostOfLeaf * static_cast<float>((count + kLeafSize - 1) / kLeafSize);
+  float leafCost(std::uint32_t count) const {
+    return kCostOfLeaf * static_cast<float>((count + leafSize - 1) / leafSize);
   }
 
   /// The cheapest of the planes between bins: on each side, half-area times the leaves its items fill.
@@ -121,7 +122,7 @@ struct Bvh::Builder {
     }
     const Split split = depth < kDepthOfHeuristic && count > 1 ? cheapestSplit(first, count, bins) : Split{};
     const float asLeaf = box.halfArea() * leafCost(count), asNode = box.halfArea() * kCostOfNode + split.cost;
-    if (count == 1 || (count <= kLeafSize && !(asNode < asLeaf))) {
+    if (count == 1 || (count <= leafSize && !(asNode < asLeaf))) {
       branches[index].first = first, branches[index].count = count;
       return;
     }
@@ -182,7 +183,7 @@ struct Bvh::Builder {
   }
 };
 
-Bvh::Bvh(std::span<const Box3> boxes) {
+Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
   for (const Box3& box : boxes)
     if (!box.empty()) bounds_.extend(box);
   if (bounds_.empty()) return;
@@ -196,7 +197,7 @@ Bvh::Bvh(std::span<const Box3> boxes) {
   const Vec3 padding{pad, pad, pad};
   bounds_ = {bounds_.low - padding, bounds_.high + padding};
 
-  Builder builder{{}, {}, *this};
+  Builder builder{{}, {}, *this, leaves == Leaves::single ? 1u : kLeafSize};
   builder.references.reserve(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     if (boxes[i].empty()) continue;

@@ -12,7 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "accel/traverse.h"
+#include "accel/bvh_kernel.h"
+#include "accel/bvh_node.h"
 #include "math/box.h"
 
 namespace trace {
@@ -23,18 +24,22 @@ class Bvh {
   static constexpr std::uint32_t kNoItem = 0xffffffffu;
   static constexpr int kMostDepth = 96;
 
+  /// How many items a leaf may hold: one where each costs a test of its own, kLeafSize where they are tested
+  /// together.
+  enum class Leaves { single, together };
+
   Bvh() = default;
   /// Over items 0 .. boxes.size() - 1. Empty boxes are left out.
-  explicit Bvh(std::span<const Box3> boxes);
+  explicit Bvh(std::span<const Box3> boxes, Leaves leaves = Leaves::single);
 
   /// No tree: every query visits every item whose box is not empty. What a hierarchy is tested against.
   static Bvh bruteForce(std::span<const Box3> boxes);
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
-  /// 0 <= t <= tMost, nearer boxes first. `tMost` may shrink during the calls. `nodes` counts nodes visited.
+  /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes visited.
   template <class Visit>
-  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, std::uint64_t& nodes,
-             Visit&& visit) const;
+  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, std::uint64_t& nodes,
+             Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
 
   /// The items of a leaf; unused places hold kNoItem.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
@@ -62,8 +67,8 @@ class Bvh {
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, std::uint64_t& nodes,
-                Visit&& visit) const {
+void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
+                std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel) const {
   const auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;
@@ -75,8 +80,11 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, st
     return;
   }
   SlabRay ray;
-  if (prepare(origin, direction, tMost, ray))
-    simd::traverse<true>(nodes_.data(), ray, tMost, nodes, visitLeaf);
+  if (!prepare(origin, direction, tMost, ray)) return;
+  auto context = &visitLeaf;
+  kernel.query(
+      nodes_.data(), ray, tMost, nearestFirst, nodes,
+      [](void* c, std::uint32_t number) { return (**static_cast<decltype(context)*>(c))(number); }, &context);
 }
 
 }  // namespace trace

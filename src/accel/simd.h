@@ -39,6 +39,7 @@ struct Double4 {
 inline Double4 operator-(Double4 a, Double4 b) { return {_mm256_sub_pd(a.v, b.v)}; }
 inline Double4 operator+(Double4 a, Double4 b) { return {_mm256_add_pd(a.v, b.v)}; }
 inline Double4 operator*(Double4 a, Double4 b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Double4 operator/(Double4 a, Double4 b) { return {_mm256_div_pd(a.v, b.v)}; }
 inline Double4 abs(Double4 a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
 inline unsigned lessEqual(Double4 a, Double4 b) {
   return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ)));
@@ -77,6 +78,7 @@ struct Double4 {
 inline Double4 operator-(Double4 a, Double4 b) { return {_mm_sub_pd(a.lo, b.lo), _mm_sub_pd(a.hi, b.hi)}; }
 inline Double4 operator+(Double4 a, Double4 b) { return {_mm_add_pd(a.lo, b.lo), _mm_add_pd(a.hi, b.hi)}; }
 inline Double4 operator*(Double4 a, Double4 b) { return {_mm_mul_pd(a.lo, b.lo), _mm_mul_pd(a.hi, b.hi)}; }
+inline Double4 operator/(Double4 a, Double4 b) { return {_mm_div_pd(a.lo, b.lo), _mm_div_pd(a.hi, b.hi)}; }
 inline Double4 abs(Double4 a) {
   const __m128d sign = _mm_set1_pd(-0.0);
   return {_mm_andnot_pd(sign, a.lo), _mm_andnot_pd(sign, a.hi)};
@@ -126,6 +128,10 @@ Lanes<T, N> operator+(const Lanes<T, N>& a, const Lanes<T, N>& b) {
 template <class T, int N>
 Lanes<T, N> operator*(const Lanes<T, N>& a, const Lanes<T, N>& b) {
   return map(a, b, [](T x, T y) { return x * y; });
+}
+template <class T, int N>
+Lanes<T, N> operator/(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  return map(a, b, [](T x, T y) { return x / y; });
 }
 template <class T, int N>
 Lanes<T, N> min(const Lanes<T, N>& a, const Lanes<T, N>& b) {

@@ -14,6 +14,29 @@ inline namespace sse2 {
 inline namespace plain {
 #endif
 
+struct Vec3x4 {
+  Double4 x, y, z;
+};
+inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Double4 dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Of the lanes in `met`, those whose t is in [0, tMost] or undefined. The same arithmetic, to the last bit, as in
+/// TriangleRay::intersect.
+inline unsigned lanesWithin(const TriangleBlock& block, const LaneRay& ray, double tMost, unsigned met) {
+  const auto corner = [&](int i) {
+    return Vec3x4{Double4::load(block.corner[i][0]), Double4::load(block.corner[i][1]),
+                  Double4::load(block.corner[i][2])};
+  };
+  const auto all = [](const double* v) { return Vec3x4{Double4::all(v[0]), Double4::all(v[1]), Double4::all(v[2])}; };
+  const Vec3x4 a = corner(0), normal = cross(corner(1) - a, corner(2) - a);
+  const Double4 along = dot(normal, all(ray.direction)), zero = Double4::all(0);
+  const Double4 t = dot(normal, a - all(ray.origin)) / along;
+  return met & (lessEqual(abs(along), zero) | (lessEqual(zero, t) & lessEqual(t, Double4::all(tMost))));
+}
+
 /// The lanes whose triangle the ray meets, or may meet as far as rounding goes. The same arithmetic as in
 /// TriangleRay::intersect: corners sheared into the plane across the ray, the three edges' sides.
 inline unsigned lanesMet(const TriangleBlock& block, const LaneRay& ray) {
@@ -42,7 +65,8 @@ inline void queryMesh(const BvhNode* nodes, const TriangleBlock* blocks, const S
                       const LaneRay& ray, const double& tMost, bool nearestFirst, std::uint64_t& visited,
                       VisitLanes visit, void* context) {
   auto visitBlock = [&](std::uint32_t block) {
-    const unsigned met = lanesMet(blocks[block], ray);
+    unsigned met = lanesMet(blocks[block], ray);
+    if (met != 0) met = lanesWithin(blocks[block], ray, tMost, met);
     return met != 0 && visit(context, block, met);
   };
   if (nearestFirst)

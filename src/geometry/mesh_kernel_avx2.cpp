@@ -1,4 +1,4 @@
-// The kernel for machines with AVX2. Compiled with -mavx2; called only where the processor has it.
+// The kernel for machines with AVX2. Compiled with -mavx2 -mfma; called only where the processor has them.
 #include "geometry/mesh_kernel.h"
 
 namespace trace {

@@ -14,8 +14,7 @@ extern const MeshKernel kMeshKernelBase;
 std::span<const MeshKernel> meshKernels() {
 #if defined(TRACE_HAS_AVX2)
   static const std::array<MeshKernel, 2> kAll{kMeshKernelAvx2, kMeshKernelBase};
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return std::span(kAll).subspan(avx2 ? 0 : 1);
+  return std::span(kAll).subspan(hasAvx2() ? 0 : 1);
 #else
   return {&kMeshKernelBase, 1};
 #endif
@@ -25,7 +24,7 @@ MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce) : data
   std::vector<Box3> boxes(data_->triangles.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     if (faceNormal(*data_, i) != Vec3{}) boxes[i] = bounds(*data_, i);
-  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes);
+  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes, Bvh::Leaves::together);
 
   blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
   for (std::uint32_t block = 0; block < blocks_.size(); ++block)

@@ -28,7 +28,7 @@ struct alignas(16) TriangleBlock {
 
 /// What the test of a block needs of a ray.
 struct LaneRay {
-  Real origin[3];
+  Real origin[3], direction[3];
   int x, y, z;
   Real shearX, shearY;
 };
@@ -81,7 +81,9 @@ void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirs
   }
   SlabRay slab;
   if (!bvh_.prepare(ray.origin, ray.direction, tMost, slab)) return;
-  const LaneRay lanes{{ray.origin.x, ray.origin.y, ray.origin.z}, ray.x, ray.y, ray.z, ray.shearX, ray.shearY};
+  const LaneRay lanes{{ray.origin.x, ray.origin.y, ray.origin.z},
+                      {ray.direction.x, ray.direction.y, ray.direction.z},
+                      ray.x, ray.y, ray.z, ray.shearX, ray.shearY};
   const auto visitLanes = [&](std::uint32_t block, unsigned met) {
     for (; met != 0; met &= met - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(met));

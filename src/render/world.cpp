@@ -10,7 +10,7 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& sta
     if (found.before(best)) best = found;
     return false;
   };
-  bvh_.query(ray.origin, ray.direction, best.t, statistics.nodes, [&](std::uint32_t object) {
+  bvh_.query(ray.origin, ray.direction, best.t, true, statistics.nodes, [&](std::uint32_t object) {
     return visitObject(object, ray, best.t, true, faces, statistics, keepNearest);
   });
   if (best.t == kInfinity) return {};

@@ -41,8 +41,9 @@ enum class Faces { both, front, shadedFront };
 
 inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, std::uint32_t triangle,
                  const TriangleHit& hit) {
-  return faces == Faces::both ||
-         (faces == Faces::front ? hit.front : dot(surface(mesh, triangle, hit).shading, ray.direction) < 0);
+  if (faces == Faces::both) return true;
+  if (faces == Faces::front || mesh.normals.empty()) return hit.front;
+  return dot(surface(mesh, triangle, hit).shading, ray.direction) < 0;
 }
 
 class World {
@@ -137,7 +138,7 @@ bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& t
 template <class Visit>
 void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
   const auto before = [&](const Found& found) { return found.t < tMost && visit(found); };
-  bvh_.query(ray.origin, ray.direction, tMost, statistics.nodes, [&](std::uint32_t object) {
+  bvh_.query(ray.origin, ray.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
     return visitObject(object, ray, tMost, false, faces, statistics, before);
   });
 }

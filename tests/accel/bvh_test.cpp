@@ -9,11 +9,20 @@
 namespace trace::test {
 namespace {
 
+/// What a query visits; the same for every kernel and both orders.
 std::set<std::uint32_t> visited(const Bvh& bvh, const Vec3& o, const Vec3& d, Real tMost = kInfinity) {
-  std::set<std::uint32_t> items;
-  std::uint64_t nodes = 0;
-  bvh.query(o, d, tMost, nodes, [&](std::uint32_t item) { return items.insert(item), false; });
-  return items;
+  std::set<std::uint32_t> first;
+  bool any = false;
+  for (const BvhKernel& kernel : bvhKernels())
+    for (bool nearestFirst : {true, false}) {
+      std::set<std::uint32_t> items;
+      std::uint64_t nodes = 0;
+      const auto insert = [&](std::uint32_t item) { return items.insert(item), false; };
+      bvh.query(o, d, tMost, nearestFirst, nodes, insert, kernel);
+      EXPECT_TRUE(!any || items == first) << kernel.name;
+      first = items, any = true;
+    }
+  return first;
 }
 
 /// Slabs in extended precision: does the ray surely meet the box?
@@ -87,7 +96,7 @@ TEST(Bvh, StopsBeyondTheLimitAndWhenTold) {
   EXPECT_LE(near, 5u + 3u);
   std::uint64_t nodes = 0;
   int calls = 0;
-  bvh.query({-1, 0.5, 0.5}, {1, 0, 0}, kInfinity, nodes, [&](std::uint32_t) { return ++calls == 3; });
+  bvh.query({-1, 0.5, 0.5}, {1, 0, 0}, kInfinity, true, nodes, [&](std::uint32_t) { return ++calls == 3; });
   EXPECT_EQ(calls, 3);
 }
 

@@ -1,0 +1,31 @@
+#include "accel/bvh_kernel.h"
+
+#include <array>
+
+namespace trace {
+
+// Compiled from traverse.h, each in its own file with its own flags.
+#if defined(TRACE_HAS_AVX2)
+extern const BvhKernel kBvhKernelAvx2;
+#endif
+extern const BvhKernel kBvhKernelBase;
+
+bool hasAvx2() {
+#if defined(TRACE_HAS_AVX2)
+  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has;
+#else
+  return false;
+#endif
+}
+
+std::span<const BvhKernel> bvhKernels() {
+#if defined(TRACE_HAS_AVX2)
+  static const std::array<BvhKernel, 2> kAll{kBvhKernelAvx2, kBvhKernelBase};
+  return std::span(kAll).subspan(hasAvx2() ? 0 : 1);
+#else
+  return {&kBvhKernelBase, 1};
+#endif
+}
+
+}  // namespace trace

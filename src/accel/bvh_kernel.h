@@ -1,0 +1,27 @@
+// A ray's way through a hierarchy, compiled once for each instruction set and chosen for the processor at run time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "accel/bvh_node.h"
+
+namespace trace {
+
+/// Is called for a leaf; returns true to end the query.
+using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
+
+struct BvhKernel {
+  std::string_view name;
+  void (*query)(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
+                std::uint64_t& visited, VisitLeaf visit, void* context);
+};
+
+/// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).
+bool hasAvx2();
+
+/// Those that this machine can run, the best first.
+std::span<const BvhKernel> bvhKernels();
+
+}  // namespace trace
