@@ -176,7 +176,7 @@ struct Bvh::Builder {
       }
       BvhNode& node = bvh.nodes_[number];
       for (int axis = 0; axis < 3; ++axis)
-        node.low[axis][lane] = box.low[axis], node.high[axis][lane] = box.high[axis];
+        node.plane[axis][0][lane] = box.low[axis], node.plane[axis][1][lane] = box.high[axis];
       node.child[lane] = child;
     }
     return number;

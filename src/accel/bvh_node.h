@@ -11,7 +11,7 @@ namespace trace {
 struct alignas(32) BvhNode {
   static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
 
-  float low[3][8], high[3][8];  ///< an empty lane has low > high
+  float plane[3][2][8];  ///< axis, low or high, lane; an empty lane has low > high
   std::uint32_t child[8];
 };
 

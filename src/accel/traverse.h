@@ -27,14 +27,11 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
   int top = 0;
 
   Float8 inverse[3], shift[3];  // t of a plane at p: p inverse - shift
-  const float* nearest[3];  // in the root; the offsets are the same in every node
-  const float* farthest[3];
+  std::size_t side[3];          // where the planes that the ray meets first lie in a node, in floats
   for (int axis = 0; axis < 3; ++axis) {
     inverse[axis] = Float8::all(ray.inverse[axis]);
     shift[axis] = Float8::all(ray.origin[axis] * ray.inverse[axis]);
-    const bool backward = ray.inverse[axis] < 0;
-    nearest[axis] = backward ? nodes->high[axis] : nodes->low[axis];
-    farthest[axis] = backward ? nodes->low[axis] : nodes->high[axis];
+    side[axis] = static_cast<std::size_t>(axis) * 16 + (ray.inverse[axis] < 0 ? 8 : 0);
   }
   constexpr float kRoundUp = 1 + 0x1p-22f;
   float limit = static_cast<float>(tMost - ray.start) * kRoundUp;
@@ -47,11 +44,11 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
     } else {
       ++visited;
       const BvhNode& node = nodes[next.child];
-      const std::size_t offset = std::size_t{next.child} * (sizeof(BvhNode) / sizeof(float));
+      const float* planes = &node.plane[0][0][0];
       Float8 enter = Float8::all(0), leave = Float8::all(limit);
       for (int axis = 0; axis < 3; ++axis) {
-        enter = max(timesMinus(Float8::load(nearest[axis] + offset), inverse[axis], shift[axis]), enter);
-        leave = min(timesMinus(Float8::load(farthest[axis] + offset), inverse[axis], shift[axis]), leave);
+        enter = max(timesMinus(Float8::load(planes + side[axis]), inverse[axis], shift[axis]), enter);
+        leave = min(timesMinus(Float8::load(planes + (side[axis] ^ 8)), inverse[axis], shift[axis]), leave);
       }
       unsigned met = lessEqual(enter, leave);
       if (met) {

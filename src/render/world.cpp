@@ -20,7 +20,7 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& sta
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
   const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
-  const Ray ray{toObject * worldRay.origin, linear(toObject, worldRay.direction)};
+  const Ray ray = instance.objectRay(worldRay);
   SurfacePoint s = match(
       instance.shape, Overloaded{[&](const Mesh&) {
                                    return trace::surface(instance.mesh->data(), found.part, found.triangle);
@@ -104,7 +104,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees;
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
-    World::Instance instance{object.shape, object.worldFromObject, {}, {}, object.material, true, {}};
+    World::Instance instance;
+    instance.shape = object.shape;
+    instance.worldFromObject = object.worldFromObject;
+    instance.moved = object.worldFromObject != Affine{};
+    instance.material = object.material;
     if (object.material >= world.materials_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
     if (!invertible(object.worldFromObject)) {

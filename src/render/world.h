@@ -75,10 +75,15 @@ class World {
   struct Instance {
     Shape shape;
     Affine worldFromObject, objectFromWorld;
+    bool moved = false;  ///< the transform is not the identity
     Box3 bounds;
     std::uint32_t material = 0;
     bool opaque = true;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
+
+    Ray objectRay(const Ray& ray) const {
+      return moved ? Ray{objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)} : ray;
+    }
   };
 
   template <class Visit>
@@ -105,8 +110,7 @@ bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& t
                         Faces faces, Statistics& statistics, Visit& visit) const {
   const Instance& instance = objects_[object];
   const std::size_t kind = instance.shape.index();
-  const Ray ray{instance.objectFromWorld * worldRay.origin,
-                linear(instance.objectFromWorld, worldRay.direction)};
+  const Ray ray = instance.objectRay(worldRay);
   bool ended = false;
   const auto report = [&](const Found& found) {
     if (ended || !(found.t > 0 && found.t <= tMost)) return;
