@@ -4,10 +4,12 @@
 #include <array>
 #include <limits>
 
+#include "accel/simd.h"
+
 namespace trace {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kMostBins = 16;  // fewer where there are few items: most of the time goes into small nodes
 constexpr int kDepthOfHeuristic = 60;  // deeper, nodes are halved by count: 32 more levels hold 2^32 items
 constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;  // of visiting one; a leaf's items are tested together
 
@@ -17,25 +19,27 @@ float roundDown(Real x) {
 }
 float roundUp(Real x) { return -roundDown(-x); }
 
-/// A box in float. Empty as made.
-struct Bounds {
-  float low[3] = {kFar, kFar, kFar}, high[3] = {-kFar, -kFar, -kFar};
-  static constexpr float kFar = std::numeric_limits<float>::infinity();
+using simd::Float4;
 
-  void extend(const Bounds& b) {
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], b.low[i]), high[i] = std::max(high[i], b.high[i]);
-  }
+/// A box in float, x y z and a fourth lane that means nothing. Empty as made.
+struct Bounds {
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  Float4 low = Float4::all(kFar), high = Float4::all(-kFar);
+
+  void extend(const Bounds& b) { low = min(low, b.low), high = max(high, b.high); }
   float halfArea() const {
-    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    return x < 0 ? 0 : x * y + y * z + z * x;
+    alignas(16) float size[4];
+    (high - low).store(size);
+    return size[0] < 0 ? 0 : size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
   }
 };
 
 /// An item on its way into the tree.
 struct Reference {
-  Bounds box;
+  float low[3], high[3];
   std::uint32_t item;
-  float center(int axis) const { return box.low[axis] + box.high[axis]; }  // twice the centre
+  /// Reads a float beyond each corner, but not beyond the reference.
+  Bounds box() const { return {Float4::loadAnywhere(low), Float4::loadAnywhere(high)}; }
 };
 
 /// Of the binary tree.
@@ -59,10 +63,14 @@ struct Bvh::Builder {
     float cost = Bounds::kFar;
     int axis = 0, bin = 0;
   };
-  struct Bins {  // from centre to bin number
-    float low[3], scale[3];
-    int operator()(const Reference& r, int axis) const {
-      return std::min(static_cast<int>((r.center(axis) - low[axis]) * scale[axis]), kBins - 1);
+  /// From a box to the bins of its centre.
+  struct Bins {
+    int count;
+    Float4 low, scale;
+    bool usable[3];
+    void operator()(const Bounds& box, int (&bins)[4]) const {
+      const Float4 place = ((box.low + box.high) - low) * scale;
+      min(max(place, Float4::all(0)), Float4::all(static_cast<float>(count - 1))).storeWhole(bins);
     }
   };
 
@@ -76,23 +84,28 @@ struct Bvh::Builder {
       Bounds box;
       std::uint32_t count = 0;
     };
-    std::array<std::array<Bin, kBins>, 3> all;
-    for (std::uint32_t i = first; i < first + count; ++i)
+    std::array<std::array<Bin, kMostBins>, 3> all;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const Bounds box = references[i].box();
+      alignas(16) int number[4];
+      bins(box, number);
       for (int axis = 0; axis < 3; ++axis) {
-        Bin& bin = all[static_cast<size_t>(axis)][static_cast<size_t>(bins(references[i], axis))];
-        bin.box.extend(references[i].box), ++bin.count;
+        Bin& bin = all[static_cast<size_t>(axis)][static_cast<size_t>(number[axis])];
+        bin.box.extend(box), ++bin.count;
       }
+    }
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      if (bins.scale[axis] == 0) continue;
+      if (!bins.usable[axis]) continue;
       const auto& row = all[static_cast<size_t>(axis)];
-      std::array<float, kBins> rightCost{};
+      std::array<float, kMostBins> rightCost{};
       Bin right, left;
-      for (size_t b = kBins - 1; b > 0; --b) {
+      const auto last = static_cast<size_t>(bins.count - 1);
+      for (size_t b = last; b > 0; --b) {
         right.box.extend(row[b].box), right.count += row[b].count;
         rightCost[b] = right.box.halfArea() * leafCost(right.count);
       }
-      for (size_t b = 0; b + 1 < kBins; ++b) {
+      for (size_t b = 0; b < last; ++b) {
         left.box.extend(row[b].box), left.count += row[b].count;
         if (left.count == 0 || left.count == count) continue;
         const float cost = left.box.halfArea() * leafCost(left.count) + rightCost[b + 1];
@@ -103,23 +116,23 @@ struct Bvh::Builder {
   }
 
   void branch(std::uint32_t index, std::uint32_t first, std::uint32_t count, int depth) {
-    Bounds box, centers;
+    Bounds box, centers;  // twice the centres
     for (std::uint32_t i = first; i < first + count; ++i) {
-      box.extend(references[i].box);
-      for (int axis = 0; axis < 3; ++axis) {
-        const float c = references[i].center(axis);
-        centers.low[axis] = std::min(centers.low[axis], c),
-        centers.high[axis] = std::max(centers.high[axis], c);
-      }
+      const Bounds b = references[i].box();
+      box.extend(b);
+      centers.extend({b.low + b.high, b.low + b.high});
     }
     branches[index].box = box;
 
-    Bins bins;
+    alignas(16) float low[4], high[4], scale[4] = {};
+    centers.low.store(low), centers.high.store(high);
+    Bins bins{std::min(kMostBins, 8 + static_cast<int>(count / 16)), centers.low, {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
-      const float scale = kBins * 0.9999f / (centers.high[axis] - centers.low[axis]);
-      bins.low[axis] = centers.low[axis];
-      bins.scale[axis] = std::isfinite(scale) ? scale : 0;
+      const float s = static_cast<float>(bins.count) * 0.9999f / (high[axis] - low[axis]);
+      bins.usable[axis] = std::isfinite(s);
+      scale[axis] = bins.usable[axis] ? s : 0;
     }
+    bins.scale = Float4::loadAnywhere(scale);
     const Split split = depth < kDepthOfHeuristic && count > 1 ? cheapestSplit(first, count, bins) : Split{};
     const float asLeaf = box.halfArea() * leafCost(count), asNode = box.halfArea() * kCostOfNode + split.cost;
     if (count == 1 || (count <= leafSize && !(asNode < asLeaf))) {
@@ -129,8 +142,11 @@ struct Bvh::Builder {
     const auto begin = references.begin() + first, end = begin + count;
     auto middle = begin + count / 2;  // items that no plane separates are halved by number
     if (split.cost < Bounds::kFar)
-      middle =
-          std::partition(begin, end, [&](const Reference& r) { return bins(r, split.axis) <= split.bin; });
+      middle = std::partition(begin, end, [&](const Reference& r) {
+        alignas(16) int number[4];
+        bins(r.box(), number);
+        return number[split.axis] <= split.bin;
+      });
     const auto leftCount = static_cast<std::uint32_t>(middle - begin);
     const auto children = static_cast<std::uint32_t>(branches.size());
     branches[index].first = children, branches[index].count = 0;
@@ -175,8 +191,10 @@ struct Bvh::Builder {
         child = b.count > 0 ? addLeaf(b) : collapse(children[lane]);
       }
       BvhNode& node = bvh.nodes_[number];
+      alignas(16) float low[4], high[4];
+      box.low.store(low), box.high.store(high);
       for (int axis = 0; axis < 3; ++axis)
-        node.plane[axis][0][lane] = box.low[axis], node.plane[axis][1][lane] = box.high[axis];
+        node.plane[axis][0][lane] = low[axis], node.plane[axis][1][lane] = high[axis];
       node.child[lane] = child;
     }
     return number;
@@ -188,9 +206,10 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
     if (!box.empty()) bounds_.extend(box);
   if (bounds_.empty()) return;
 
-  // The slab test's rounding moves a box's face by less than 2^-19 of the largest coordinate m: the ray's origin,
-  // at most 4 m away, and its product with the inverse direction by 2^-22 m each; the inverse direction, with the
-  // distance of at most 5 m, by 2^-20.6 m; the face's own product and the difference by 2^-21.4 m.
+  // The slab test's rounding moves a box's face by less than 2^-19 of the largest coordinate m: the ray's
+  // origin, at most 4 m away, and its product with the inverse direction by 2^-22 m each; the inverse
+  // direction, with the distance of at most 5 m, by 2^-20.6 m; the face's own product and the difference by
+  // 2^-21.4 m.
   const Real largest = max(maxComponent(abs(bounds_.low)), maxComponent(abs(bounds_.high)));
   const Real pad = largest * 0x1p-19;
   reach_ = 4 * largest;
@@ -201,10 +220,10 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
   builder.references.reserve(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     if (boxes[i].empty()) continue;
-    Reference r{{}, i};
+    Reference r{{}, {}, i};
     for (int axis = 0; axis < 3; ++axis) {
-      r.box.low[axis] = roundDown(boxes[i].low[axis] - pad);
-      r.box.high[axis] = roundUp(boxes[i].high[axis] + pad);
+      r.low[axis] = roundDown(boxes[i].low[axis] - pad);
+      r.high[axis] = roundUp(boxes[i].high[axis] + pad);
     }
     builder.references.push_back(r);
   }
@@ -243,14 +262,16 @@ bool Bvh::prepare(const Vec3& origin, const Vec3& direction, Real tMost, SlabRay
   Real enter = 0, leave = tMost;
   for (int axis = 0; axis < 3; ++axis) {
     const Real inverse = 1 / direction[axis];
-    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse, t1 = (bounds_.high[axis] - origin[axis]) * inverse;
+    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse,
+               t1 = (bounds_.high[axis] - origin[axis]) * inverse;
     // A NaN (0 * infinity: the ray lies in the plane of a face) leaves the interval as it is.
     enter = max(enter, inverse < 0 ? t1 : t0);
     leave = min(leave, inverse < 0 ? t0 : t1);
   }
   if (!(enter <= leave)) return false;
   ray.start = enter;
-  for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
+  for (int axis = 0; axis < 3; ++axis)
+    ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
   return true;
 }
 

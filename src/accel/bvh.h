@@ -32,14 +32,21 @@ class Bvh {
   /// Over items 0 .. boxes.size() - 1. Empty boxes are left out.
   explicit Bvh(std::span<const Box3> boxes, Leaves leaves = Leaves::single);
 
+  /// Item i is called names[i] from now on; several may have the same name.
+  void rename(std::span<const std::uint32_t> names) {
+    for (std::uint32_t& item : items_)
+      if (item != kNoItem) item = names[item];
+  }
+
   /// No tree: every query visits every item whose box is not empty. What a hierarchy is tested against.
   static Bvh bruteForce(std::span<const Box3> boxes);
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
-  /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes visited.
+  /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes
+  /// visited.
   template <class Visit>
-  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, std::uint64_t& nodes,
-             Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
+  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
+             std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
 
   /// The items of a leaf; unused places hold kNoItem.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {

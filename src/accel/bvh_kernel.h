@@ -1,4 +1,5 @@
-// A ray's way through a hierarchy, compiled once for each instruction set and chosen for the processor at run time.
+// A ray's way through a hierarchy, compiled once for each instruction set and chosen for the processor at run
+// time.
 #pragma once
 
 #include <cstdint>

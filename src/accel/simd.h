@@ -1,5 +1,6 @@
-// A thin type for eight floats and one for four doubles: what the traversal and the triangle test need, no
-// more. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for plain C++.
+// Thin types for eight floats and four doubles, which the traversal and the triangle test need, and four
+// floats for the builder; no more than these use. The same source compiles for AVX2, for SSE2, NEON and
+// WebAssembly (as halves), and for plain C++.
 //
 // Each instruction set has its own inline namespace, so that code compiled for one is never linked in place
 // of another's. Comparisons give masks with bit i for lane i.
@@ -50,6 +51,20 @@ inline unsigned lessEqual(Double4 a, Double4 b) {
 #elif defined(__SSE2__)
 
 inline namespace sse2 {
+
+struct Float4 {
+  __m128 v;
+  static Float4 loadAnywhere(const float* p) { return {_mm_loadu_ps(p)}; }
+  static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  void store(float* p) const { _mm_store_ps(p, v); }
+  /// Towards zero.
+  void storeWhole(int* p) const { _mm_store_si128(reinterpret_cast<__m128i*>(p), _mm_cvttps_epi32(v)); }
+};
+inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
 
 struct Float8 {
   __m128 lo, hi;
@@ -107,6 +122,10 @@ struct Lanes {
     for (int i = 0; i < N; ++i) r.v[i] = x;
     return r;
   }
+  static Lanes loadAnywhere(const float* p) { return load(p); }
+  void storeWhole(int* p) const {
+    for (int i = 0; i < N; ++i) p[i] = static_cast<int>(v[i]);
+  }
   void store(T* p) const {
     for (int i = 0; i < N; ++i) p[i] = v[i];
   }
@@ -152,7 +171,10 @@ unsigned lessEqual(const Lanes<T, N>& a, const Lanes<T, N>& b) {
   return mask;
 }
 template <class T, int N>
-Lanes<T, N> timesMinus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c) { return a * b - c; }
+Lanes<T, N> timesMinus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c) {
+  return a * b - c;
+}
+using Float4 = Lanes<float, 4>;
 using Float8 = Lanes<float, 8>;
 using Double4 = Lanes<double, 4>;
 

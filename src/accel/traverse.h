@@ -92,8 +92,10 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
 inline void queryLeaves(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
                         std::uint64_t& visited, bool (*visit)(void*, std::uint32_t), void* context) {
   auto visitLeaf = [=](std::uint32_t leaf) { return visit(context, leaf); };
-  if (nearestFirst) traverse<true>(nodes, ray, tMost, visited, visitLeaf);
-  else traverse<false>(nodes, ray, tMost, visited, visitLeaf);
+  if (nearestFirst)
+    traverse<true>(nodes, ray, tMost, visited, visitLeaf);
+  else
+    traverse<false>(nodes, ray, tMost, visited, visitLeaf);
 }
 
 }  // inline namespace

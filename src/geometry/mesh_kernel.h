@@ -23,14 +23,16 @@ inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Of the lanes in `met`, those whose t is in [0, tMost] or undefined. The same arithmetic, to the last bit, as in
-/// TriangleRay::intersect.
+/// Of the lanes in `met`, those whose t is in [0, tMost] or undefined. The same arithmetic, to the last bit,
+/// as in TriangleRay::intersect.
 inline unsigned lanesWithin(const TriangleBlock& block, const LaneRay& ray, double tMost, unsigned met) {
   const auto corner = [&](int i) {
     return Vec3x4{Double4::load(block.corner[i][0]), Double4::load(block.corner[i][1]),
                   Double4::load(block.corner[i][2])};
   };
-  const auto all = [](const double* v) { return Vec3x4{Double4::all(v[0]), Double4::all(v[1]), Double4::all(v[2])}; };
+  const auto all = [](const double* v) {
+    return Vec3x4{Double4::all(v[0]), Double4::all(v[1]), Double4::all(v[2])};
+  };
   const Vec3x4 a = corner(0), normal = cross(corner(1) - a, corner(2) - a);
   const Double4 along = dot(normal, all(ray.direction)), zero = Double4::all(0);
   const Double4 t = dot(normal, a - all(ray.origin)) / along;

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "geometry/presplit.h"
+
 namespace trace {
 
 // Compiled from mesh_kernel.h, each in its own file with its own flags.
@@ -21,10 +23,13 @@ std::span<const MeshKernel> meshKernels() {
 }
 
 MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce) : data_(std::move(data)) {
-  std::vector<Box3> boxes(data_->triangles.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i)
-    if (faceNormal(*data_, i) != Vec3{}) boxes[i] = bounds(*data_, i);
+  const std::vector<TrianglePart> parts = triangleParts(*data_, bruteForce);
+  std::vector<Box3> boxes;
+  std::vector<std::uint32_t> triangles;
+  boxes.reserve(parts.size()), triangles.reserve(parts.size());
+  for (const TrianglePart& part : parts) boxes.push_back(part.box), triangles.push_back(part.triangle);
   bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes, Bvh::Leaves::together);
+  bvh_.rename(triangles);
 
   blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
   for (std::uint32_t block = 0; block < blocks_.size(); ++block)

@@ -53,11 +53,11 @@ class MeshTree {
 
   const MeshData& data() const { return *data_; }
 
-  /// Calls visit(triangle, corners), which returns true to end the query, for each triangle that the ray may meet at
-  /// 0 <= t <= tMost, which may shrink during the calls; nearer ones first if asked.
+  /// Calls visit(triangle, corners), which returns true to end the query, for each triangle that the ray may
+  /// meet at 0 <= t <= tMost, which may shrink during the calls; nearer ones first if asked.
   template <class Visit>
-  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited, Visit&& visit,
-             const MeshKernel& kernel = meshKernels().front()) const;
+  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
+             Visit&& visit, const MeshKernel& kernel = meshKernels().front()) const;
 
   /// Of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
@@ -83,7 +83,11 @@ void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirs
   if (!bvh_.prepare(ray.origin, ray.direction, tMost, slab)) return;
   const LaneRay lanes{{ray.origin.x, ray.origin.y, ray.origin.z},
                       {ray.direction.x, ray.direction.y, ray.direction.z},
-                      ray.x, ray.y, ray.z, ray.shearX, ray.shearY};
+                      ray.x,
+                      ray.y,
+                      ray.z,
+                      ray.shearX,
+                      ray.shearY};
   const auto visitLanes = [&](std::uint32_t block, unsigned met) {
     for (; met != 0; met &= met - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(met));

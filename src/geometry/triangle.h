@@ -1,7 +1,8 @@
 // One ray and one triangle: the test that decides.
 //
-// Watertight (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013), with the signs of the
-// edges exact: of the triangles around an edge or a vertex that a ray hits exactly, one is hit per crossing.
+// Watertight (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013), with the signs
+// of the edges exact: of the triangles around an edge or a vertex that a ray hits exactly, one is hit per
+// crossing.
 #pragma once
 
 #include <cmath>

@@ -31,8 +31,10 @@ Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distan
   });
   if (blocked) return Color(0);
 
-  // In order along the ray, so that the product's last bit does not depend on the hierarchy.
+  // In order along the ray, so that the product's last bit does not depend on the hierarchy; each once.
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });
+  const auto same = [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); };
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
   Color passed(1);
   Real last = 0;
   for (const Found& found : crossed_) {

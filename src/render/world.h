@@ -52,7 +52,8 @@ class World {
   std::optional<Found> closest(const Ray& ray, Faces faces, Statistics& statistics) const;
 
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
-  /// true. The way to ask whether anything is hit at all.
+  /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
+  /// met more than once.
   template <class Visit>
   void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const;
 

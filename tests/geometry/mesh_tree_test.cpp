@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "geometry/presplit.h"
 #include "support/shapes.h"
 
 namespace trace::test {
@@ -37,9 +38,8 @@ std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost
   const TriangleRay triangleRay(ray);
   const auto test = [&](std::uint32_t i, const Corners& corners) {
     TriangleHit hit;
-    if (triangleRay.intersect(corners, hit) && hit.t > 0 && hit.t < tMost) {
-      EXPECT_TRUE(hits.insert(i).second) << "visited twice";
-    }
+    if (triangleRay.intersect(corners, hit) && hit.t > 0 && hit.t < tMost)
+      hits.insert(i);  // parts meet twice
     return false;
   };
   tree.query(triangleRay, tMost, false, visited, test, kernel);
@@ -53,24 +53,36 @@ std::shared_ptr<MeshData> movedBall(Random& random, double scale, const Vec3& of
   return mesh;
 }
 
+/// Long thin triangles across the whole mesh, which the hierarchy holds in parts.
+void addNeedles(MeshData& mesh, Random& random, double scale, const Vec3& offset) {
+  for (int i = 0; i < 60; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const Vec3 a = random.inCube(3 * scale), b = random.inCube(3 * scale);
+    for (const Vec3& p : {a, b, b + random.inCube(0.05 * scale)}) mesh.points.push_back(Vec3f(p + offset));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+}
+
 TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
   Random random(1);
+  int i = 0;
   for (const auto& [scale, offset] : {std::pair{1.0, Vec3{}},
                                       {1e-4, Vec3{}},
                                       {1e6, Vec3{}},
                                       {1.0, Vec3{1000, -500, 300}},
                                       {1e-3, Vec3{5, 5, 5}}}) {
     const auto mesh = movedBall(random, scale, offset);
+    if (i++ % 2) addNeedles(*mesh, random, scale, offset);
     const MeshTree tree(mesh, false), every(mesh, true);
-    for (int i = 0; i < (kSanitized ? 200 : 2000); ++i) {
+    for (int k = 0; k < (kSanitized ? 200 : 2000); ++k) {
       // From near and from very far, through the ball, along axes, and exactly at vertices.
       const Real away = scale * std::pow(10, random.uniform(-1, 6));
       const Vec3 target =
-          i % 4 == 0
+          k % 4 == 0
               ? Vec3(mesh->points[static_cast<size_t>(random.below(static_cast<int>(mesh->points.size())))])
               : offset + random.inCube(1.2 * scale);
       Vec3 d = random.direction();
-      if (i % 5 == 0) d = {i % 2 ? 1.0 : 0.0, i % 2 ? 0.0 : -1.0, 0};
+      if (k % 5 == 0) d = {k % 2 ? 1.0 : 0.0, k % 2 ? 0.0 : -1.0, 0};
       const Ray ray{target - d * away, d * random.uniform(0.1, 10)};
       const Real tMost = random.coin() ? kInfinity : random.uniform(0, 2 * away);
       const Nearest expected = nearest(every, ray, meshKernels().front());
@@ -91,9 +103,30 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
     int calls = 0;
     const Real tMost = kInfinity;
     tree.query(
-        TriangleRay(Ray{{0, 0, 5}, {0.001, 0.002, -1}}), tMost, false, visited, [&](std::uint32_t, const Corners&) { return ++calls == 1; },
-        kernel);
+        TriangleRay(Ray{{0, 0, 5}, {0.001, 0.002, -1}}), tMost, false, visited,
+        [&](std::uint32_t, const Corners&) { return ++calls == 1; }, kernel);
     EXPECT_EQ(calls, 1);
+  }
+}
+
+TEST(Presplit, PartsCoverTheirTrianglesAndEvenMeshesStayWhole) {
+  Random random(3);
+  const auto ball = ballMesh(16, random);
+  EXPECT_EQ(triangleParts(*ball).size(), ball->triangles.size());
+
+  addNeedles(*ball, random, 1, {});
+  const std::vector<TrianglePart> parts = triangleParts(*ball);
+  EXPECT_GT(parts.size(), ball->triangles.size() + 60);
+  EXPECT_LE(parts.size(), 2 * ball->triangles.size());
+  EXPECT_EQ(triangleParts(*ball, true).size(), ball->triangles.size());
+  for (int i = 0; i < 20000; ++i) {
+    const auto triangle = static_cast<std::uint32_t>(random.below(static_cast<int>(ball->triangles.size())));
+    const Corners v = corners(*ball, triangle);
+    const double r = std::sqrt(random.uniform()), u = random.uniform();
+    const Vec3 p = v.a * (1 - r) + v.b * (r * (1 - u)) + v.c * (r * u), slack{1e-12, 1e-12, 1e-12};
+    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const TrianglePart& part) {
+      return part.triangle == triangle && Box3{part.box.low - slack, part.box.high + slack}.contains(p);
+    }));
   }
 }
 
