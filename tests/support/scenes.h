@@ -43,7 +43,11 @@ inline Scene randomScene(Random& random, int objects, double scale = 1) {
     if (i % 3 == 0) phong.reflective = Color(0.4);
     if (i % 4 == 0) phong.transmissive = {0.9, 0.6, 0.7}, phong.index = random.uniform(1, 2);
     Shape shape = shapes[static_cast<size_t>(random.below(static_cast<int>(shapes.size())))];
-    if (i % 5 == 0) shape = Mesh{ballMesh(6 + i % 7, random)};
+    if (i % 5 == 0) {
+      const auto mesh = ballMesh(6 + i % 7, random);
+      if (i % 10 == 0) addNeedles(*mesh, random);
+      shape = Mesh{mesh};
+    }
     addObject(scene, shape, random.affine(0.25 * scale), phong);
   }
   for (int i = 0; i < 2; ++i)

@@ -39,6 +39,16 @@ inline std::shared_ptr<MeshData> ballMesh(int rings, Random& random) {
   return mesh;
 }
 
+/// Long thin triangles across the whole mesh, which the hierarchy holds in parts.
+inline void addNeedles(MeshData& mesh, Random& random, double scale = 1, const Vec3& offset = {}) {
+  for (int i = 0; i < 60; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const Vec3 a = random.inCube(3 * scale), b = random.inCube(3 * scale);
+    for (const Vec3& p : {a, b, b + random.inCube(0.05 * scale)}) mesh.points.push_back(Vec3f(p + offset));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+}
+
 /// The default instance of each analytic shape, and one with each field changed: flags flipped, numbers
 /// scaled.
 inline std::vector<Shape> analyticShapes() {
