@@ -235,6 +235,7 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
   builder.branches.resize(1);
   builder.branch(0, 0, static_cast<std::uint32_t>(builder.references.size()), 0);
   builder.collapse(0);
+  nodes_.shrink_to_fit(), items_.shrink_to_fit();
 }
 
 Bvh Bvh::bruteForce(std::span<const Box3> boxes) {

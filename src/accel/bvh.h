@@ -14,6 +14,7 @@
 
 #include "accel/bvh_kernel.h"
 #include "accel/bvh_node.h"
+#include "base/huge_pages.h"
 #include "math/box.h"
 
 namespace trace {
@@ -54,7 +55,7 @@ class Bvh {
                                                      kLeafSize);
   }
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(items_.size() / kLeafSize); }
-  const std::vector<BvhNode>& nodes() const { return nodes_; }
+  const HugeVector<BvhNode>& nodes() const { return nodes_; }
   std::size_t bytes() const {
     return nodes_.size() * sizeof(BvhNode) + items_.size() * sizeof(std::uint32_t);
   }
@@ -67,7 +68,7 @@ class Bvh {
 
   Box3 bounds_;                       ///< padded
   Real reach_ = 0;                    ///< coordinates up to this are precise enough in float
-  std::vector<BvhNode> nodes_;        ///< nodes_[0] is the root; none: brute force
+  HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
   std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf
 };
 

@@ -65,7 +65,7 @@ class MeshTree {
  private:
   std::shared_ptr<const MeshData> data_;
   Bvh bvh_;
-  std::vector<TriangleBlock> blocks_;  ///< one for each leaf
+  HugeVector<TriangleBlock> blocks_;  ///< one for each leaf
 };
 
 // ------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "render/world.h"
 
 #include <map>
+#include <set>
 
 namespace trace {
 
@@ -58,6 +59,14 @@ std::size_t World::triangleCount() const {
   for (const Instance& instance : objects_)
     if (instance.mesh) count += instance.mesh->data().triangles.size();
   return count;
+}
+
+std::size_t World::bytes() const {
+  std::size_t sum = bvh_.bytes();
+  std::set<const MeshTree*> counted;
+  for (const Instance& instance : objects_)
+    if (instance.mesh && counted.insert(instance.mesh.get()).second) sum += instance.mesh->bytes();
+  return sum;
 }
 
 // --- compile ------------------------------------------------------------------------------------------

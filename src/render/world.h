@@ -69,6 +69,8 @@ class World {
   const Box3& bounds() const { return bounds_; }
   std::size_t objectCount() const { return objects_.size(); }
   std::size_t triangleCount() const;
+  /// Of the hierarchies, without the meshes' own arrays.
+  std::size_t bytes() const;
 
  private:
   friend World compile(const Scene&, const Settings&, Messages&);
