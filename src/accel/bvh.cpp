@@ -75,7 +75,8 @@ struct Bvh::Builder {
   };
 
   float leafCost(std::uint32_t count) const {
-    return kCostOfLeaf * static_cast<float>((count + leafSize - 1) / leafSize);
+    const std::uint32_t leaves = (count + leafSize - 1) / leafSize;
+    return kCostOfLeaf * static_cast<float>(leaves);
   }
 
   /// The cheapest of the planes between bins: on each side, half-area times the leaves its items fill.

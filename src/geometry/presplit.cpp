@@ -78,7 +78,7 @@ void split(const Piece& piece, const Box3& box, int times, const Box3& grid, std
                                     clip(piece, cut.axis, cut.plane, false)};
   const std::array<Box3, 2> boxes{pieces[0].box(), pieces[1].box()};
   const Real a = maxComponent(boxes[0].size()), b = maxComponent(boxes[1].size());
-  const int left = static_cast<int>((times - 1) * a / (a + b) + 0.5);
+  const int left = static_cast<int>(std::lround((times - 1) * a / (a + b)));
   split(pieces[0], boxes[0], left, grid, triangle, parts);
   split(pieces[1], boxes[1], times - 1 - left, grid, triangle, parts);
 }

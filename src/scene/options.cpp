@@ -375,6 +375,7 @@ const Option& findOption(std::string_view name) {
   for (const Option& option : kTable)
     if (option.name == name) return option;
   std::vector<std::string_view> names;
+  names.reserve(kTable.size());
   for (const Option& option : kTable) names.push_back(option.name);
   throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", didYouMean(name, names));
 }
