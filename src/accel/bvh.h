@@ -23,7 +23,6 @@ class Bvh {
  public:
   static constexpr int kLeafSize = 4;
   static constexpr std::uint32_t kNoItem = 0xffffffffu;
-  static constexpr int kMostDepth = 96;
 
   /// How many items a leaf may hold: one where each costs a test of its own, kLeafSize where they are tested
   /// together.

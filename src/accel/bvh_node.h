@@ -9,14 +9,15 @@ namespace trace {
 
 /// Eight children: their boxes, lane by lane, and what they are.
 struct alignas(32) BvhNode {
+  static constexpr int kMostDepth = 96;                ///< of any tree
   static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
 
   float plane[3][2][8];  ///< axis, low or high, lane; an empty lane has low > high
   std::uint32_t child[8];
 };
 
-/// A ray ready for the slab test: moved to where it enters the hierarchy's whole box, so that its float copy
-/// is as good for rays from far away.
+/// A ray ready for the slab test. One from far away starts where it enters the hierarchy's whole box, so that
+/// its float copy is as good as that of a near one.
 struct SlabRay {
   float origin[3], inverse[3];
   double start = 0;  ///< t of the ray at `origin`

@@ -1,18 +1,13 @@
-// The way of a ray through a hierarchy. Compiled once for each instruction set that
-// includes it, hence inside its namespace and free of other templates (simd.h).
+// The way of a ray through a hierarchy. Included by the files that compile it for one instruction set each
+// (bvh_kernel_*.cpp, geometry/mesh_kernel_*.cpp); free of the standard library, whose functions a linker
+// could take from one of them for all.
 #pragma once
 
 #include "accel/bvh_node.h"
 #include "accel/simd.h"
 
 namespace trace::simd {
-#if defined(__AVX2__)
-inline namespace avx2 {
-#elif defined(__SSE2__)
-inline namespace sse2 {
-#else
-inline namespace plain {
-#endif
+namespace {  // each including file has its own, compiled with its own flags
 
 /// Calls visit(leaf), which returns true to end, for each leaf whose box the ray may meet before tMost, which
 /// may shrink during the calls. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
@@ -23,7 +18,7 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
     std::uint32_t child;
     float near;  // where the ray enters its box
   };
-  Pending stack[8 * 96];  // seven waiting siblings for each level
+  Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
   int top = 0;
 
   Float8 inverse[3], shift[3];  // t of a plane at p: p inverse - shift
@@ -98,5 +93,5 @@ inline void queryLeaves(const BvhNode* nodes, const SlabRay& ray, const double& 
     traverse<false>(nodes, ray, tMost, visited, visitLeaf);
 }
 
-}  // inline namespace
+}  // namespace
 }  // namespace trace::simd

@@ -1,18 +1,12 @@
 // The test of four triangles at once, and a ray's way through the blocks of a mesh. Compiled once for each
-// instruction set (mesh_kernel_*.cpp), hence inside the namespace of simd.h and free of the standard library.
+// instruction set (mesh_kernel_*.cpp), like accel/traverse.h.
 #pragma once
 
 #include "accel/traverse.h"
 #include "geometry/mesh_tree.h"
 
 namespace trace::simd {
-#if defined(__AVX2__)
-inline namespace avx2 {
-#elif defined(__SSE2__)
-inline namespace sse2 {
-#else
-inline namespace plain {
-#endif
+namespace {  // each including file has its own, compiled with its own flags
 
 struct Vec3x4 {
   Double4 x, y, z;
@@ -51,7 +45,8 @@ inline unsigned lanesMet(const TriangleBlock& block, const LaneRay& ray) {
     x[corner] = (Double4::load(block.corner[corner][ray.x]) - originX) - shearX * z;
     y[corner] = (Double4::load(block.corner[corner][ray.y]) - originY) - shearY * z;
   }
-  const Double4 rounding = Double4::all(gammaError(4)), zero = Double4::all(0);
+  constexpr double kRounding = gammaError(4);
+  const Double4 rounding = Double4::all(kRounding), zero = Double4::all(0);
   unsigned left = 0xf, right = 0xf;  // lanes with no edge surely on the other side
   for (int corner = 0; corner < 3; ++corner) {
     const int p = corner, q = corner == 2 ? 0 : corner + 1;
@@ -77,5 +72,5 @@ inline void queryMesh(const BvhNode* nodes, const TriangleBlock* blocks, const S
     traverse<false>(nodes, slab, tMost, visited, visitBlock);
 }
 
-}  // inline namespace
+}  // namespace
 }  // namespace trace::simd
