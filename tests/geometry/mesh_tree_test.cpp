@@ -85,6 +85,31 @@ TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
   }
 }
 
+TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {
+  // From inside a closed mesh, aimed exactly at vertices and at points of edges: an odd number of crossings.
+  Random random(4);
+  const auto ball = ballMesh(24, random);
+  const MeshTree tree(ball, false);
+  int escapes = 0;
+  for (int i = 0; i < (kSanitized ? 20000 : 10000000); ++i) {
+    const Triangle& t =
+        ball->triangles[static_cast<size_t>(random.below(static_cast<int>(ball->triangles.size())))];
+    const Vec3 a(ball->points[t[0]]), b(ball->points[t[1]]), inside = random.inCube(0.3);
+    const TriangleRay ray(Ray{inside, a + (b - a) * (i % 3 == 0 ? 0 : random.uniform()) - inside});
+    std::uint64_t visited = 0;
+    int crossings = 0;
+    const auto count = [&](std::uint32_t, const Corners& corners) {
+      TriangleHit hit;
+      if (ray.intersect(corners, hit) && hit.t > 0) ++crossings;
+      return false;
+    };
+    const Real tMost = kInfinity;
+    tree.query(ray, tMost, false, visited, count);
+    escapes += crossings % 2 == 0;
+  }
+  EXPECT_EQ(escapes, 0);
+}
+
 TEST(MeshTree, AnyOrderStopsWhenTold) {
   Random random(2);
   const MeshTree tree(ballMesh(20, random), false);
