@@ -165,6 +165,33 @@ struct Bvh::Builder {
     return number | BvhNode::kLeaf;
   }
 
+  /// Which child goes to which lane: bit i of a lane's number is set for children on the high side of axis i,
+  /// as far as that can be had, so that a ray meets lower lanes first after its octant is taken off.
+  std::array<size_t, 8> placed(const Bounds& whole, std::span<const std::uint32_t> children) const {
+    std::array<std::array<float, 8>, 8> gain{};  // child, lane
+    alignas(16) float middle[4], center[4];
+    (whole.low + whole.high).store(middle);
+    for (size_t c = 0; c < children.size(); ++c) {
+      const Bounds& box = branches[children[c]].box;
+      (box.low + box.high).store(center);
+      for (size_t lane = 0; lane < 8; ++lane)
+        for (size_t axis = 0; axis < 3; ++axis)
+          gain[c][lane] += (lane >> axis & 1 ? 1.0f : -1.0f) * (center[axis] - middle[axis]);
+    }
+    std::array<size_t, 8> atLane;
+    atLane.fill(children.size());
+    std::array<bool, 8> done{};
+    for (size_t step = 0; step < children.size(); ++step) {
+      size_t child = 8, lane = 8;
+      for (size_t c = 0; c < children.size(); ++c)
+        for (size_t l = 0; l < 8 && !done[c]; ++l)
+          if (atLane[l] == children.size() && (child == 8 || gain[c][l] > gain[child][lane]))
+            child = c, lane = l;
+      atLane[lane] = child, done[child] = true;
+    }
+    return atLane;
+  }
+
   /// Opens the largest inner child again and again until eight are found; writes the node and all below it.
   std::uint32_t collapse(std::uint32_t index) {
     std::array<std::uint32_t, 8> children{index};
@@ -183,13 +210,14 @@ struct Bvh::Builder {
 
     const auto number = static_cast<std::uint32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();
+    const std::array<size_t, 8> atLane = placed(branches[index].box, std::span(children).first(count));
     for (size_t lane = 0; lane < 8; ++lane) {
       Bounds box;
       std::uint32_t child = BvhNode::kLeaf;
-      if (lane < count) {
-        const Branch& b = branches[children[lane]];
+      if (atLane[lane] < count) {
+        const Branch& b = branches[children[atLane[lane]]];
         box = b.box;
-        child = b.count > 0 ? addLeaf(b) : collapse(children[lane]);
+        child = b.count > 0 ? addLeaf(b) : collapse(children[atLane[lane]]);
       }
       BvhNode& node = bvh.nodes_[number];
       alignas(16) float low[4], high[4];
@@ -198,24 +226,25 @@ struct Bvh::Builder {
         node.plane[axis][0][lane] = low[axis], node.plane[axis][1][lane] = high[axis];
       node.child[lane] = child;
     }
-    return number;
+    return number * kNodePlaces;
   }
 };
 
 Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
+  Box3 whole;
   for (const Box3& box : boxes)
-    if (!box.empty()) bounds_.extend(box);
-  if (bounds_.empty()) return;
+    if (!box.empty()) whole.extend(box);
+  if (whole.empty()) return;
 
   // The slab test's rounding moves a box's face by less than 2^-19 of the largest coordinate m: the ray's
   // origin, at most 4 m away, and its product with the inverse direction by 2^-22 m each; the inverse
   // direction, with the distance of at most 5 m, by 2^-20.6 m; the face's own product and the difference by
   // 2^-21.4 m.
-  const Real largest = max(maxComponent(abs(bounds_.low)), maxComponent(abs(bounds_.high)));
+  const Real largest = max(maxComponent(abs(whole.low)), maxComponent(abs(whole.high)));
   const Real pad = largest * 0x1p-19;
-  reach_ = 4 * largest;
-  const Vec3 padding{pad, pad, pad};
-  bounds_ = {bounds_.low - padding, bounds_.high + padding};
+  extent_.reach = static_cast<float>(4 * largest);
+  for (int axis = 0; axis < 3; ++axis)
+    extent_.low[axis] = whole.low[axis] - pad, extent_.high[axis] = whole.high[axis] + pad;
 
   Builder builder{{}, {}, *this, leaves == Leaves::single ? 1u : kLeafSize};
   builder.references.reserve(boxes.size());
@@ -245,36 +274,6 @@ Bvh Bvh::bruteForce(std::span<const Box3> boxes) {
     if (!boxes[i].empty()) bvh.items_.push_back(i);
   while (bvh.items_.size() % kLeafSize != 0) bvh.items_.push_back(kNoItem);
   return bvh;
-}
-
-bool Bvh::prepare(const Vec3& origin, const Vec3& direction, Real tMost, SlabRay& ray) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    // No infinities in the slab test: a direction along an axis gets a very large inverse.
-    constexpr float kLeast = 1e-18f;
-    const float d = static_cast<float>(direction[axis]);
-    ray.inverse[axis] = 1 / (std::abs(d) > kLeast ? d : std::copysign(kLeast, d));
-  }
-  const Vec3 size = abs(origin);
-  if (size.x <= reach_ && size.y <= reach_ && size.z <= reach_) {
-    ray.start = 0;
-    for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = static_cast<float>(origin[axis]);
-    return true;
-  }
-  // From far away: begin where the ray enters the whole box.
-  Real enter = 0, leave = tMost;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real inverse = 1 / direction[axis];
-    const Real t0 = (bounds_.low[axis] - origin[axis]) * inverse,
-               t1 = (bounds_.high[axis] - origin[axis]) * inverse;
-    // A NaN (0 * infinity: the ray lies in the plane of a face) leaves the interval as it is.
-    enter = max(enter, inverse < 0 ? t1 : t0);
-    leave = min(leave, inverse < 0 ? t0 : t1);
-  }
-  if (!(enter <= leave)) return false;
-  ray.start = enter;
-  for (int axis = 0; axis < 3; ++axis)
-    ray.origin[axis] = static_cast<float>(origin[axis] + direction[axis] * enter);
-  return true;
 }
 
 }  // namespace trace

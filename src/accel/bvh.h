@@ -46,7 +46,10 @@ class Bvh {
   /// visited.
   template <class Visit>
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-             std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
+             std::uint64_t& nodes, Visit&& visit) const;
+
+  /// The best for the machine if not set.
+  void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
 
   /// The items of a leaf; unused places hold kNoItem.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
@@ -59,14 +62,13 @@ class Bvh {
     return nodes_.size() * sizeof(BvhNode) + items_.size() * sizeof(std::uint32_t);
   }
 
-  /// False if the ray misses everything.
-  bool prepare(const Vec3& origin, const Vec3& direction, Real tMost, SlabRay& ray) const;
+  const BvhExtent& extent() const { return extent_; }
 
  private:
   struct Builder;
 
-  Box3 bounds_;                       ///< padded
-  Real reach_ = 0;                    ///< coordinates up to this are precise enough in float
+  BvhExtent extent_{};
+  const BvhKernel* kernel_ = &bvhKernels().front();
   HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
   std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf
 };
@@ -75,7 +77,7 @@ class Bvh {
 
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-                std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel) const {
+                std::uint64_t& nodes, Visit&& visit) const {
   const auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;
@@ -86,11 +88,10 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bo
       if (visitLeaf(number)) return;
     return;
   }
-  SlabRay ray;
-  if (!prepare(origin, direction, tMost, ray)) return;
   auto context = &visitLeaf;
-  kernel.query(
-      nodes_.data(), ray, tMost, nearestFirst, nodes,
+  const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
+  kernel_->query(
+      nodes_.data(), extent_, from, along, tMost, nearestFirst, nodes,
       [](void* c, std::uint32_t number) { return (**static_cast<decltype(context)*>(c))(number); }, &context);
 }
 

@@ -12,15 +12,20 @@ struct alignas(32) BvhNode {
   static constexpr int kMostDepth = 96;                ///< of any tree
   static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
 
-  float plane[3][2][8];  ///< axis, low or high, lane; an empty lane has low > high
-  std::uint32_t child[8];
+  float plane[3][2][8];    ///< axis, low or high, lane; an empty lane has low > high
+  std::uint32_t child[8];  ///< a leaf, or the place of a node
 };
 
-/// A ray ready for the slab test. One from far away starts where it enters the hierarchy's whole box, so that
-/// its float copy is as good as that of a near one.
-struct SlabRay {
-  float origin[3], inverse[3];
-  double start = 0;  ///< t of the ray at `origin`
+/// A node's place is its distance from the root in units of 32 bytes: no multiplication on a ray's way.
+inline constexpr std::uint32_t kNodePlaces = sizeof(BvhNode) / 32;
+inline const BvhNode& nodeAt(const BvhNode* nodes, std::uint32_t place) {
+  return *reinterpret_cast<const BvhNode*>(reinterpret_cast<const char*>(nodes) + std::size_t{place} * 32);
+}
+
+/// The whole of a hierarchy.
+struct BvhExtent {
+  double low[3], high[3];  ///< of all boxes
+  float reach;             ///< coordinates up to this are precise enough in float
 };
 
 }  // namespace trace

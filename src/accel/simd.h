@@ -1,6 +1,5 @@
-// Thin types for eight floats and four doubles, which the traversal and the triangle test need, and four
-// floats for the builder; no more than these use. The same source compiles for AVX2, for SSE2, NEON and
-// WebAssembly (as halves), and for plain C++.
+// Thin types for four and eight floats, as far as the traversal, the triangle filter and the builder need
+// them. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for plain C++.
 //
 // Each instruction set has its own inline namespace, so that code compiled for one is never linked in place
 // of another's. Comparisons give masks with bit i for lane i.
@@ -14,6 +13,58 @@
 
 namespace trace::simd {
 
+#if defined(__SSE2__)
+
+#if defined(__AVX2__)
+inline namespace avx2 {
+#else
+inline namespace sse2 {
+#endif
+
+struct Float4 {
+  __m128 v;
+  static Float4 load(const float* p) { return {_mm_load_ps(p)}; }
+  static Float4 loadAnywhere(const float* p) { return {_mm_loadu_ps(p)}; }
+  static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  /// x y z and a fourth lane that means nothing.
+  static Float4 narrow(double x, double y, double z) {
+    return {_mm_movelh_ps(_mm_cvtpd_ps(_mm_set_pd(y, x)), _mm_cvtpd_ps(_mm_set_pd(z, z)))};
+  }
+  void store(float* p) const { _mm_store_ps(p, v); }
+  /// Towards zero.
+  void storeWhole(int* p) const { _mm_store_si128(reinterpret_cast<__m128i*>(p), _mm_cvttps_epi32(v)); }
+};
+inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.v, b.v)}; }
+/// a b + c and a b - c; with one rounding where the instruction set has it.
+#if defined(__AVX2__)
+inline Float4 timesPlus(Float4 a, Float4 b, Float4 c) { return {_mm_fmadd_ps(a.v, b.v, c.v)}; }
+inline Float4 timesMinus(Float4 a, Float4 b, Float4 c) { return {_mm_fmsub_ps(a.v, b.v, c.v)}; }
+#else
+inline Float4 timesPlus(Float4 a, Float4 b, Float4 c) { return a * b + c; }
+inline Float4 timesMinus(Float4 a, Float4 b, Float4 c) { return a * b - c; }
+#endif
+inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
+inline Float4 abs(Float4 a) { return {_mm_andnot_ps(_mm_set1_ps(-0.0f), a.v)}; }
+inline Float4 withSign(Float4 size, Float4 sign) {
+  return {_mm_or_ps(abs(size).v, _mm_and_ps(_mm_set1_ps(-0.0f), sign.v))};
+}
+inline unsigned lessEqual(Float4 a, Float4 b) {
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.v, b.v)));
+}
+inline unsigned signs(Float4 a) { return static_cast<unsigned>(_mm_movemask_ps(a.v)); }
+template <int kLane>
+Float4 spread(Float4 a) {
+  return {_mm_shuffle_ps(a.v, a.v, kLane * 0x55)};
+}
+
+}  // namespace
+
+#endif
+
 #if defined(__AVX2__)
 
 inline namespace avx2 {
@@ -22,28 +73,16 @@ struct Float8 {
   __m256 v;
   static Float8 load(const float* p) { return {_mm256_load_ps(p)}; }
   static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
-  void store(float* p) const { _mm256_store_ps(p, v); }
+  static Float8 twice(Float4 a) { return {_mm256_set_m128(a.v, a.v)}; }
+  void store(float* p) const {
+    _mm_store_ps(p, _mm256_castps256_ps128(v)), _mm_store_ps(p + 4, _mm256_extractf128_ps(v, 1));
+  }
 };
-/// a b - c; with one rounding where the instruction set has it.
 inline Float8 timesMinus(Float8 a, Float8 b, Float8 c) { return {_mm256_fmsub_ps(a.v, b.v, c.v)}; }
 inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned lessEqual(Float8 a, Float8 b) {
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
-}
-
-struct Double4 {
-  __m256d v;
-  static Double4 load(const float* p) { return {_mm256_cvtps_pd(_mm_load_ps(p))}; }
-  static Double4 all(double x) { return {_mm256_set1_pd(x)}; }
-};
-inline Double4 operator-(Double4 a, Double4 b) { return {_mm256_sub_pd(a.v, b.v)}; }
-inline Double4 operator+(Double4 a, Double4 b) { return {_mm256_add_pd(a.v, b.v)}; }
-inline Double4 operator*(Double4 a, Double4 b) { return {_mm256_mul_pd(a.v, b.v)}; }
-inline Double4 operator/(Double4 a, Double4 b) { return {_mm256_div_pd(a.v, b.v)}; }
-inline Double4 abs(Double4 a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
-inline unsigned lessEqual(Double4 a, Double4 b) {
-  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ)));
 }
 
 }  // namespace avx2
@@ -52,24 +91,11 @@ inline unsigned lessEqual(Double4 a, Double4 b) {
 
 inline namespace sse2 {
 
-struct Float4 {
-  __m128 v;
-  static Float4 loadAnywhere(const float* p) { return {_mm_loadu_ps(p)}; }
-  static Float4 all(float x) { return {_mm_set1_ps(x)}; }
-  void store(float* p) const { _mm_store_ps(p, v); }
-  /// Towards zero.
-  void storeWhole(int* p) const { _mm_store_si128(reinterpret_cast<__m128i*>(p), _mm_cvttps_epi32(v)); }
-};
-inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
-inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
-inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
-inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
-inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
-
 struct Float8 {
   __m128 lo, hi;
   static Float8 load(const float* p) { return {_mm_load_ps(p), _mm_load_ps(p + 4)}; }
   static Float8 all(float x) { return {_mm_set1_ps(x), _mm_set1_ps(x)}; }
+  static Float8 twice(Float4 a) { return {a.v, a.v}; }
   void store(float* p) const { _mm_store_ps(p, lo), _mm_store_ps(p + 4, hi); }
 };
 inline Float8 timesMinus(Float8 a, Float8 b, Float8 c) {
@@ -80,27 +106,6 @@ inline Float8 max(Float8 a, Float8 b) { return {_mm_max_ps(a.lo, b.lo), _mm_max_
 inline unsigned lessEqual(Float8 a, Float8 b) {
   return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.lo, b.lo)) |
                                _mm_movemask_ps(_mm_cmple_ps(a.hi, b.hi)) << 4);
-}
-
-struct Double4 {
-  __m128d lo, hi;
-  static Double4 load(const float* p) {
-    const __m128 x = _mm_load_ps(p);
-    return {_mm_cvtps_pd(x), _mm_cvtps_pd(_mm_movehl_ps(x, x))};
-  }
-  static Double4 all(double x) { return {_mm_set1_pd(x), _mm_set1_pd(x)}; }
-};
-inline Double4 operator-(Double4 a, Double4 b) { return {_mm_sub_pd(a.lo, b.lo), _mm_sub_pd(a.hi, b.hi)}; }
-inline Double4 operator+(Double4 a, Double4 b) { return {_mm_add_pd(a.lo, b.lo), _mm_add_pd(a.hi, b.hi)}; }
-inline Double4 operator*(Double4 a, Double4 b) { return {_mm_mul_pd(a.lo, b.lo), _mm_mul_pd(a.hi, b.hi)}; }
-inline Double4 operator/(Double4 a, Double4 b) { return {_mm_div_pd(a.lo, b.lo), _mm_div_pd(a.hi, b.hi)}; }
-inline Double4 abs(Double4 a) {
-  const __m128d sign = _mm_set1_pd(-0.0);
-  return {_mm_andnot_pd(sign, a.lo), _mm_andnot_pd(sign, a.hi)};
-}
-inline unsigned lessEqual(Double4 a, Double4 b) {
-  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(a.lo, b.lo)) |
-                               _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi)) << 2);
 }
 
 }  // namespace sse2
@@ -123,6 +128,14 @@ struct Lanes {
     return r;
   }
   static Lanes loadAnywhere(const float* p) { return load(p); }
+  static Lanes narrow(double x, double y, double z) {
+    return {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z), static_cast<T>(z)};
+  }
+  static Lanes twice(const Lanes<T, N / 2>& a) {
+    Lanes r;
+    for (int i = 0; i < N; ++i) r.v[i] = a.v[i % (N / 2)];
+    return r;
+  }
   void storeWhole(int* p) const {
     for (int i = 0; i < N; ++i) p[i] = static_cast<int>(v[i]);
   }
@@ -171,12 +184,29 @@ unsigned lessEqual(const Lanes<T, N>& a, const Lanes<T, N>& b) {
   return mask;
 }
 template <class T, int N>
+Lanes<T, N> withSign(const Lanes<T, N>& size, const Lanes<T, N>& sign) {
+  return map(abs(size), sign, [](T x, T y) { return __builtin_signbit(y) ? -x : x; });
+}
+template <class T, int N>
+unsigned signs(const Lanes<T, N>& a) {
+  unsigned mask = 0;
+  for (int i = 0; i < N; ++i) mask |= (__builtin_signbit(a.v[i]) ? 1u : 0u) << i;
+  return mask;
+}
+template <int kLane, class T, int N>
+Lanes<T, N> spread(const Lanes<T, N>& a) {
+  return Lanes<T, N>::all(a.v[kLane]);
+}
+template <class T, int N>
+Lanes<T, N> timesPlus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c) {
+  return a * b + c;
+}
+template <class T, int N>
 Lanes<T, N> timesMinus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c) {
   return a * b - c;
 }
 using Float4 = Lanes<float, 4>;
 using Float8 = Lanes<float, 8>;
-using Double4 = Lanes<double, 4>;
 
 }  // namespace plain
 

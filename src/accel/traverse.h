@@ -9,11 +9,78 @@
 namespace trace::simd {
 namespace {  // each including file has its own, compiled with its own flags
 
-/// Calls visit(leaf), which returns true to end, for each leaf whose box the ray may meet before tMost, which
-/// may shrink during the calls. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
+/// A ray ready for the slab test, in float: x y z and a fourth lane that means nothing. One from far away
+/// starts where it enters the hierarchy's extent, so that its float copy is as good as that of a near one; a
+/// very long or short direction is scaled.
+struct SlabRay {
+  Float4 origin, direction, inverse;
+  double start = 0, unit = 1;  ///< a distance s along this ray is the given ray's t = start + s / unit
+
+  float fromT(double t) const {
+    return static_cast<float>((t - start) * unit) * (1 + 0x1p-22f);
+  }  // rounded up
+};
+
+/// Where the ray enters the extent, if it does before tMost; else a negative number.
+inline double entry(const BvhExtent& extent, const double* origin, const double* direction, double tMost) {
+  double enter = 0, leave = tMost;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inverse = 1 / direction[axis];
+    const double t0 = (extent.low[axis] - origin[axis]) * inverse,
+                 t1 = (extent.high[axis] - origin[axis]) * inverse;
+    const double first = inverse < 0 ? t1 : t0, last = inverse < 0 ? t0 : t1;
+    // A NaN (0 * infinity: the ray lies in the plane of a face) leaves the interval as it is.
+    if (first > enter) enter = first;
+    if (last < leave) leave = last;
+  }
+  return enter <= leave ? enter : -1;
+}
+
+constexpr float kShortest = 1e-9f, kLongest = 1e9f;  // direction that need not be scaled
+
+/// A ray from far away, or with an unusual direction; see prepare().
+[[gnu::noinline]] bool prepareUnusual(const BvhExtent& extent, const double* origin, const double* direction,
+                                      double tMost, SlabRay& ray) {
+  double most = 0;
+  bool near = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = __builtin_fabs(direction[axis]);
+    if (size > most) most = size;
+    near &= __builtin_fabs(origin[axis]) <= static_cast<double>(extent.reach);
+  }
+  if (!(most > 0)) return false;
+  if (!near) ray.start = entry(extent, origin, direction, tMost);
+  if (ray.start < 0) return false;
+  const double scale = most < kShortest || most > kLongest ? __builtin_ldexp(1, -__builtin_ilogb(most)) : 1;
+  ray.unit = 1 / scale;
+  ray.origin = Float4::narrow(origin[0] + direction[0] * ray.start, origin[1] + direction[1] * ray.start,
+                              origin[2] + direction[2] * ray.start);
+  ray.direction = Float4::narrow(direction[0] * scale, direction[1] * scale, direction[2] * scale);
+  return true;
+}
+
+/// False if the ray misses everything before tMost.
+[[gnu::always_inline]] inline bool prepare(const BvhExtent& extent, const double* origin,
+                                           const double* direction, double tMost, SlabRay& ray) {
+  ray.origin = Float4::narrow(origin[0], origin[1], origin[2]);
+  ray.direction = Float4::narrow(direction[0], direction[1], direction[2]);
+  const unsigned near = lessEqual(abs(ray.origin), Float4::all(extent.reach)),
+                 notLong = lessEqual(abs(ray.direction), Float4::all(kLongest)),
+                 notShort = lessEqual(Float4::all(kShortest), abs(ray.direction));
+  const bool usual = (near & notLong & 7) == 7 && (notShort & 7) != 0;
+  if (!__builtin_expect(usual, 1) && !prepareUnusual(extent, origin, direction, tMost, ray)) return false;
+  // No infinities in the slab test: a direction along an axis gets a very large inverse.
+  ray.inverse = Float4::all(1) / withSign(max(abs(ray.direction), Float4::all(1e-18f)), ray.direction);
+  return true;
+}
+
+/// Calls visit(leaf, limit), which returns true to end, for each leaf whose box the ray may meet before
+/// tMost, which may shrink during the calls; `limit` is its distance from the slab ray's origin, rounded up.
+/// kNearestFirst: nearer boxes first, for the closest hit; else in any order. Returns the number of nodes
+/// visited.
 template <bool kNearestFirst, class VisitLeaf>
-void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std::uint64_t& visited,
-              VisitLeaf& visit) {
+[[gnu::always_inline]] inline std::uint64_t traverse(const BvhNode* nodes, const SlabRay& ray,
+                                                     const double& tMost, VisitLeaf& visit) {
   struct Pending {
     std::uint32_t child;
     float near;  // where the ray enters its box
@@ -21,24 +88,26 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
   Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
   int top = 0;
 
-  Float8 inverse[3], shift[3];  // t of a plane at p: p inverse - shift
-  std::size_t side[3];          // where the planes that the ray meets first lie in a node, in floats
-  for (int axis = 0; axis < 3; ++axis) {
-    inverse[axis] = Float8::all(ray.inverse[axis]);
-    shift[axis] = Float8::all(ray.origin[axis] * ray.inverse[axis]);
-    side[axis] = static_cast<std::size_t>(axis) * 16 + (ray.inverse[axis] < 0 ? 8 : 0);
-  }
-  constexpr float kRoundUp = 1 + 0x1p-22f;
-  float limit = static_cast<float>(tMost - ray.start) * kRoundUp;
+  // t of a plane at p: p inverse - shift
+  const Float4 shifts = ray.origin * ray.inverse;
+  const Float8 inverse[3] = {Float8::twice(spread<0>(ray.inverse)), Float8::twice(spread<1>(ray.inverse)),
+                             Float8::twice(spread<2>(ray.inverse))};
+  const Float8 shift[3] = {Float8::twice(spread<0>(shifts)), Float8::twice(spread<1>(shifts)),
+                           Float8::twice(spread<2>(shifts))};
+  // Where the planes that the ray meets first lie in a node, in floats.
+  const unsigned backward = signs(ray.inverse);
+  const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
+  std::uint64_t visited = 0;
+  float limit = ray.fromT(tMost);
 
   Pending next{0, 0};
   for (;;) {
     if (next.child & BvhNode::kLeaf) {
-      if (visit(next.child & ~BvhNode::kLeaf)) return;
-      limit = static_cast<float>(tMost - ray.start) * kRoundUp;
+      if (visit(next.child & ~BvhNode::kLeaf, limit)) return visited;
+      limit = ray.fromT(tMost);
     } else {
       ++visited;
-      const BvhNode& node = nodes[next.child];
+      const BvhNode& node = nodeAt(nodes, next.child);
       const float* planes = &node.plane[0][0][0];
       Float8 enter = Float8::all(0), leave = Float8::all(limit);
       for (int axis = 0; axis < 3; ++axis) {
@@ -55,42 +124,45 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
           return Pending{node.child[lane], near[lane]};
         };
         next = take();
+        if (met == 0) continue;
+        const auto keepNearer = [&](Pending& other) {  // in hand
+          if (!kNearestFirst || !(other.near < next.near)) return;
+          const Pending nearer = other;
+          other = next;
+          next = nearer;
+        };
+        Pending other = take();
+        keepNearer(other);
         const int bottom = top;
-        while (met) {
-          Pending other = take();
-          if constexpr (kNearestFirst) {  // keep the nearest in hand, the others sorted, nearest on top
-            if (other.near < next.near) {
-              const Pending nearer = other;
-              other = next;
-              next = nearer;
-            }
-            int place = top;
+        stack[top++] = other;
+        while (met) {  // the others sorted, nearest on top
+          other = take();
+          keepNearer(other);
+          int place = top++;
+          if constexpr (kNearestFirst)
             for (; place > bottom && stack[place - 1].near < other.near; --place)
               stack[place] = stack[place - 1];
-            stack[place] = other;
-            ++top;
-          } else {
-            stack[top++] = other;
-          }
+          stack[place] = other;
         }
         continue;
       }
     }
     do {
-      if (top == 0) return;
+      if (top == 0) return visited;
       next = stack[--top];
     } while (next.near > limit);
   }
 }
 
-/// The same with the visitor as a function and its context: what a BvhKernel does.
-inline void queryLeaves(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
+/// What a BvhKernel does: the same with the visitor as a function and its context.
+inline void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const double* origin,
+                        const double* direction, const double& tMost, bool nearestFirst,
                         std::uint64_t& visited, bool (*visit)(void*, std::uint32_t), void* context) {
-  auto visitLeaf = [=](std::uint32_t leaf) { return visit(context, leaf); };
-  if (nearestFirst)
-    traverse<true>(nodes, ray, tMost, visited, visitLeaf);
-  else
-    traverse<false>(nodes, ray, tMost, visited, visitLeaf);
+  SlabRay ray;
+  if (!prepare(extent, origin, direction, tMost, ray)) return;
+  auto visitLeaf = [=](std::uint32_t leaf, float) { return visit(context, leaf); };
+  visited += nearestFirst ? traverse<true>(nodes, ray, tMost, visitLeaf)
+                          : traverse<false>(nodes, ray, tMost, visitLeaf);
 }
 
 }  // namespace

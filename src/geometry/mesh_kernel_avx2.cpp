@@ -4,6 +4,6 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelAvx2;
-const MeshKernel kMeshKernelAvx2{"avx2", simd::queryMesh};
+const MeshKernel kMeshKernelAvx2{"avx2", simd::closestInMesh, simd::crossingsOfMesh};
 
 }  // namespace trace

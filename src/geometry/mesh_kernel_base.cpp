@@ -4,6 +4,6 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelBase;
-const MeshKernel kMeshKernelBase{"base", simd::queryMesh};
+const MeshKernel kMeshKernelBase{"base", simd::closestInMesh, simd::crossingsOfMesh};
 
 }  // namespace trace

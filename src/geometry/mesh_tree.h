@@ -1,7 +1,7 @@
 // A mesh as rays meet it: its triangles in the leaves of a hierarchy, four to a block.
 //
-// The lanes of a block are tested in double, all four at once, and loosely: what rounding could decide
-// passes. What passes, TriangleRay::intersect decides alone. So the hit is the one that testing every
+// A block's four lanes are tested in float, loosely, which rules out nearly all that the ray does not meet.
+// What is left, TriangleRay::intersect decides, alone and in double. So the hit is the one that testing every
 // triangle finds.
 #pragma once
 
@@ -26,82 +26,156 @@ struct alignas(16) TriangleBlock {
   }
 };
 
-/// What the test of a block needs of a ray.
-struct LaneRay {
-  Real origin[3], direction[3];
-  int x, y, z;
-  Real shearX, shearY;
+struct MeshHit {
+  std::uint32_t triangle = Bvh::kNoItem;
+  TriangleHit hit;
 };
 
-/// Meets `lanes` (bit i for lane i) of the block; returns true to end the query.
-using VisitLanes = bool (*)(void* context, std::uint32_t block, unsigned lanes);
+/// A mesh as the kernels see it.
+struct MeshArrays {
+  const BvhNode* nodes;
+  const TriangleBlock* blocks;
+  const std::uint32_t* triangles;  ///< four for each block
+  BvhExtent extent;
+  float largest;  ///< coordinate
+};
+
+/// A ray's way through a mesh.
+struct MeshQuery {
+  const Ray& ray;
+  const MeshArrays& mesh;
+  MeshHit& best;  ///< the nearest accepted so far; best.hit.t bounds what is sought
+  /// Whether a hit counts; null: every hit does.
+  bool (*accept)(void* context, const MeshHit&) = nullptr;
+  void* context = nullptr;
+  std::uint64_t nodes = 0, blocks = 0;  ///< met on the way
+
+  /// Decides about lanes (bit i for lane i) of a block that the ray may meet; of those in `sure` only the
+  /// distance is in question. For the closest hit: updates `best`. For all crossings, at t < best.hit.t: true
+  /// if `accept` wants no more.
+  void keepClosest(std::uint32_t block, unsigned lanes, unsigned sure);
+  bool visitCrossings(std::uint32_t block, unsigned lanes, unsigned sure);
+
+ private:
+  bool meets(std::uint32_t block, std::size_t lane, bool sure, MeshHit&) const;
+};
 
 /// The way through a mesh, compiled for one instruction set.
 struct MeshKernel {
   std::string_view name;
-  void (*query)(const BvhNode* nodes, const TriangleBlock* blocks, const SlabRay& slab, const LaneRay& ray,
-                const Real& tMost, bool nearestFirst, std::uint64_t& visited, VisitLanes visit,
-                void* context);
+  /// The nearest accepted hit at 0 < t <= best.hit.t; of several at the same t the first triangle.
+  void (*closest)(MeshQuery&);
+  /// Asks `accept` for every hit at 0 < t < best.hit.t, in any order, until it returns true.
+  void (*crossings)(MeshQuery&);
 };
 
 /// Those that this machine can run, the best first.
 std::span<const MeshKernel> meshKernels();
 
+/// Counted on the way.
+struct MeshCounts {
+  std::uint64_t& nodes;
+  std::uint64_t& triangles;  ///< tested, four at a time
+};
+
 class MeshTree {
  public:
-  MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce);
+  MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce,
+           const MeshKernel& kernel = meshKernels().front());
 
   const MeshData& data() const { return *data_; }
 
-  /// Calls visit(triangle, corners), which returns true to end the query, for each triangle that the ray may
-  /// meet at 0 <= t <= tMost, which may shrink during the calls; nearer ones first if asked.
+  /// Whether there is a hit at 0 < t <= best.hit.t that accept(MeshHit) likes; `accept` may be nullptr, which
+  /// likes all. Then `best` is the nearest, of several at the same t the triangle with the lowest number.
+  template <class Accept>
+  bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const;
+
+  /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
+  /// A triangle that the hierarchy holds in parts may be met more than once.
   template <class Visit>
-  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
-             Visit&& visit, const MeshKernel& kernel = meshKernels().front()) const;
+  void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const;
 
   /// Of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
 
+  MeshTree(const MeshTree&) = delete;
+  MeshTree& operator=(const MeshTree&) = delete;
+
  private:
+  /// Without a hierarchy: the scalar test for every triangle.
+  template <class Visit>
+  void everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const;
+
   std::shared_ptr<const MeshData> data_;
   Bvh bvh_;
   HugeVector<TriangleBlock> blocks_;  ///< one for each leaf
+  MeshArrays arrays_{};
+  const MeshKernel& kernel_;
 };
 
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
-                     Visit&& visit, const MeshKernel& kernel) const {
+void MeshTree::everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const {
+  const TriangleRay triangleRay(ray);
+  MeshHit met;
+  for (std::uint32_t number = 0; number < bvh_.leafCount(); ++number)
+    for (std::uint32_t triangle : bvh_.leaf(number)) {
+      if (triangle == Bvh::kNoItem) continue;
+      ++counts.triangles;
+      met.triangle = triangle;
+      if (triangleRay.intersect(corners(*data_, triangle), tMost, met.hit) && visit(met)) return;
+    }
+}
+
+template <class Accept>
+bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const {
+  constexpr bool kFiltered = !std::is_same_v<std::remove_cvref_t<Accept>, std::nullptr_t>;
+  best.triangle = Bvh::kNoItem;
   if (bvh_.nodes().empty()) {
-    for (std::uint32_t number = 0; number < bvh_.leafCount(); ++number)
-      for (std::uint32_t triangle : bvh_.leaf(number))
-        if (triangle != Bvh::kNoItem && visit(triangle, corners(*data_, triangle))) return;
+    everyTriangle(
+        ray, best.hit.t,
+        [&](const MeshHit& met) {
+          const bool nearer =
+              met.hit.t < best.hit.t || (met.hit.t == best.hit.t && met.triangle < best.triangle);
+          if constexpr (kFiltered) {
+            if (nearer && accept(met)) best = met;
+          } else if (nearer) {
+            best = met;
+          }
+          return false;
+        },
+        counts);
+    return best.triangle != Bvh::kNoItem;
+  }
+  MeshQuery query{ray, arrays_, best};
+  if constexpr (kFiltered) {
+    query.context = const_cast<void*>(static_cast<const void*>(&accept));
+    query.accept = [](void* context, const MeshHit& met) {
+      return (*static_cast<std::remove_reference_t<Accept>*>(context))(met);
+    };
+  }
+  kernel_.closest(query);
+  counts.nodes += query.nodes, counts.triangles += query.blocks * Bvh::kLeafSize;
+  return best.triangle != Bvh::kNoItem;
+}
+
+template <class Visit>
+void MeshTree::crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const {
+  if (bvh_.nodes().empty()) {
+    everyTriangle(
+        ray, tMost, [&](const MeshHit& met) { return met.hit.t < tMost && visit(met); }, counts);
     return;
   }
-  SlabRay slab;
-  if (!bvh_.prepare(ray.origin, ray.direction, tMost, slab)) return;
-  const LaneRay lanes{{ray.origin.x, ray.origin.y, ray.origin.z},
-                      {ray.direction.x, ray.direction.y, ray.direction.z},
-                      ray.x,
-                      ray.y,
-                      ray.z,
-                      ray.shearX,
-                      ray.shearY};
-  const auto visitLanes = [&](std::uint32_t block, unsigned met) {
-    for (; met != 0; met &= met - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(met));
-      if (visit(bvh_.leaf(block)[lane], blocks_[block].corners(lane))) return true;
-    }
-    return false;
+  MeshHit met;
+  met.hit.t = tMost;
+  MeshQuery query{ray, arrays_, met};
+  query.context = const_cast<void*>(static_cast<const void*>(&visit));
+  query.accept = [](void* context, const MeshHit& hit) {
+    return (*static_cast<std::remove_reference_t<Visit>*>(context))(hit);
   };
-  auto context = &visitLanes;
-  kernel.query(
-      bvh_.nodes().data(), blocks_.data(), slab, lanes, tMost, nearestFirst, visited,
-      [](void* c, std::uint32_t block, unsigned met) {
-        return (**static_cast<decltype(context)*>(c))(block, met);
-      },
-      &context);
+  kernel_.crossings(query);
+  counts.nodes += query.nodes, counts.triangles += query.blocks * Bvh::kLeafSize;
 }
 
 }  // namespace trace

@@ -41,6 +41,22 @@ inline Real edgeSide(const Vec2& p, const Vec2& q) {
   return lean > 0 ? kTiny : lean < 0 ? -kTiny : 0;
 }
 
+/// Where a ray meets the plane of a triangle (Moeller and Trumbore, JGT 2(1), 1997), if it does at
+/// 0 < t <= tMost; not if it runs in the plane, as rounding goes. The distance has the right sign for rays
+/// that leave the surface.
+inline bool locate(const Ray& ray, const Corners& v, Real tMost, TriangleHit& hit) {
+  const Vec3 ab = v.b - v.a, ac = v.c - v.a, a = v.a - ray.origin, normal = cross(ab, ac);
+  const Real along = dot(normal, ray.direction);
+  hit.t = dot(normal, a) / along;
+  if (!(hit.t > 0 && hit.t <= tMost) || along == 0) return false;
+  const Vec3 moment = cross(a, ray.direction);
+  hit.b[1] = dot(moment, ac) / along;
+  hit.b[2] = -dot(moment, ab) / along;
+  hit.b[0] = 1 - hit.b[1] - hit.b[2];
+  hit.front = along < 0;
+  return true;
+}
+
 /// A ray prepared for many triangles: sheared so that it runs along an axis from the origin.
 struct TriangleRay {
   Vec3 origin, direction;
@@ -48,35 +64,32 @@ struct TriangleRay {
   Real shearX, shearY;
 
   explicit TriangleRay(const Ray& ray) : origin(ray.origin), direction(ray.direction) {
-    const Vec3 size = abs(direction);
-    z = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
-    if (direction[z] < 0) std::swap(x, y);  // keeps the winding
-    const Real inverse = 1 / direction[z];
-    shearX = direction[x] * inverse;
-    shearY = direction[y] * inverse;
+    const Real d[3] = {direction.x, direction.y, direction.z};
+    const Real sizeX = std::abs(d[0]), sizeY = std::abs(d[1]), sizeZ = std::abs(d[2]);
+    // Without branches, which would be guessed wrongly for every other ray.
+    const Real most = sizeX > sizeY ? sizeX : sizeY;
+    z = 2 - (most > sizeZ) * (1 + (sizeX > sizeY));
+    static constexpr int kNext[2][3] = {{1, 2, 0}, {2, 0, 1}};
+    const int backward = d[z] < 0;  // keeps the winding
+    x = kNext[backward][z], y = kNext[1 - backward][z];
+    const Real inverse = 1 / d[z];
+    shearX = d[x] * inverse;
+    shearY = d[y] * inverse;
   }
 
-  /// Where the line of the ray meets the triangle; false if it does not.
-  bool intersect(const Corners& v, TriangleHit& hit) const {
+  /// Whether the line of the ray passes through the triangle.
+  bool passes(const Corners& v) const {
     const Vec3 a = v.a - origin, b = v.b - origin, c = v.c - origin;
     const auto project = [&](const Vec3& p) { return Vec2{p[x] - shearX * p[z], p[y] - shearY * p[z]}; };
     const Vec2 pa = project(a), pb = project(b), pc = project(c);
     const Real e0 = edgeSide(pb, pc), e1 = edgeSide(pc, pa), e2 = edgeSide(pa, pb);
     if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0)) return false;
-    const Real sum = e0 + e1 + e2;
-    const Vec3 normal = cross(v.b - v.a, v.c - v.a);
-    if (sum == 0 || normal == Vec3{}) return false;
+    return e0 + e1 + e2 != 0;
+  }
 
-    const Real scale = 1 / sum;
-    hit.b[0] = e0 * scale, hit.b[1] = e1 * scale, hit.b[2] = e2 * scale;
-    // The distance along the face's normal has the right sign for rays that leave the surface; only for a ray
-    // in the triangle's plane, by rounding, the corners' distances must do.
-    const Real along = dot(normal, direction);
-    hit.t = along != 0 ? dot(normal, a) / along
-                       : (hit.b[0] * a[z] + hit.b[1] * b[z] + hit.b[2] * c[z]) / direction[z];
-    hit.front = along != 0 ? along < 0 : sum < 0;
-    return true;
+  /// Where the ray meets the triangle, if it does at 0 < t <= tMost.
+  bool intersect(const Corners& v, Real tMost, TriangleHit& hit) const {
+    return locate({origin, direction}, v, tMost, hit) && passes(v);
   }
 };
 

@@ -5,23 +5,41 @@
 
 namespace trace {
 
-std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
-  Found best;
-  const auto keepNearest = [&](const Found& found) {
-    if (found.before(best)) best = found;
+std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics& statistics) const {
+  std::optional<Found> best(std::in_place);
+  const auto visitObject = [&](std::uint32_t object) {
+    const Instance& instance = objects_[object];
+    const std::size_t kind = instance.shape.index();
+    Ray moved;
+    const Ray& ray = instance.objectRay(worldRay, moved);
+    const auto keepNearest = [&](const Found& found) {
+      if (!(found.t > 0 && found.before(*best))) return;
+      ++statistics.hits[kind];
+      *best = found;
+    };
+    if (const MeshTree* mesh = instance.mesh.get()) {
+      const MeshCounts counts{statistics.nodes, statistics.tests[kind]};
+      const auto seen = [&](const MeshHit& met) { return sees(faces, ray, mesh->data(), met); };
+      MeshHit met;
+      met.hit.t = best->t;
+      if (faces == Faces::both ? mesh->closest(ray, met, nullptr, counts)
+                               : mesh->closest(ray, met, seen, counts))
+        keepNearest({met.hit.t, object, met.triangle, met.hit});
+    } else {
+      crossingsOfShape(object, ray, statistics, keepNearest);
+    }
     return false;
   };
-  bvh_.query(ray.origin, ray.direction, best.t, true, statistics.nodes, [&](std::uint32_t object) {
-    return visitObject(object, ray, best.t, true, faces, statistics, keepNearest);
-  });
-  if (best.t == kInfinity) return {};
+  bvh_.query(worldRay.origin, worldRay.direction, best->t, true, statistics.nodes, visitObject);
+  if (best->t == kInfinity) best.reset();
   return best;
 }
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
   const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
-  const Ray ray = instance.objectRay(worldRay);
+  Ray moved;
+  const Ray& ray = instance.objectRay(worldRay, moved);
   SurfacePoint s = match(
       instance.shape, Overloaded{[&](const Mesh&) {
                                    return trace::surface(instance.mesh->data(), found.part, found.triangle);

@@ -39,11 +39,10 @@ struct Found {
 /// interpolated at the hit, turns to it.
 enum class Faces { both, front, shadedFront };
 
-inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, std::uint32_t triangle,
-                 const TriangleHit& hit) {
+inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHit& met) {
   if (faces == Faces::both) return true;
-  if (faces == Faces::front || mesh.normals.empty()) return hit.front;
-  return dot(surface(mesh, triangle, hit).shading, ray.direction) < 0;
+  if (faces == Faces::front || mesh.normals.empty()) return met.hit.front;
+  return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
 
 class World {
@@ -84,14 +83,18 @@ class World {
     bool opaque = true;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
 
-    Ray objectRay(const Ray& ray) const {
-      return moved ? Ray{objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)} : ray;
+    /// The ray in the object's space: as it is, or moved to `place`.
+    const Ray& objectRay(const Ray& ray, Ray& place) const {
+      if (!moved) return ray;
+      place = {objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)};
+      return place;
     }
   };
 
+  /// Calls visit(Found) for every crossing of an analytic shape; the ray is in its space.
   template <class Visit>
-  bool visitObject(std::uint32_t object, const Ray& ray, const Real& tMost, bool nearestFirst, Faces faces,
-                   Statistics& statistics, Visit& visit) const;
+  void crossingsOfShape(std::uint32_t object, const Ray& ray, Statistics& statistics,
+                        const Visit& visit) const;
 
   std::vector<Instance> objects_;
   Bvh bvh_;
@@ -107,46 +110,43 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages);
 
 // ------------------------------------------------------------------------------------------------------
 
-/// Calls visit(Found) for the object's crossings at 0 < t <= tMost; true if a visit ended the query.
 template <class Visit>
-bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& tMost, bool nearestFirst,
-                        Faces faces, Statistics& statistics, Visit& visit) const {
-  const Instance& instance = objects_[object];
-  const std::size_t kind = instance.shape.index();
-  const Ray ray = instance.objectRay(worldRay);
-  bool ended = false;
-  const auto report = [&](const Found& found) {
-    if (ended || !(found.t > 0 && found.t <= tMost)) return;
-    ++statistics.hits[kind];
-    ended = visit(found);
-  };
-  match(instance.shape,
-        Overloaded{[&](const Mesh&) {
-                     const MeshData& data = instance.mesh->data();
-                     const TriangleRay triangleRay(ray);
-                     const auto test = [&](std::uint32_t i, const Corners& corners) {
-                       ++statistics.tests[kind];
-                       TriangleHit hit;
-                       if (triangleRay.intersect(corners, hit) && sees(faces, ray, data, i, hit))
-                         report({hit.t, object, i, hit});
-                       return ended;
-                     };
-                     instance.mesh->query(triangleRay, tMost, nearestFirst, statistics.nodes, test);
-                   },
-                   [&](const auto& shape) {
-                     ++statistics.tests[kind];
-                     shape.crossings(ray, [&](const Crossing& crossing) {
-                       report({crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
-                     });
-                   }});
-  return ended;
+void World::crossingsOfShape(std::uint32_t object, const Ray& ray, Statistics& statistics,
+                             const Visit& visit) const {
+  const Shape& shape = objects_[object].shape;
+  ++statistics.tests[shape.index()];
+  match(shape, Overloaded{[](const Mesh&) {},
+                          [&](const auto& s) {
+                            s.crossings(ray, [&](const Crossing& crossing) {
+                              visit(Found{crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
+                            });
+                          }});
 }
 
 template <class Visit>
-void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
-  const auto before = [&](const Found& found) { return found.t < tMost && visit(found); };
-  bvh_.query(ray.origin, ray.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
-    return visitObject(object, ray, tMost, false, faces, statistics, before);
+void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
+                      Visit&& visit) const {
+  bvh_.query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
+    const Instance& instance = objects_[object];
+    Ray moved;
+    const Ray& ray = instance.objectRay(worldRay, moved);
+    bool ended = false;
+    const auto report = [&](const Found& found) {
+      if (ended || !(found.t > 0 && found.t < tMost)) return;
+      ++statistics.hits[instance.shape.index()];
+      ended = visit(found);
+    };
+    if (const MeshTree* mesh = instance.mesh.get())
+      mesh->crossings(ray, tMost,
+                      [&](const MeshHit& met) {
+                        if (sees(faces, ray, mesh->data(), met))
+                          report({met.hit.t, object, met.triangle, met.hit});
+                        return ended;
+                      },
+                      {statistics.nodes, statistics.tests[instance.shape.index()]});
+    else
+      crossingsOfShape(object, ray, statistics, report);
+    return ended;
   });
 }
 

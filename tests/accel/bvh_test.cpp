@@ -10,7 +10,7 @@ namespace trace::test {
 namespace {
 
 /// What a query visits; the same for every kernel and both orders.
-std::set<std::uint32_t> visited(const Bvh& bvh, const Vec3& o, const Vec3& d, Real tMost = kInfinity) {
+std::set<std::uint32_t> visited(Bvh bvh, const Vec3& o, const Vec3& d, Real tMost = kInfinity) {
   std::set<std::uint32_t> first;
   bool any = false;
   for (const BvhKernel& kernel : bvhKernels())
@@ -18,7 +18,8 @@ std::set<std::uint32_t> visited(const Bvh& bvh, const Vec3& o, const Vec3& d, Re
       std::set<std::uint32_t> items;
       std::uint64_t nodes = 0;
       const auto insert = [&](std::uint32_t item) { return items.insert(item), false; };
-      bvh.query(o, d, tMost, nearestFirst, nodes, insert, kernel);
+      bvh.setKernel(kernel);
+      bvh.query(o, d, tMost, nearestFirst, nodes, insert);
       EXPECT_TRUE(!any || items == first) << kernel.name;
       first = items, any = true;
     }

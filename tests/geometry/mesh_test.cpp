@@ -9,7 +9,7 @@ namespace {
 
 std::optional<TriangleHit> intersect(const MeshData& mesh, std::uint32_t index, const Ray& ray) {
   TriangleHit hit;
-  if (!TriangleRay(ray).intersect(corners(mesh, index), hit)) return {};
+  if (!TriangleRay(ray).intersect(corners(mesh, index), kInfinity, hit)) return {};
   return hit;
 }
 
@@ -17,7 +17,7 @@ std::optional<TriangleHit> intersect(const MeshData& mesh, std::uint32_t index, 
 int countCrossings(const MeshData& mesh, const Ray& ray) {
   int count = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
-    if (const auto hit = intersect(mesh, i, ray); hit && hit->t > 0) ++count;
+    if (intersect(mesh, i, ray)) ++count;
   return count;
 }
 

@@ -14,35 +14,37 @@ namespace {
 
 struct Nearest {
   Real t = kInfinity;
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = Bvh::kNoItem;
+  Real b1 = 0, b2 = 0;
+  bool front = false;
   bool operator==(const Nearest&) const = default;
 };
 
-Nearest nearest(const MeshTree& tree, const Ray& ray, const MeshKernel& kernel) {
-  Nearest best;
-  std::uint64_t visited = 0;
-  const TriangleRay triangleRay(ray);
-  const auto test = [&](std::uint32_t i, const Corners& corners) {
-    TriangleHit hit;
-    if (!triangleRay.intersect(corners, hit) || !(hit.t > 0)) return false;
-    if (hit.t < best.t || (hit.t == best.t && i < best.triangle)) best = {hit.t, i};
-    return false;
-  };
-  tree.query(triangleRay, best.t, true, visited, test, kernel);
-  return best;
+struct Counts {
+  std::uint64_t nodes = 0, triangles = 0;
+  operator MeshCounts() { return {nodes, triangles}; }
+};
+
+/// The nearest of the triangles that `accept` likes.
+template <class Accept = std::nullptr_t>
+Nearest nearest(const MeshTree& tree, const Ray& ray, Accept accept = {}) {
+  Counts counts;
+  MeshHit best;
+  best.hit.t = kInfinity;
+  if (!tree.closest(ray, best, accept, counts)) return {};
+  const TriangleHit& hit = best.hit;
+  EXPECT_NEAR(hit.b[0] + hit.b[1] + hit.b[2], 1, 1e-12);
+  return {hit.t, best.triangle, hit.b[1], hit.b[2], hit.front};
 }
 
-std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost, const MeshKernel& kernel) {
+std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost) {
   std::set<std::uint32_t> hits;
-  std::uint64_t visited = 0;
-  const TriangleRay triangleRay(ray);
-  const auto test = [&](std::uint32_t i, const Corners& corners) {
-    TriangleHit hit;
-    if (triangleRay.intersect(corners, hit) && hit.t > 0 && hit.t < tMost)
-      hits.insert(i);  // parts meet twice
+  Counts counts;
+  const auto insert = [&](const MeshHit& met) {
+    hits.insert(met.triangle);  // parts meet twice
     return false;
   };
-  tree.query(triangleRay, tMost, false, visited, test, kernel);
+  tree.crossings(ray, tMost, insert, counts);
   return hits;
 }
 
@@ -63,7 +65,10 @@ TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
                                       {1e-3, Vec3{5, 5, 5}}}) {
     const auto mesh = movedBall(random, scale, offset);
     if (i++ % 2) addNeedles(*mesh, random, scale, offset);
-    const MeshTree tree(mesh, false), every(mesh, true);
+    const MeshTree every(mesh, true);
+    std::vector<std::unique_ptr<MeshTree>> trees;
+    for (const MeshKernel& kernel : meshKernels())
+      trees.push_back(std::make_unique<MeshTree>(mesh, false, kernel));
     for (int k = 0; k < (kSanitized ? 200 : 2000); ++k) {
       // From near and from very far, through the ball, along axes, and exactly at vertices.
       const Real away = scale * std::pow(10, random.uniform(-1, 6));
@@ -73,13 +78,16 @@ TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
               : offset + random.inCube(1.2 * scale);
       Vec3 d = random.direction();
       if (k % 5 == 0) d = {k % 2 ? 1.0 : 0.0, k % 2 ? 0.0 : -1.0, 0};
-      const Ray ray{target - d * away, d * random.uniform(0.1, 10)};
-      const Real tMost = random.coin() ? kInfinity : random.uniform(0, 2 * away);
-      const Nearest expected = nearest(every, ray, meshKernels().front());
-      const auto expectedAll = allHits(every, ray, tMost, meshKernels().front());
-      for (const MeshKernel& kernel : meshKernels()) {
-        EXPECT_EQ(nearest(tree, ray, kernel), expected) << kernel.name;
-        EXPECT_EQ(allHits(tree, ray, tMost, kernel), expectedAll) << kernel.name;
+      // Directions of any length: instances scale them. The longest and shortest leave the range of the
+      // filter.
+      const Ray ray{target - d * away,
+                    d * std::pow(10, k % 7 == 0 ? random.uniform(-40, 40) : random.uniform(-1, 1))};
+      const Real tMost = random.coin() ? kInfinity : random.uniform(0, 2 * away) / length(ray.direction);
+      const auto odd = [](const MeshHit& met) { return met.triangle % 2 == 1; };
+      for (const auto& tree : trees) {
+        EXPECT_EQ(nearest(*tree, ray), nearest(every, ray));
+        EXPECT_EQ(nearest(*tree, ray, odd), nearest(every, ray, odd));
+        EXPECT_EQ(allHits(*tree, ray, tMost), allHits(every, ray, tMost));
       }
     }
   }
@@ -95,16 +103,11 @@ TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {
     const Triangle& t =
         ball->triangles[static_cast<size_t>(random.below(static_cast<int>(ball->triangles.size())))];
     const Vec3 a(ball->points[t[0]]), b(ball->points[t[1]]), inside = random.inCube(0.3);
-    const TriangleRay ray(Ray{inside, a + (b - a) * (i % 3 == 0 ? 0 : random.uniform()) - inside});
-    std::uint64_t visited = 0;
+    const Ray ray{inside, a + (b - a) * (i % 3 == 0 ? 0 : random.uniform()) - inside};
     int crossings = 0;
-    const auto count = [&](std::uint32_t, const Corners& corners) {
-      TriangleHit hit;
-      if (ray.intersect(corners, hit) && hit.t > 0) ++crossings;
-      return false;
-    };
-    const Real tMost = kInfinity;
-    tree.query(ray, tMost, false, visited, count);
+    Counts counts;
+    tree.crossings(
+        ray, kInfinity, [&](const MeshHit&) { return ++crossings, false; }, counts);
     escapes += crossings % 2 == 0;
   }
   EXPECT_EQ(escapes, 0);
@@ -112,14 +115,13 @@ TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {
 
 TEST(MeshTree, AnyOrderStopsWhenTold) {
   Random random(2);
-  const MeshTree tree(ballMesh(20, random), false);
+  const auto ball = ballMesh(20, random);
   for (const MeshKernel& kernel : meshKernels()) {
-    std::uint64_t visited = 0;
+    const MeshTree tree(ball, false, kernel);
     int calls = 0;
-    const Real tMost = kInfinity;
-    tree.query(
-        TriangleRay(Ray{{0, 0, 5}, {0.001, 0.002, -1}}), tMost, false, visited,
-        [&](std::uint32_t, const Corners&) { return ++calls == 1; }, kernel);
+    Counts counts;
+    tree.crossings(
+        {{0, 0, 5}, {0.001, 0.002, -1}}, kInfinity, [&](const MeshHit&) { return ++calls == 1; }, counts);
     EXPECT_EQ(calls, 1);
   }
 }
@@ -148,10 +150,10 @@ TEST(Presplit, PartsCoverTheirTrianglesAndEvenMeshesStayWhole) {
 TEST(MeshTree, EmptyAndDegenerateMeshes) {
   for (bool brute : {false, true}) {
     auto mesh = std::make_shared<MeshData>();
-    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {0, 0, 1}}, meshKernels().front()).t, kInfinity);
+    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {0, 0, 1}}).t, kInfinity);
     mesh->points = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
     mesh->triangles = {{0, 1, 2}, {0, 0, 0}};
-    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {1, 1, 1}}, meshKernels().front()).t, kInfinity);
+    EXPECT_EQ(nearest(MeshTree(mesh, brute), {{}, {1, 1, 1}}).t, kInfinity);
   }
 }
 
