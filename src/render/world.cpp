@@ -93,13 +93,16 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   World world;
   for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
 
-  for (const LightSource& source : scene.lights) {
-    match(source.light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
-                                   [&](PointLight light) {
-                                     light.atMostOne = settings.limitAttenuation;
-                                     world.lights_.push_back(light);
-                                   },
-                                   [&](const auto& light) { world.lights_.push_back(light); }});
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const auto add = [&](const Light& light) {
+      world.lights_.push_back(light), world.lightSources_.push_back(i);
+    };
+    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
+                                            [&](PointLight light) {
+                                              light.atMostOne = settings.limitAttenuation;
+                                              add(light);
+                                            },
+                                            [&](const auto& light) { add(light); }});
   }
 
   const Camera& camera = scene.camera;

@@ -65,6 +65,8 @@ class World {
 
   const CameraFrame& camera() const { return camera_; }
   const std::vector<Light>& lights() const { return lights_; }
+  /// The place in Scene::lights of the light of that number.
+  std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   const Box3& bounds() const { return bounds_; }
   std::size_t objectCount() const { return objects_.size(); }
@@ -97,6 +99,7 @@ class World {
   Bvh bvh_;
   std::vector<Phong> materials_;
   std::vector<Light> lights_;
+  std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
   Box3 bounds_;

@@ -1,0 +1,107 @@
+#include "render/ray_tree.h"
+
+#include <cmath>
+
+#include "base/match.h"
+#include "base/text.h"
+
+namespace trace {
+namespace {
+
+const RayNode& at(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
+
+bool same(const Color& a, const Color& b) {
+  const auto equal = [](double x, double y) {
+    return std::isnan(x) ? std::isnan(y) : x == y && std::signbit(x) == std::signbit(y);
+  };
+  return equal(a.r, b.r) && equal(a.g, b.g) && equal(a.b, b.b);
+}
+
+std::string kindName(RayKind kind) { return std::string(kRayKindNames[static_cast<std::size_t>(kind)]); }
+
+/// Where the light of a ray that was sent on came from: "reflection and refraction".
+std::string sentOn(const RayNode& node) {
+  std::string text;
+  for (const Term& term : node.terms)
+    if (term.ray >= 0 && term.kind != Term::Kind::light)
+      text += (text.empty() ? "" : " and ") + std::string(Term::kNames[static_cast<std::size_t>(term.kind)]);
+  return text;
+}
+
+std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
+  return match(end,
+               Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
+                          [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
+                          [](const DepthLimit& e) {
+                            return "depth limit " + std::to_string(e.limit) + " reached: no " +
+                                   kindName(e.unsent);
+                          },
+                          [](const BelowThreshold& e) {
+                            if (e.contribution == 0) return "contribution 0: no " + kindName(e.unsent);
+                            return "contribution " + toText(e.contribution) + " below threshold " +
+                                   toText(e.threshold) + ": no " + kindName(e.unsent);
+                          },
+                          [](const TotalInternalReflection&) -> std::string {
+                            return "total internal reflection: no refraction";
+                          },
+                          [&](const Blocked& e) { return "blocked by " + objectName(scene, e.object); },
+                          [&](const ReachedLight&) -> std::string {
+                            if (node.filters.empty()) return "reached the light";
+                            std::string names;
+                            for (const Filter& filter : node.filters)
+                              names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
+                            return "reached the light, filtered by " + names;
+                          }});
+}
+
+}  // namespace
+
+Color recomputed(const RayTree& tree, int index) {
+  const RayNode& node = at(tree, index);
+  if (node.kind == RayKind::shadow) {
+    if (!node.ends.empty() && std::holds_alternative<Blocked>(node.ends.front())) return Color(0);
+    Color passed(1);
+    for (const Filter& filter : node.filters) passed *= filter.factor;
+    return passed;
+  }
+  Color sum;
+  for (const Term& term : node.terms)
+    sum += term.factor * (term.ray < 0 ? term.value : recomputed(tree, term.ray));
+  return sum * node.through;
+}
+
+bool sumsUp(const RayTree& tree) {
+  for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i)
+    if (!same(at(tree, i).radiance, recomputed(tree, i))) return false;
+  return true;
+}
+
+void weigh(RayTree& tree, Real cameraWeight) {
+  if (tree.nodes.empty()) return;
+  tree.nodes.front().weight = Color(cameraWeight);
+  for (const RayNode& node : tree.nodes)
+    for (const Term& term : node.terms)
+      if (term.ray >= 0)
+        tree.nodes[static_cast<std::size_t>(term.ray)].weight = node.weight * node.through * term.factor;
+}
+
+std::string objectName(const Scene& scene, std::uint32_t index) {
+  const Object& object = scene.objects[index];
+  if (!object.name.empty()) return object.name;
+  std::string text = match(object.shape, [](const auto& shape) { return std::string(shape.kKeyword); });
+  const Place& place = object.place;
+  if (place.line > 0)
+    text +=
+        " (" + place.file.substr(place.file.find_last_of('/') + 1) + ":" + std::to_string(place.line) + ")";
+  return text;
+}
+
+std::string sentence(const RayNode& node, const Scene& scene) {
+  std::string text;
+  for (const RayEnd& end : node.ends) text += (text.empty() ? "" : "; ") + words(end, node, scene);
+  const std::string on = sentOn(node);
+  if (!on.empty()) text += (text.empty() ? "sent on: " : "; sent on: ") + on;
+  return text;
+}
+
+}  // namespace trace
