@@ -25,17 +25,20 @@ class Gather {
     if (node_ != Tracer::kNoNode) tracer_.record(node_, {kind, factor, value});
   }
   void add(Term::Kind kind, const Color& value) { add(kind, Color(1), value); }
-  /// sum += factor * passed: a light's share `factor`, by the terms `light`, of which `passed` is not in
-  /// shadow.
-  void add(const LightTerm& light, const Color& factor, const Color& passed) {
+  /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
+  /// scatters; factor is their product, of which `passed` is not in shadow.
+  void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
+                const Color& passed) {
     sum_ += factor * passed;
     if (node_ != Tracer::kNoNode)
-      tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode, light});
+      tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
+                             LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
   }
 
-  /// Notes why a ray is not sent on.
-  void stop(const RayEnd& why) {
-    if (node_ != Tracer::kNoNode) tracer_.record(node_, why);
+  /// Notes why a ray is not sent on: one of RayEnd.
+  template <class Why>
+  void stop(const Why& why) {
+    if (node_ != Tracer::kNoNode) tracer_.record(node_, RayEnd(why));
   }
 
   /// The sum, after a medium of which `through` is not absorbed. The last thing to ask.

@@ -15,18 +15,15 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
   if (tree_) begin(ray, kind, kInfinity);
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  std::optional<Hit> hit;
-  if (found) {
-    hit = {found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
-    hit->leaving = dot(ray.direction, hit->surface.normal) > 0;
-    hit->indexBefore = settings_.airIndex, hit->indexBehind = hit->material.index;
-    if (hit->leaving) std::swap(hit->indexBefore, hit->indexBehind);
+  if (!found) {
+    if (tree_) finish().ends.push_back(LeftScene{});
+    return {};
   }
-  if (tree_) {
-    RayNode& node = finish();
-    node.hit = hit;
-    if (!hit) node.ends.push_back(LeftScene{});
-  }
+  Hit hit{found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
+  hit.leaving = dot(ray.direction, hit.surface.normal) > 0;
+  const Real air = settings_.airIndex, inside = hit.material.index;
+  hit.indexBefore = hit.leaving ? inside : air, hit.indexBehind = hit.leaving ? air : inside;
+  if (tree_) finish().hit = hit;
   return hit;
 }
 

@@ -40,7 +40,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
     const Color scattered = arriving->intensity() * scatter.sum();
     const Color passed =
         isBlack(scattered) ? Color(0) : tracer.visible(surface, arriving->toLight, arriving->distance);
-    sum.add(LightTerm{world.lightSource(i), *arriving, scatter}, scattered, passed);
+    sum.addLight(i, *arriving, scatter, scattered, passed);
   }
 
   const auto worthwhile = [&](RayKind kind, const Color& share) {
