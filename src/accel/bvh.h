@@ -46,7 +46,7 @@ class Bvh {
   /// visited.
   template <class Visit>
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-             std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
+             NodeCount& nodes, Visit&& visit, const BvhKernel& kernel = bvhKernels().front()) const;
 
   /// The items of a leaf; unused places hold kNoItem.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
@@ -75,7 +75,7 @@ class Bvh {
 
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-                std::uint64_t& nodes, Visit&& visit, const BvhKernel& kernel) const {
+                NodeCount& nodes, Visit&& visit, const BvhKernel& kernel) const {
   const auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;

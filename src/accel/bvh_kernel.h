@@ -16,7 +16,7 @@ using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
 struct BvhKernel {
   std::string_view name;
   void (*query)(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
-                std::uint64_t& visited, VisitLeaf visit, void* context);
+                NodeCount& visited, VisitLeaf visit, void* context);
 };
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).

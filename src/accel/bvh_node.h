@@ -16,6 +16,18 @@ struct alignas(32) BvhNode {
   std::uint32_t child[8];
 };
 
+/// How many nodes queries have visited; `note`, if set, hears of each.
+struct NodeCount {
+  static constexpr std::uint32_t kTop = 0xffffffffu;
+
+  std::uint64_t count = 0;
+  std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them; for note
+  void (*note)(void* context, const BvhNode& node, std::uint32_t owner) = nullptr;
+  void* context = nullptr;
+
+  bool operator==(const NodeCount& other) const { return count == other.count; }
+};
+
 /// A ray ready for the slab test. One from far away starts where it enters the hierarchy's whole box, so that
 /// its float copy is as good as that of a near one.
 struct SlabRay {

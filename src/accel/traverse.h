@@ -10,9 +10,10 @@ namespace trace::simd {
 namespace {  // each including file has its own, compiled with its own flags
 
 /// Calls visit(leaf), which returns true to end, for each leaf whose box the ray may meet before tMost, which
-/// may shrink during the calls. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
-template <bool kNearestFirst, class VisitLeaf>
-void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std::uint64_t& visited,
+/// may shrink during the calls, and visitNode(node) for each node. kNearestFirst: nearer boxes first, for the
+/// closest hit; else in any order.
+template <bool kNearestFirst, class VisitNode, class VisitLeaf>
+void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, VisitNode& visitNode,
               VisitLeaf& visit) {
   struct Pending {
     std::uint32_t child;
@@ -37,8 +38,8 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
       if (visit(next.child & ~BvhNode::kLeaf)) return;
       limit = static_cast<float>(tMost - ray.start) * kRoundUp;
     } else {
-      ++visited;
       const BvhNode& node = nodes[next.child];
+      visitNode(node);
       const float* planes = &node.plane[0][0][0];
       Float8 enter = Float8::all(0), leave = Float8::all(limit);
       for (int axis = 0; axis < 3; ++axis) {
@@ -83,14 +84,30 @@ void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost, std
   }
 }
 
+/// The same with what is known at run time. Noting the nodes has a loop of its own, so that it costs the
+/// others nothing.
+template <class VisitLeaf>
+void traverseCounting(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
+                      NodeCount& visited, VisitLeaf& visit) {
+  std::uint64_t& count = visited.count;
+  auto add = [&count](const BvhNode&) { ++count; };
+  auto note = [&visited](const BvhNode& node) {
+    ++visited.count;
+    visited.note(visited.context, node, visited.owner);
+  };
+  if (visited.note)
+    nearestFirst ? traverse<true>(nodes, ray, tMost, note, visit)
+                 : traverse<false>(nodes, ray, tMost, note, visit);
+  else
+    nearestFirst ? traverse<true>(nodes, ray, tMost, add, visit)
+                 : traverse<false>(nodes, ray, tMost, add, visit);
+}
+
 /// The same with the visitor as a function and its context: what a BvhKernel does.
 inline void queryLeaves(const BvhNode* nodes, const SlabRay& ray, const double& tMost, bool nearestFirst,
-                        std::uint64_t& visited, bool (*visit)(void*, std::uint32_t), void* context) {
+                        NodeCount& visited, bool (*visit)(void*, std::uint32_t), void* context) {
   auto visitLeaf = [=](std::uint32_t leaf) { return visit(context, leaf); };
-  if (nearestFirst)
-    traverse<true>(nodes, ray, tMost, visited, visitLeaf);
-  else
-    traverse<false>(nodes, ray, tMost, visited, visitLeaf);
+  traverseCounting(nodes, ray, tMost, nearestFirst, visited, visitLeaf);
 }
 
 }  // namespace

@@ -59,17 +59,14 @@ inline unsigned lanesMet(const TriangleBlock& block, const LaneRay& ray) {
 }
 
 inline void queryMesh(const BvhNode* nodes, const TriangleBlock* blocks, const SlabRay& slab,
-                      const LaneRay& ray, const double& tMost, bool nearestFirst, std::uint64_t& visited,
+                      const LaneRay& ray, const double& tMost, bool nearestFirst, NodeCount& visited,
                       VisitLanes visit, void* context) {
   auto visitBlock = [&](std::uint32_t block) {
     unsigned met = lanesMet(blocks[block], ray);
     if (met != 0) met = lanesWithin(blocks[block], ray, tMost, met);
     return met != 0 && visit(context, block, met);
   };
-  if (nearestFirst)
-    traverse<true>(nodes, slab, tMost, visited, visitBlock);
-  else
-    traverse<false>(nodes, slab, tMost, visited, visitBlock);
+  traverseCounting(nodes, slab, tMost, nearestFirst, visited, visitBlock);
 }
 
 }  // namespace

@@ -40,8 +40,7 @@ using VisitLanes = bool (*)(void* context, std::uint32_t block, unsigned lanes);
 struct MeshKernel {
   std::string_view name;
   void (*query)(const BvhNode* nodes, const TriangleBlock* blocks, const SlabRay& slab, const LaneRay& ray,
-                const Real& tMost, bool nearestFirst, std::uint64_t& visited, VisitLanes visit,
-                void* context);
+                const Real& tMost, bool nearestFirst, NodeCount& visited, VisitLanes visit, void* context);
 };
 
 /// Those that this machine can run, the best first.
@@ -56,8 +55,8 @@ class MeshTree {
   /// Calls visit(triangle, corners), which returns true to end the query, for each triangle that the ray may
   /// meet at 0 <= t <= tMost, which may shrink during the calls; nearer ones first if asked.
   template <class Visit>
-  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
-             Visit&& visit, const MeshKernel& kernel = meshKernels().front()) const;
+  void query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, NodeCount& visited, Visit&& visit,
+             const MeshKernel& kernel = meshKernels().front()) const;
 
   /// Of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
@@ -71,7 +70,7 @@ class MeshTree {
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, std::uint64_t& visited,
+void MeshTree::query(const TriangleRay& ray, const Real& tMost, bool nearestFirst, NodeCount& visited,
                      Visit&& visit, const MeshKernel& kernel) const {
   if (bvh_.nodes().empty()) {
     for (std::uint32_t number = 0; number < bvh_.leafCount(); ++number)

@@ -21,11 +21,11 @@ Explanation explain(const World& world, const Settings& settings, const Size& si
   Explanation result;
   PixelTracer plain(world, settings, size);
   require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
-  result.pixel = plain.pixel(x, y, [](int, int, int) {});
-  for (int k = 0; k < plain.samples(); ++k) result.samples.push_back(plain.sample(x, y, k));
-
   result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
   PixelTracer(world, settings, size, &result.tree).sample(x, y, sample);
+
+  result.pixel = plain.pixel(x, y, [](int, int, int) {});
+  for (int k = 0; k < plain.samples(); ++k) result.samples.push_back(plain.sample(x, y, k));
   const auto good = std::count_if(result.samples.begin(), result.samples.end(),
                                   [](const Color& color) { return isFinite(color); });
   weigh(result.tree, good > 0 ? 1.0 / static_cast<Real>(good) : 1);

@@ -17,7 +17,8 @@ struct Explanation {
 };
 
 /// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
-/// Throws Error(Fault::usage) for a pixel or sample that the picture does not have.
+/// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, Error(Fault::limit) for
+/// one with more than kMostRecordedRays rays.
 Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample);
 
 }  // namespace trace

@@ -103,6 +103,10 @@ struct RayNode {
   std::uint64_t tests = 0;      ///< of shapes and triangles
 };
 
+/// More rays than this are not recorded: a thousand bounces between two panes of glass take more than a
+/// machine's memory.
+inline constexpr std::size_t kMostRecordedRays = 200000;
+
 /// nodes[0] is the camera ray; parents come before their children, in the order of tracing.
 struct RayTree {
   int x = 0, y = 0, sample = 0;

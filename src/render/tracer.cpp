@@ -75,6 +75,13 @@ Color Tracer::passed(const Ray& ray, Real distance) {
 
 // --- recording ----------------------------------------------------------------------------------------
 
+void Tracer::retrace(const RayNode& node) {
+  if (node.kind == RayKind::shadow)
+    passed(node.ray, node.tMost);
+  else
+    world_.closest(node.ray, facesSeenBy(node.kind), statistics_);
+}
+
 /// passed() stops at the first opaque thing it comes across; a person wants to know the nearest.
 std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) const {
   Statistics uncounted;
@@ -95,17 +102,20 @@ std::uint64_t Tracer::testsSoFar() const {
 }
 
 void Tracer::begin(const Ray& ray, RayKind kind, Real tMost) {
+  if (tree_->nodes.size() >= kMostRecordedRays)
+    throw Error(Fault::limit, "the sample takes more than " + std::to_string(kMostRecordedRays) + " rays",
+                "a smaller --depth or a --threshold makes them fewer");
   RayNode node;
   node.kind = kind, node.parent = current_, node.ray = ray, node.tMost = tMost;
   if (current_ != kNoNode) node.depth = tree_->nodes[static_cast<std::size_t>(current_)].depth + 1;
-  node.nodes = statistics_.nodes, node.tests = testsSoFar();  // finish() makes them differences
+  node.nodes = statistics_.nodes.count, node.tests = testsSoFar();  // finish() makes them differences
   last_ = static_cast<int>(tree_->nodes.size());
   tree_->nodes.push_back(std::move(node));
 }
 
 RayNode& Tracer::finish() {
   RayNode& node = tree_->nodes.back();
-  node.nodes = statistics_.nodes - node.nodes, node.tests = testsSoFar() - node.tests;
+  node.nodes = statistics_.nodes.count - node.nodes, node.tests = testsSoFar() - node.tests;
   return node;
 }
 

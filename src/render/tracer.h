@@ -26,6 +26,9 @@ class Tracer {
   /// in the unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
   Color visible(const SurfacePoint& from, const Vec3& toLight, Real distance);
 
+  /// The query of a recorded ray once more, for its statistics.
+  void retrace(const RayNode& node);
+
   const World& world() const { return world_; }
   const Settings& settings() const { return settings_; }
   Statistics& statistics() { return statistics_; }

@@ -60,6 +60,7 @@ class World {
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   Phong material(const Found& found) const;
+  const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].worldFromObject; }
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -134,7 +135,9 @@ bool World::visitObject(std::uint32_t object, const Ray& worldRay, const Real& t
                          report({hit.t, object, i, hit});
                        return ended;
                      };
+                     statistics.nodes.owner = object;
                      instance.mesh->query(triangleRay, tMost, nearestFirst, statistics.nodes, test);
+                     statistics.nodes.owner = NodeCount::kTop;
                    },
                    [&](const auto& shape) {
                      ++statistics.tests[kind];

@@ -20,7 +20,7 @@ struct Nearest {
 
 Nearest nearest(const MeshTree& tree, const Ray& ray, const MeshKernel& kernel) {
   Nearest best;
-  std::uint64_t visited = 0;
+  NodeCount visited;
   const TriangleRay triangleRay(ray);
   const auto test = [&](std::uint32_t i, const Corners& corners) {
     TriangleHit hit;
@@ -34,7 +34,7 @@ Nearest nearest(const MeshTree& tree, const Ray& ray, const MeshKernel& kernel) 
 
 std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost, const MeshKernel& kernel) {
   std::set<std::uint32_t> hits;
-  std::uint64_t visited = 0;
+  NodeCount visited;
   const TriangleRay triangleRay(ray);
   const auto test = [&](std::uint32_t i, const Corners& corners) {
     TriangleHit hit;
@@ -96,7 +96,7 @@ TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {
         ball->triangles[static_cast<size_t>(random.below(static_cast<int>(ball->triangles.size())))];
     const Vec3 a(ball->points[t[0]]), b(ball->points[t[1]]), inside = random.inCube(0.3);
     const TriangleRay ray(Ray{inside, a + (b - a) * (i % 3 == 0 ? 0 : random.uniform()) - inside});
-    std::uint64_t visited = 0;
+    NodeCount visited;
     int crossings = 0;
     const auto count = [&](std::uint32_t, const Corners& corners) {
       TriangleHit hit;
@@ -114,7 +114,7 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
   Random random(2);
   const MeshTree tree(ballMesh(20, random), false);
   for (const MeshKernel& kernel : meshKernels()) {
-    std::uint64_t visited = 0;
+    NodeCount visited;
     int calls = 0;
     const Real tMost = kInfinity;
     tree.query(

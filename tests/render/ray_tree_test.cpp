@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "render/explain.h"
+#include "render/visited_boxes.h"
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -108,10 +109,59 @@ TEST(RayTree, CountsWhatEachRayCost) {
       for (const RayNode& node : explainPixel(scene, settings, x, y).tree.nodes)
         ++rays, nodes += node.nodes, tests += node.tests;
   EXPECT_EQ(rays, rendered.allRays());
-  EXPECT_EQ(nodes, rendered.nodes);
+  EXPECT_EQ(nodes, rendered.nodes.count);
   std::uint64_t all = 0;
   for (std::uint64_t n : rendered.tests) all += n;
   EXPECT_EQ(tests, all);
+}
+
+TEST(RayTree, VisitedBoxesAreThoseThatWereCountedAndTheRayMeetsThem) {
+  Random random(9);
+  const Scene scene = randomScene(random, 40);
+  const Settings settings{.width = 12, .depth = 3};
+  const World world = build(scene, settings);
+  std::size_t ofObjects = 0, ofMeshes = 0;
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 12; ++x)
+      for (const RayNode& node : explain(world, settings, {12, 12}, x, y, 0).tree.nodes) {
+        const std::vector<VisitedBox> boxes = visitedBoxes(world, settings, node);
+        ASSERT_EQ(boxes.size(), node.nodes);
+        for (size_t i = 0; i < boxes.size(); ++i) {
+          const VisitedBox& box = boxes[i];
+          const bool top = box.object == NodeCount::kTop;
+          ASSERT_TRUE(top || std::holds_alternative<Mesh>(scene.objects[box.object].shape));
+          ++(top ? ofObjects : ofMeshes);
+          if (i == 0 || boxes[i - 1].object != box.object) continue;  // a root is visited unseen
+          // In the box's own space, the ray's line meets the box.
+          const Affine toObject = top ? Affine{} : inverse(scene.objects[box.object].worldFromObject);
+          const Vec3 o = toObject * node.ray.origin, d = linear(toObject, node.ray.direction);
+          const Vec3 low = toObject * box.corners[0], high = toObject * box.corners[7];
+          Real enter = 0, leave = kInfinity;
+          for (int axis = 0; axis < 3; ++axis) {
+            const Real a = (low[axis] - o[axis]) / d[axis], b = (high[axis] - o[axis]) / d[axis];
+            enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+          }
+          ASSERT_LE(enter, leave + 1e-4);
+        }
+      }
+  EXPECT_GT(ofObjects, 100u);
+  EXPECT_GT(ofMeshes, 100u);
+}
+
+TEST(RayTree, EndsWithAnErrorWhereRaysAreBeyondCounting) {
+  // Among half-transparent panes, every bounce doubles the rays.
+  Scene scene = lookingDown();
+  Phong pane;
+  pane.reflective = pane.transmissive = Color(0.5);
+  for (int z = -40; z <= 0; ++z) addObject(scene, Square{}, Affine::translation({0, 0, z * 0.1}), pane);
+  Settings settings = kOnePixel;
+  settings.depth = 20;
+  try {
+    explainPixel(scene, settings, 0, 0);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::limit);
+  }
 }
 
 TEST(RayTree, SaysThatARayLeftTheScene) {
