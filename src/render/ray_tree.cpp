@@ -28,6 +28,14 @@ std::string sentOn(const RayNode& node) {
   return text;
 }
 
+/// What it is and where: "sphere (scene.ray:12)".
+template <class Variant>
+std::string named(const Variant& thing, const Place& place) {
+  std::string text = match(thing, [](const auto& kind) { return std::string(kind.kKeyword); });
+  if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";
+  return text;
+}
+
 std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
   return match(end,
                Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
@@ -85,15 +93,29 @@ void weigh(RayTree& tree, Real cameraWeight) {
         tree.nodes[static_cast<std::size_t>(term.ray)].weight = node.weight * node.through * term.factor;
 }
 
+const Term* termOf(const RayTree& tree, int index) {
+  const int parent = at(tree, index).parent;
+  if (parent < 0) return nullptr;
+  for (const Term& term : at(tree, parent).terms)
+    if (term.ray == index) return &term;
+  return nullptr;
+}
+
+std::string shortPlace(const Place& place) {
+  std::string text = place.file.substr(place.file.find_last_of('/') + 1);
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  return text;
+}
+
 std::string objectName(const Scene& scene, std::uint32_t index) {
   const Object& object = scene.objects[index];
   if (!object.name.empty()) return object.name;
-  std::string text = match(object.shape, [](const auto& shape) { return std::string(shape.kKeyword); });
-  const Place& place = object.place;
-  if (place.line > 0)
-    text +=
-        " (" + place.file.substr(place.file.find_last_of('/') + 1) + ":" + std::to_string(place.line) + ")";
-  return text;
+  return named(object.shape, object.place);
+}
+
+std::string lightName(const Scene& scene, std::uint32_t index) {
+  const LightSource& source = scene.lights[index];
+  return named(source.light, source.place);
 }
 
 std::string sentence(const RayNode& node, const Scene& scene) {

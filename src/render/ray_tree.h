@@ -122,8 +122,15 @@ bool sumsUp(const RayTree& tree);
 /// Sets every node's weight, from that of the camera ray: 1 / samples of the pixel.
 void weigh(RayTree& tree, Real cameraWeight);
 
+/// The term of the ray's parent that its radiance went into; null for the camera ray.
+const Term* termOf(const RayTree& tree, int node);
+
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
 std::string objectName(const Scene& scene, std::uint32_t object);
+/// "point_light (scene.ray:7)".
+std::string lightName(const Scene& scene, std::uint32_t light);
+/// "scene.ray:12", without folders; "" for a place in no file.
+std::string shortPlace(const Place& place);
 
 /// Why the ray ended there, in plain words without a full stop: "left the scene: background". Names objects
 /// as `scene` does.
