@@ -105,7 +105,8 @@ void unlit(const LintScene& s, Findings& findings) {
         findings, "unlit", placeOf(s, object),
         quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" +
             (away ? "; it faces away from the lights"
-                  : "; in the way is " + (most->first == object ? "itself" : quoted(s, most->first))),
+                  : (most->first == object ? "; it stands in its own light"
+                                           : "; in the way is " + quoted(s, most->first))),
         away
             ? "move a light to the side that is seen, add an ambient light with `ambient` in the material, "
               "or "

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/text.h"
+#include "cli/console.h"
 
 namespace trace::cli {
 namespace {
@@ -75,9 +76,8 @@ class TreeText {
       shadow(node);
     else
       terms(node);
-    line("ended: " + sentence(node, scene_));
-    line("cost: " + std::to_string(node.nodes) + " nodes visited, " + std::to_string(node.tests) +
-         " shapes tested");
+    line("-> " + sentence(node, scene_));
+    line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
 
     for (std::size_t i = 0; i < children.size(); ++i) {
       text_ += rest + "|\n";
@@ -98,8 +98,9 @@ class TreeText {
     line(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + material(hit.object) +
          ", at distance " + text(hit.t));
     const SurfacePoint& s = hit.surface;
-    line((hit.leaving ? "leaving it" : "entering it") + std::string(": index ") + text(hit.indexBefore) +
-         " -> " + text(hit.indexBehind) + "; uv (" + text(s.uv.x) + ", " + text(s.uv.y) + ")");
+    std::string side = hit.leaving ? "leaving it" : "entering it";
+    if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);
+    line(side + "; uv (" + text(s.uv.x) + ", " + text(s.uv.y) + ")");
     line("point " + text(s.point) + ", normal " + text(s.normal));
     if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
   }
@@ -111,11 +112,13 @@ class TreeText {
         light(term);
         continue;
       }
-      std::string words = "+ " + kind + " " + text(term.factor * term.value);
-      const bool plain = term.factor == Color(1) && term.ray < 0;
-      if (!plain && !isBlack(term.factor * term.value))
-        words += " = " + text(term.factor) + " * " + text(term.value);
-      if (term.ray >= 0) words += " of #" + std::to_string(term.ray);
+      const Color value = term.factor * term.value;
+      std::string words = "+ " + kind + " " + text(value);
+      const std::string product = text(term.factor) + " * " + text(term.value);
+      if (term.ray >= 0)
+        words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);
+      else if (!(term.factor == Color(1)) && !isBlack(value))
+        words += " = " + product;
       line(words);
     }
     if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");

@@ -19,7 +19,7 @@ bool same(const Color& a, const Color& b) {
 
 std::string kindName(RayKind kind) { return std::string(kRayKindNames[static_cast<std::size_t>(kind)]); }
 
-/// Where the light of a ray that was sent on came from: "reflection and refraction".
+/// The rays that it was sent on as: "reflection and refraction".
 std::string sentOn(const RayNode& node) {
   std::string text;
   for (const Term& term : node.terms)
@@ -120,9 +120,17 @@ std::string lightName(const Scene& scene, std::uint32_t index) {
 
 std::string sentence(const RayNode& node, const Scene& scene) {
   std::string text;
-  for (const RayEnd& end : node.ends) text += (text.empty() ? "" : "; ") + words(end, node, scene);
+  const RayEnd* last = nullptr;
+  for (const RayEnd& end : node.ends) {
+    const auto* limit = std::get_if<DepthLimit>(&end);
+    if (limit && last && std::holds_alternative<DepthLimit>(*last))
+      text += ", no " + kindName(limit->unsent);
+    else
+      text += (text.empty() ? "" : "; ") + words(end, node, scene);
+    last = &end;
+  }
   const std::string on = sentOn(node);
-  if (!on.empty()) text += (text.empty() ? "sent on: " : "; sent on: ") + on;
+  if (!on.empty()) text += (text.empty() ? "goes on as " : "; goes on as ") + on;
   return text;
 }
 
