@@ -191,7 +191,8 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   drawing.things.push_back(DrawnWords{{kMargin, kMargin / 2},
                                       "pixel " + std::to_string(tree.x) + "," + std::to_string(tree.y) +
                                           ", sample " + std::to_string(tree.sample) + ": " +
-                                          std::to_string(tree.nodes.size()) + " rays",
+                                          std::to_string(tree.nodes.size()) +
+                                          (tree.nodes.size() == 1 ? " ray" : " rays"),
                                       kInk});
   panel(world, settings, kMargin, "from the camera");
   panel(sideWorld, sideSettings, right, "from the side: the camera looks to the right");

@@ -71,6 +71,7 @@ int explain(const Arguments& arguments, const Console& console) {
   std::vector<Choice> choices = arguments.choices;
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
+  choices.push_back({"time-limit", "0", {}});  // the one pixel is rendered whole
   session.open(arguments.files[0], choices, arguments.strict);
   session.build();
   console.warnings(session.messages().all());
