@@ -46,7 +46,7 @@ class Bvh {
   /// visited.
   template <class Visit>
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-             std::uint64_t& nodes, Visit&& visit) const;
+             NodeCount& nodes, Visit&& visit) const;
 
   /// The best for the machine if not set.
   void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
@@ -77,7 +77,7 @@ class Bvh {
 
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-                std::uint64_t& nodes, Visit&& visit) const {
+                NodeCount& nodes, Visit&& visit) const {
   const auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;

@@ -16,8 +16,7 @@ using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
 struct BvhKernel {
   std::string_view name;
   void (*query)(const BvhNode* nodes, const BvhExtent& extent, const double* origin, const double* direction,
-                const double& tMost, bool nearestFirst, std::uint64_t& visited, VisitLeaf visit,
-                void* context);
+                const double& tMost, bool nearestFirst, NodeCount& visited, VisitLeaf visit, void* context);
 };
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).

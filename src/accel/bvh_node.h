@@ -22,6 +22,18 @@ inline const BvhNode& nodeAt(const BvhNode* nodes, std::uint32_t place) {
   return *reinterpret_cast<const BvhNode*>(reinterpret_cast<const char*>(nodes) + std::size_t{place} * 32);
 }
 
+/// How many nodes queries have visited; `note`, if set, hears of each.
+struct NodeCount {
+  static constexpr std::uint32_t kTop = 0xffffffffu;
+
+  std::uint64_t count = 0;
+  std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them; for note
+  void (*note)(void* context, const BvhNode& node, std::uint32_t owner) = nullptr;
+  void* context = nullptr;
+
+  bool operator==(const NodeCount& other) const { return count == other.count; }
+};
+
 /// The whole of a hierarchy.
 struct BvhExtent {
   double low[3], high[3];  ///< of all boxes

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "formats/format.h"
 #include "image/metadata.h"
+#include "render/explain.h"
 #include "render/render.h"
 #include "scene/options.h"
 #include "scene/scene.h"
@@ -41,6 +42,12 @@ class Session {
   /// Renders; blocks. Others may watch and stop it through job() and picture().
   RenderResult render();
   Job& job() { return job_; }
+
+  /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
+  /// while render() runs. Throws Error(Fault::usage) outside the picture.
+  Explanation explain(int x, int y, int sample) const {
+    return trace::explain(*world_, settings_, size(), x, y, sample);
+  }
 
   /// What is rendered so far. May be called from other threads while render() runs.
   Picture picture() const { return film_->picture(); }

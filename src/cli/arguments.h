@@ -24,7 +24,9 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   bool strict = false;
   bool quick = false;
-  bool json = false;      ///< info: --format=json
+  std::string format;     ///< --format; may be empty
+  std::string pixel;      ///< explain: --pixel, as typed
+  std::string sample;     ///< explain: --sample, as typed
   bool markdown = false;  ///< features: as docs/options.md
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };

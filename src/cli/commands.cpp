@@ -58,11 +58,25 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
 
 }  // namespace
 
+std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
+                              std::span<const std::string_view> known) {
+  if (arguments.format.empty()) return known.front();
+  for (std::string_view name : known)
+    if (arguments.format == name) return name;
+  std::string expected;
+  for (std::string_view name : known) expected += (expected.empty() ? "" : " | ") + std::string(name);
+  throw Error(Fault::usage, "ray " + std::string(command) + " --format: expected " + expected + ", found \"" +
+                                arguments.format + "\"");
+}
+
 std::span<const Command> commands() {
   static constexpr std::array kTable{
       Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
               true, render},
       Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
+      Command{"explain", "SCENE --pixel X,Y", "why a pixel has its colour: every ray, with its numbers",
+              false, explain},
+      Command{"lint", "SCENE", "look for what is likely a mistake in a scene", false, lint},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
       Command{"help", "[all]", "print help, or all of it", false, help},
   };

@@ -12,7 +12,7 @@
 namespace trace::cli {
 
 /// Exit codes beside the values of Fault, which are the others.
-inline constexpr int kDone = 0, kFailed = 1, kStopped = 4;
+inline constexpr int kDone = 0, kFailed = 1, kStopped = 4, kFound = 6;
 
 struct Command {
   std::string_view name;
@@ -28,9 +28,15 @@ std::span<const Command> commands();
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
+/// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.
+std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
+                              std::span<const std::string_view> known);
+
 // The functions of the table; each in its own file.
 int render(const Arguments& arguments, const Console& console);
 int info(const Arguments& arguments, const Console& console);
+int explain(const Arguments& arguments, const Console& console);
+int lint(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

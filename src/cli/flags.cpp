@@ -9,7 +9,7 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render info features help";
+constexpr std::string_view kEverywhere = "render info explain lint features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -68,15 +68,17 @@ void setOutput(Arguments& arguments, std::string_view value) {
 
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
-      Flag{"output", 'o', Takes::value, "FILE", "", "render", true,
-           "picture to write; by default the scene's name with .png, in this folder", setOutput},
-      Flag{"quick", 0, Takes::nothing, "", "", "render info", true,
+      Flag{"output", 'o', Takes::value, "FILE", "", "render explain lint", true,
+           "file to write; of a render, by default the scene's name with .png, in this folder", setOutput},
+      Flag{"quick", 0, Takes::nothing, "", "", "render info explain lint", true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
-      Flag{"enable", 0, Takes::value, "NAME", "", "render info", true,
+      Flag{"enable", 0, Takes::value, "NAME", "", "render info explain lint", true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
-      Flag{"disable", 0, Takes::value, "NAME", "", "render info", true, "switch an extra off", disable},
-      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info", false, "give any option a value", set},
+      Flag{"disable", 0, Takes::value, "NAME", "", "render info explain lint", true, "switch an extra off",
+           disable},
+      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info explain lint", false,
+           "give any option a value", set},
       Flag{"stats", 0, Takes::optional, "table|json", "table", "render", true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",
            [](Arguments& a, std::string_view value) {
@@ -89,15 +91,22 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};
              a.progress = static_cast<ProgressStyle>(pick("progress", value, kNames));
            }},
-      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", "render info", false,
+      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", "render info explain lint", false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info", true, "warnings about the scene are errors",
-           [](Arguments& a, std::string_view) { a.strict = true; }},
-      Flag{"format", 0, Takes::value, "text|json", "", "info", false, "how ray info prints; default text",
+      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint", true,
+           "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
+      Flag{"pixel", 0, Takes::value, "X,Y", "", "explain", true,
+           "the pixel to explain; 0,0 is at the top left",
+           [](Arguments& a, std::string_view value) { a.pixel = value; }},
+      Flag{"sample", 0, Takes::value, "K", "", "explain", true,
+           "which of the pixel's camera rays; default 0, the first",
+           [](Arguments& a, std::string_view value) { a.sample = value; }},
+      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info explain lint", true,
+           "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) {
-             constexpr std::array<std::string_view, 2> kNames{"text", "json"};
-             a.json = pick("format", value, kNames) == 1;
+             constexpr std::array<std::string_view, 5> kNames{"text", "json", "obj", "svg", "png"};
+             a.format = kNames[pick("format", value, kNames)];
            }},
       Flag{"markdown", 0, Takes::nothing, "", "", "features", false, "print docs/options.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
@@ -128,7 +137,9 @@ bool knows(std::string_view command, const Flag& flag) {
   return false;
 }
 
-bool takesOptions(std::string_view command) { return command == "render" || command == "info"; }
+bool takesOptions(std::string_view command) {
+  return command == "render" || command == "info" || command == "explain" || command == "lint";
+}
 
 std::span<const ShortFlag> shortFlags() {
   static constexpr std::array kTable{

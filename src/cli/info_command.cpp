@@ -3,6 +3,7 @@
 // Keys of the JSON object: file, format, objects.NAME, triangles, lights.NAME, materials, bounds.{low, high}
 // (null when empty), camera.{position, viewdir, updir, fov, aspectratio}, picture.{width, height},
 // conventions[] and changed[] of {name, value, from}, unrendered[] of {kind, place}, warnings[].
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -135,6 +136,8 @@ int info(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray info: expected the name of one scene file, found " +
                     (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
+  constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
+  const bool json = chosenFormat(arguments, "info", kFormats) == "json";
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   // Not Session::build(): looking at a scene needs no memory for a picture.
@@ -144,7 +147,7 @@ int info(const Arguments& arguments, const Console& console) {
   facts.conventions = optionsOf("Conventions", session.scene(), session.settings(), arguments.choices);
   facts.changed = changedOptions(session.scene(), session.settings(), arguments.choices);
   console.line(LogLevel::debug, "read " + session.scene().file + " as " + session.scene().format);
-  printResult(arguments.json ? infoJson(facts) : infoText(facts));
+  printResult(json ? infoJson(facts) : infoText(facts));
   return kDone;
 }
 

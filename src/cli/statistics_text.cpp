@@ -70,7 +70,8 @@ std::string statisticsTable(const Run& run) {
       text += row(name, std::to_string(tests), std::to_string(hits), orDash("%.3f", ratio(hits, tests)));
   });
   text += row("hierarchy", "nodes", "", "per ray");
-  text += row("visited", std::to_string(s.nodes), "", orDash("%.2f", ratio(s.nodes, s.allRays())));
+  text +=
+      row("visited", std::to_string(s.nodes.count), "", orDash("%.2f", ratio(s.nodes.count, s.allRays())));
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
     text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
@@ -105,8 +106,8 @@ std::string statisticsJson(const Run& run) {
   forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
     json["shapes"][std::string(name)] = {{"tests", tests}, {"hits", hits}};
   });
-  json["nodes"] = s.nodes;
-  json["nodesPerRay"] = orNull(ratio(s.nodes, s.allRays()));
+  json["nodes"] = s.nodes.count;
+  json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
   json["badSamples"] = {{"count", s.badSamples}, {"first", ordered_json::array()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].push_back({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

@@ -53,15 +53,22 @@ void onSignal(int signal) {
 
 }  // namespace
 
-bool canRedraw() {
+namespace {
+
+bool isScreen(int file) {
   const char* term = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) && term && *term && std::strcmp(term, "dumb") != 0;
+  return ::isatty(file) && term && *term && std::strcmp(term, "dumb") != 0;
+}
+bool colorsAreWelcome() {
+  const char* noColor = std::getenv("NO_COLOR");
+  return !(noColor && *noColor);
 }
 
-bool canColor() {
-  const char* noColor = std::getenv("NO_COLOR");
-  return canRedraw() && !(noColor && *noColor);
-}
+}  // namespace
+
+bool canRedraw() { return isScreen(STDERR_FILENO); }
+bool canColor() { return canRedraw() && colorsAreWelcome(); }
+bool canColorResult() { return isScreen(STDOUT_FILENO) && colorsAreWelcome(); }
 
 int columns() {
   if (const char* given = std::getenv("COLUMNS"))

@@ -9,6 +9,8 @@ namespace trace::cli {
 bool canRedraw();
 /// ... and colours are welcome (https://no-color.org).
 bool canColor();
+/// The same of stdout, for results.
+bool canColorResult();
 /// Of the terminal, by COLUMNS or by asking it; 80 when neither tells.
 int columns();
 

@@ -159,6 +159,7 @@ class Reader {
     const Item root = syntax_.root();
     auto item = root.begin();
     for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
+    scene_.unusedMaterials = materials_.unused();
     findings_.finish();
     warnOfDarkness();
     messages_.throwIfFailed();

@@ -72,7 +72,10 @@ struct Materials::Block {
 Material Materials::read(const Item& value, const Material& inherited) {
   if (value.is(Kind::word)) {
     const auto found = named_.find(value.text());
-    if (found != named_.end()) return found->second;
+    if (found != named_.end()) {
+      found->second.used = true;
+      return found->second.material;
+    }
     std::vector<std::string_view> names;
     for (const auto& [name, material] : named_) names.push_back(name);
     std::string hint = didYouMean(value.text(), names);
@@ -91,7 +94,9 @@ Material Materials::read(const Item& value, const Material& inherited) {
   block.material.model = block.phong;
   if (block.shininess && !isBlack(block.phong.specular))
     findings_.noteShininess(*block.shininess, block.phong.shininess);
-  if (!block.material.name.empty()) named_.insert_or_assign(block.material.name, block.material);
+  markUsed(inherited.name);
+  if (const std::string& name = block.material.name; !name.empty())
+    named_.insert_or_assign(name, Named{block.material, findings_.syntax().shortPlace(value.offset())});
   return block.material;
 }
 
@@ -126,7 +131,20 @@ bool Materials::picture(Block& block, const Item& field) {
   return true;
 }
 
+void Materials::markUsed(const std::string& name) {
+  if (const auto found = named_.find(name); found != named_.end()) found->second.used = true;
+}
+
+std::vector<UnusedMaterial> Materials::unused() const {
+  std::vector<UnusedMaterial> all;
+  for (const auto& [name, named] : named_)
+    if (!named.used) all.push_back({name, named.place});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.place.line < b.place.line; });
+  return all;
+}
+
 std::uint32_t Materials::index(const Material& material) {
+  markUsed(material.name);
   std::vector<Material>& all = findings_.scene().materials;
   const std::size_t hash = hashOf(material, *std::get_if<Phong>(&material.model));
   const auto [first, last] = byHash_.equal_range(hash);

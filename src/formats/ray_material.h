@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
@@ -27,13 +28,23 @@ class Materials {
   /// Its index in Scene::materials; equal materials share one.
   std::uint32_t index(const Material& material);
 
+  /// Named materials that nothing uses, in the order of the file.
+  std::vector<UnusedMaterial> unused() const;
+
  private:
   struct Block;
   void field(Block& block, const Item& field);
   bool picture(Block& block, const Item& field);
 
   Findings& findings_;
-  std::map<std::string, Material, std::less<>> named_;
+  struct Named {
+    Material material;
+    Place place;
+    bool used = false;
+  };
+  /// An object, or another material, has it.
+  void markUsed(const std::string& name);
+  std::map<std::string, Named, std::less<>> named_;
   std::unordered_multimap<std::size_t, std::uint32_t> byHash_;
 };
 

@@ -90,7 +90,7 @@ void blocksMet(MeshQuery& q, const Meet& meet) {
     const auto [left, sure] = filter(q.mesh.blocks[block], limit);
     return left != 0 && meet(block, left, sure);
   };
-  q.nodes = traverse<kNearestFirst>(q.mesh.nodes, ray, q.best.hit.t, visitBlock);
+  traverseCounting<kNearestFirst>(q.mesh.nodes, ray, q.best.hit.t, q.nodes, visitBlock);
 }
 
 inline void closestInMesh(MeshQuery& q) {

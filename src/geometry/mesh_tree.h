@@ -44,11 +44,12 @@ struct MeshArrays {
 struct MeshQuery {
   const Ray& ray;
   const MeshArrays& mesh;
+  NodeCount& nodes;
   MeshHit& best;  ///< the nearest accepted so far; best.hit.t bounds what is sought
   /// Whether a hit counts; null: every hit does.
   bool (*accept)(void* context, const MeshHit&) = nullptr;
   void* context = nullptr;
-  std::uint64_t nodes = 0, blocks = 0;  ///< met on the way
+  std::uint64_t blocks = 0;  ///< tested
 
   /// Decides about lanes (bit i for lane i) of a block that the ray may meet; of those in `sure` only the
   /// distance is in question. For the closest hit: updates `best`. For all crossings, at t < best.hit.t: true
@@ -74,7 +75,7 @@ std::span<const MeshKernel> meshKernels();
 
 /// Counted on the way.
 struct MeshCounts {
-  std::uint64_t& nodes;
+  NodeCount& nodes;
   std::uint64_t& triangles;  ///< tested, four at a time
 };
 
@@ -148,7 +149,7 @@ bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCount
         counts);
     return best.triangle != Bvh::kNoItem;
   }
-  MeshQuery query{ray, arrays_, best};
+  MeshQuery query{ray, arrays_, counts.nodes, best};
   if constexpr (kFiltered) {
     query.context = const_cast<void*>(static_cast<const void*>(&accept));
     query.accept = [](void* context, const MeshHit& met) {
@@ -156,7 +157,7 @@ bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCount
     };
   }
   kernel_.closest(query);
-  counts.nodes += query.nodes, counts.triangles += query.blocks * Bvh::kLeafSize;
+  counts.triangles += query.blocks * Bvh::kLeafSize;
   return best.triangle != Bvh::kNoItem;
 }
 
@@ -169,13 +170,13 @@ void MeshTree::crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts c
   }
   MeshHit met;
   met.hit.t = tMost;
-  MeshQuery query{ray, arrays_, met};
+  MeshQuery query{ray, arrays_, counts.nodes, met};
   query.context = const_cast<void*>(static_cast<const void*>(&visit));
   query.accept = [](void* context, const MeshHit& hit) {
     return (*static_cast<std::remove_reference_t<Visit>*>(context))(hit);
   };
   kernel_.crossings(query);
-  counts.nodes += query.nodes, counts.triangles += query.blocks * Bvh::kLeafSize;
+  counts.triangles += query.blocks * Bvh::kLeafSize;
 }
 
 }  // namespace trace

@@ -6,57 +6,36 @@
 #include <memory>
 #include <tuple>
 
-#include "render/integrator.h"
+#include "render/pixel.h"
 
 namespace trace {
 namespace {
 
-/// Camera rays of one tile, one after the other; what a worker does.
+/// Pixels of one tile, one after the other; what a worker does.
 class TileRenderer {
  public:
   TileRenderer(const World& world, const Settings& settings, Film& film)
-      : tracer_(world, settings),
-        settings_(settings),
-        film_(film),
-        radiance_(integratorRow(settings.integrator).radiance),
-        grid_(gridSize(settings)) {}
+      : tracer_(world, settings, {film.width(), film.height()}), region_(settings.region), film_(film) {}
 
   void render(const Tile& tile) {
-    const Region& r = settings_.region;
+    const auto bad = [&](int x, int y, int sample) {
+      ++tracer_.statistics().badSamples;
+      if (bad_.size() < kMostBadSamples) bad_.push_back({x, y, sample});
+    };
+    const Region& r = region_;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) film_.set(x, y, pixel(x, y));
+        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1))
+          film_.set(x, y, tracer_.pixel(x, y, bad));
   }
 
   Statistics& statistics() { return tracer_.statistics(); }
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
-  Color pixel(int x, int y) {
-    // A pixel of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
-    const Real within = settings_.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
-    const int fromBottom = film_.height() - 1 - y;
-    Color sum;
-    int good = 0;
-    for (int sample = 0; sample < grid_ * grid_; ++sample) {
-      const Real u = (x + (sample % grid_ + within) / grid_) / film_.width();
-      const Real v = (fromBottom + (sample / grid_ + within) / grid_) / film_.height();
-      const Color color = radiance_(tracer_, tracer_.world().camera().ray(u, v));
-      if (isFinite(color)) {
-        sum += color, ++good;
-      } else {
-        ++tracer_.statistics().badSamples;
-        if (bad_.size() < kMostBadSamples) bad_.push_back({x, y, sample});
-      }
-    }
-    return good > 0 ? sum / good : Color(0);
-  }
-
-  Tracer tracer_;
-  const Settings& settings_;
+  PixelTracer tracer_;
+  const Region region_;
   Film& film_;
-  Color (*radiance_)(Tracer&, const Ray&);
-  int grid_;
   std::vector<BadSample> bad_;
 };
 

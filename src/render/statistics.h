@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "accel/bvh_node.h"
 #include "geometry/shape.h"
 
 namespace trace {
@@ -19,7 +20,7 @@ struct Statistics {
 
   std::array<std::uint64_t, kRayKindNames.size()> rays{};
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of the list of shapes
-  std::uint64_t nodes = 0;                             ///< hierarchy nodes visited
+  NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
 
   std::uint64_t allRays() const {
@@ -30,7 +31,7 @@ struct Statistics {
   Statistics& operator+=(const Statistics& other) {
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += other.rays[i];
     for (std::size_t i = 0; i < kShapes; ++i) tests[i] += other.tests[i], hits[i] += other.hits[i];
-    nodes += other.nodes, badSamples += other.badSamples;
+    nodes.count += other.nodes.count, badSamples += other.badSamples;
     return *this;
   }
   bool operator==(const Statistics&) const = default;

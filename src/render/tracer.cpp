@@ -1,6 +1,7 @@
 #include "render/tracer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace trace {
 
@@ -12,16 +13,36 @@ Faces Tracer::facesSeenBy(RayKind kind) const {
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
+  if (tree_) begin(ray, kind, kInfinity);
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  if (!found) return {};
-  Hit hit{found->t, world_.surface(ray, *found), world_.material(*found), false};
+  if (!found) {
+    if (tree_) finish().ends.push_back(LeftScene{});
+    return {};
+  }
+  Hit hit{found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
   hit.leaving = dot(ray.direction, hit.surface.normal) > 0;
+  const Real air = settings_.airIndex, inside = hit.material.index;
+  hit.indexBefore = hit.leaving ? inside : air, hit.indexBehind = hit.leaving ? air : inside;
+  if (tree_) finish().hit = hit;
   return hit;
 }
 
 Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distance) {
   ++statistics_.rays[static_cast<std::size_t>(RayKind::shadow)];
   const Ray ray = spawnRay(from, toLight);
+  if (tree_) begin(ray, RayKind::shadow, distance);
+  const Color color = passed(ray, distance);
+  if (tree_) {
+    RayNode& node = finish();
+    node.radiance = color;
+    const auto blocked = isBlack(color) ? nearestBlocker(ray, distance) : std::nullopt;
+    if (blocked) node.filters.clear();
+    node.ends.push_back(blocked ? RayEnd(*blocked) : ReachedLight{});
+  }
+  return color;
+}
+
+Color Tracer::passed(const Ray& ray, Real distance) {
   bool blocked = false;
   crossed_.clear();
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
@@ -35,18 +56,85 @@ Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distan
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });
   const auto same = [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); };
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
-  Color passed(1);
+  Color color(1);
   Real last = 0;
   for (const Found& found : crossed_) {
     const Color filter = world_.material(found).transmissive;
     if (isBlack(filter)) return Color(0);
+    Color factor(1);
     if (settings_.glass == Glass::perCrossing)
-      passed *= filter;
-    else if (dot(toLight, world_.surface(ray, found).normal) > 0)
-      passed *= pow(filter, found.t - last);
+      factor = filter;
+    else if (dot(ray.direction, world_.surface(ray, found).normal) > 0)
+      factor = pow(filter, found.t - last);
+    color *= factor;
     last = found.t;
+    if (tree_) tree_->nodes.back().filters.push_back({found.object, found.part, found.t, factor});
   }
-  return passed;
+  return color;
+}
+
+// --- recording ----------------------------------------------------------------------------------------
+
+void Tracer::retrace(const RayNode& node) {
+  if (node.kind == RayKind::shadow)
+    passed(node.ray, node.tMost);
+  else
+    world_.closest(node.ray, facesSeenBy(node.kind), statistics_);
+}
+
+/// passed() stops at the first opaque thing it comes across; a person wants to know the nearest.
+std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) const {
+  Statistics uncounted;
+  std::optional<Found> nearest;
+  world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
+    const bool opaque = world_.opaque(found.object) || isBlack(world_.material(found).transmissive);
+    if (opaque && (!nearest || found.before(*nearest))) nearest = found;
+    return false;
+  });
+  if (!nearest) return {};
+  return Blocked{nearest->object, nearest->t};
+}
+
+std::uint64_t Tracer::testsSoFar() const {
+  std::uint64_t sum = 0;
+  for (std::uint64_t n : statistics_.tests) sum += n;
+  return sum;
+}
+
+void Tracer::begin(const Ray& ray, RayKind kind, Real tMost) {
+  if (tree_->nodes.size() >= kMostRecordedRays)
+    throw Error(Fault::limit, "the sample takes more than " + std::to_string(kMostRecordedRays) + " rays",
+                "a smaller --depth or a --threshold makes them fewer");
+  RayNode node;
+  node.kind = kind, node.parent = current_, node.ray = ray, node.tMost = tMost;
+  if (current_ != kNoNode) node.depth = tree_->nodes[static_cast<std::size_t>(current_)].depth + 1;
+  node.nodes = statistics_.nodes.count, node.tests = testsSoFar();  // finish() makes them differences
+  last_ = static_cast<int>(tree_->nodes.size());
+  tree_->nodes.push_back(std::move(node));
+}
+
+RayNode& Tracer::finish() {
+  RayNode& node = tree_->nodes.back();
+  node.nodes = statistics_.nodes.count - node.nodes, node.tests = testsSoFar() - node.tests;
+  return node;
+}
+
+void Tracer::record(int node, Term term) {
+  term.ray = std::exchange(last_, kNoNode);
+  tree_->nodes[static_cast<std::size_t>(node)].terms.push_back(std::move(term));
+}
+
+void Tracer::record(int node, const RayEnd& why) {
+  tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
+}
+
+void Tracer::record(int index, const Color& through, const Color& radiance) {
+  RayNode& node = tree_->nodes[static_cast<std::size_t>(index)];
+  node.through = through, node.radiance = radiance;
+  const bool sentOn = std::any_of(node.terms.begin(), node.terms.end(), [&](const Term& term) {
+    return term.ray != kNoNode && tree_->nodes[static_cast<std::size_t>(term.ray)].kind != RayKind::shadow;
+  });
+  if (node.ends.empty() && !sentOn) node.ends.push_back(Opaque{});
 }
 
 }  // namespace trace

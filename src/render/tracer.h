@@ -1,24 +1,23 @@
-// The one door for rays. Integrators ask the Tracer, never the World: here every ray is counted, and the
-// conventions that decide what a kind of ray sees are applied.
+// The one door for rays. Integrators ask the Tracer, never the World: here every ray is counted, the
+// conventions that decide what a kind of ray sees are applied, and, when a RayTree is attached, every ray is
+// recorded.
 #pragma once
 
 #include <optional>
+#include <utility>
 
+#include "render/hit.h"
+#include "render/ray_tree.h"
 #include "render/world.h"
 #include "scene/settings.h"
 
 namespace trace {
 
-struct Hit {
-  Real t = 0;
-  SurfacePoint surface;
-  Phong material;
-  bool leaving = false;  ///< the ray comes from inside: it runs along the true normal
-};
-
 class Tracer {
  public:
-  Tracer(const World& world, const Settings& settings) : world_(world), settings_(settings) {}
+  /// `tree`, if any, takes every ray from now on.
+  Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr)
+      : world_(world), settings_(settings), tree_(tree) {}
 
   /// The first surface that a ray of this kind meets.
   std::optional<Hit> cast(const Ray& ray, RayKind kind);
@@ -27,15 +26,39 @@ class Tracer {
   /// in the unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
   Color visible(const SurfacePoint& from, const Vec3& toLight, Real distance);
 
+  /// The query of a recorded ray once more, for its statistics.
+  void retrace(const RayNode& node);
+
   const World& world() const { return world_; }
   const Settings& settings() const { return settings_; }
   Statistics& statistics() { return statistics_; }
 
  private:
+  friend class Gather;
+  static constexpr int kNoNode = -1;  ///< nothing is recorded
+
+  /// Rays from now on are children of the one cast last; returns its node.
+  int enter() { return tree_ ? current_ = std::exchange(last_, kNoNode) : kNoNode; }
+  void leave(int node) {
+    if (node != kNoNode) current_ = tree_->nodes[static_cast<std::size_t>(node)].parent, last_ = node;
+  }
+  void record(int node, Term term);
+  void record(int node, const RayEnd& why);
+  void record(int node, const Color& through, const Color& radiance);
+  /// A new node for a ray about to be traced; when it was, what it cost.
+  void begin(const Ray& ray, RayKind kind, Real tMost);
+  RayNode& finish();
+  std::uint64_t testsSoFar() const;
+
   Faces facesSeenBy(RayKind kind) const;
+  Color passed(const Ray& ray, Real distance);
+  std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;
 
   const World& world_;
   const Settings& settings_;
+  RayTree* tree_;
+  int current_ = kNoNode;  ///< the ray being followed
+  int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
   std::vector<Found> crossed_;  // of one shadow ray; kept to save allocations
 };

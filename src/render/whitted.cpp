@@ -5,6 +5,7 @@
 //
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
 // place of the refracted ray under total internal reflection. No Fresnel term: kr and kt are constants.
+#include "render/gather.h"
 #include "render/integrator.h"
 #include "shading/optics.h"
 
@@ -19,44 +20,59 @@ struct Path {
 };
 
 Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
-  const std::optional<Hit> hit = tracer.cast(ray, path.kind);
-  if (!hit) return Color(0);
+  Gather sum(tracer, ray, path.kind);
+  const std::optional<Hit>& hit = sum.hit();
+  if (!hit) return sum.radiance();
+  const World& world = tracer.world();
   const Settings& settings = tracer.settings();
   const Phong& material = hit->material;
   const SurfacePoint& surface = hit->surface;
   // The inside of glass is shaded with its normal turned to the eye; opaque things are lit from outside only.
   const Vec3 normal = hit->leaving && material.transmits() ? -surface.shading : surface.shading;
 
-  Color sum = material.emissive + material.ambient * tracer.world().ambient();
-  for (const Light& light : tracer.world().lights()) {
-    const auto arriving = match(light, [&](const auto& l) { return l.illuminate(surface.point); });
+  sum.add(Term::Kind::emissive, material.emissive);
+  sum.add(Term::Kind::ambient, material.ambient, world.ambient());
+  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    const auto arriving =
+        match(world.lights()[i], [&](const auto& l) { return l.illuminate(surface.point); });
     if (!arriving) continue;
-    const Color scattered = arriving->intensity * material.scatter(normal, arriving->toLight, -ray.direction);
-    if (!isBlack(scattered))
-      sum += scattered * tracer.visible(surface, arriving->toLight, arriving->distance);
+    const Scatter scatter = material.scatter(normal, arriving->toLight, -ray.direction);
+    const Color scattered = arriving->intensity() * scatter.sum();
+    const Color passed =
+        isBlack(scattered) ? Color(0) : tracer.visible(surface, arriving->toLight, arriving->distance);
+    sum.addLight(i, *arriving, scatter, scattered, passed);
   }
 
-  const auto worthwhile = [&](const Color& w) {
-    return !isBlack(w) && !(maxComponent(w) < settings.threshold);
+  const auto worthwhile = [&](RayKind kind, const Color& share) {
+    if (path.depth >= settings.depth)
+      sum.stop(DepthLimit{kind, settings.depth});
+    else if (isBlack(share) || maxComponent(share) < settings.threshold)
+      sum.stop(BelowThreshold{kind, maxComponent(share), settings.threshold});
+    else
+      return true;
+    return false;
   };
-  if (path.depth < settings.depth) {
-    if (const Color share = path.weight * material.reflective; worthwhile(share)) {
-      const Vec3 direction = mirrored(ray.direction, normal);
-      sum += material.reflective * radianceAlong(tracer, spawnRay(surface, direction),
-                                                 {RayKind::reflection, path.depth + 1, share, path.medium});
-    }
+  if (material.mirrors()) {
+    const Color share = path.weight * material.reflective;
+    if (worthwhile(RayKind::reflection, share))
+      sum.add(Term::Kind::reflection, material.reflective,
+              radianceAlong(tracer, spawnRay(surface, mirrored(ray.direction, normal)),
+                            {RayKind::reflection, path.depth + 1, share, path.medium}));
+  }
+  if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
-    const Color filter = perCrossing ? material.transmissive : Color(1);
-    if (const Color share = path.weight * filter; material.transmits() && worthwhile(share)) {
+    const Color filter = perCrossing ? material.transmissive : Color(1), share = path.weight * filter;
+    if (worthwhile(RayKind::refraction, share)) {
       const Color medium = perCrossing || hit->leaving ? Color(1) : material.transmissive;
-      const Real ratio =
-          hit->leaving ? material.index / settings.airIndex : settings.airIndex / material.index;
-      if (const auto direction = refracted(ray.direction, normal, ratio))
-        sum += filter * radianceAlong(tracer, spawnRay(surface, *direction),
-                                      {RayKind::refraction, path.depth + 1, share, medium});
+      if (const auto direction = refracted(ray.direction, normal, hit->indexBefore / hit->indexBehind))
+        sum.add(Term::Kind::refraction, filter,
+                radianceAlong(tracer, spawnRay(surface, *direction),
+                              {RayKind::refraction, path.depth + 1, share, medium}));
+      else
+        sum.stop(TotalInternalReflection{});
     }
   }
-  return path.medium == Color(1) ? sum : sum * pow(path.medium, hit->t);  // Beer's law
+  return sum.radiance(path.medium == Color(1) ? Color(1) : pow(path.medium, hit->t));  // Beer's law
 }
 
 }  // namespace

@@ -22,9 +22,11 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
       const auto seen = [&](const MeshHit& met) { return sees(faces, ray, mesh->data(), met); };
       MeshHit met;
       met.hit.t = best->t;
+      statistics.nodes.owner = object;
       if (faces == Faces::both ? mesh->closest(ray, met, nullptr, counts)
                                : mesh->closest(ray, met, seen, counts))
         keepNearest({met.hit.t, object, met.triangle, met.hit});
+      statistics.nodes.owner = NodeCount::kTop;
     } else {
       crossingsOfShape(object, ray, statistics, keepNearest);
     }
@@ -111,13 +113,16 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   World world;
   for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
 
-  for (const LightSource& source : scene.lights) {
-    match(source.light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
-                                   [&](PointLight light) {
-                                     light.atMostOne = settings.limitAttenuation;
-                                     world.lights_.push_back(light);
-                                   },
-                                   [&](const auto& light) { world.lights_.push_back(light); }});
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const auto add = [&](const Light& light) {
+      world.lights_.push_back(light), world.lightSources_.push_back(i);
+    };
+    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
+                                            [&](PointLight light) {
+                                              light.atMostOne = settings.limitAttenuation;
+                                              add(light);
+                                            },
+                                            [&](const auto& light) { add(light); }});
   }
 
   const Camera& camera = scene.camera;

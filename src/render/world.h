@@ -59,11 +59,14 @@ class World {
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   Phong material(const Found& found) const;
+  const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].worldFromObject; }
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
   const CameraFrame& camera() const { return camera_; }
   const std::vector<Light>& lights() const { return lights_; }
+  /// The place in Scene::lights of the light of that number.
+  std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   const Box3& bounds() const { return bounds_; }
   std::size_t objectCount() const { return objects_.size(); }
@@ -100,6 +103,7 @@ class World {
   Bvh bvh_;
   std::vector<Phong> materials_;
   std::vector<Light> lights_;
+  std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
   Box3 bounds_;
@@ -136,7 +140,8 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
       ++statistics.hits[instance.shape.index()];
       ended = visit(found);
     };
-    if (const MeshTree* mesh = instance.mesh.get())
+    if (const MeshTree* mesh = instance.mesh.get()) {
+      statistics.nodes.owner = object;
       mesh->crossings(ray, tMost,
                       [&](const MeshHit& met) {
                         if (sees(faces, ray, mesh->data(), met))
@@ -144,8 +149,10 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
                         return ended;
                       },
                       {statistics.nodes, statistics.tests[instance.shape.index()]});
-    else
+      statistics.nodes.owner = NodeCount::kTop;
+    } else {
       crossingsOfShape(object, ray, statistics, report);
+    }
     return ended;
   });
 }

@@ -41,6 +41,13 @@ struct Unrendered {
   bool operator==(const Unrendered&) const = default;
 };
 
+/// A material that the file names and gives to nothing.
+struct UnusedMaterial {
+  std::string name;
+  Place place;
+  bool operator==(const UnusedMaterial&) const = default;
+};
+
 struct Scene {
   std::string file;
   std::string format;  ///< name of the format it was read from
@@ -50,6 +57,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Choice> choices;  ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
+  std::vector<UnusedMaterial> unusedMaterials;
 
   bool operator==(const Scene&) const = default;
 };

@@ -14,9 +14,11 @@
 namespace trace {
 
 struct Illumination {
-  Vec3 toLight;     ///< unit
-  Real distance;    ///< beyond it nothing casts a shadow; infinite for directional lights
-  Color intensity;  ///< with attenuation by distance
+  Vec3 toLight;          ///< unit
+  Real distance;         ///< beyond it nothing casts a shadow; infinite for directional lights
+  Color color;           ///< of the source
+  Real attenuation = 1;  ///< by distance
+  Color intensity() const { return color * attenuation; }
 };
 
 struct PointLight {
@@ -44,7 +46,7 @@ struct PointLight {
     const Real l = length(d);
     if (!(l > 0)) return {};
     const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
-    return Illumination{d / l, l, color * (atMostOne ? std::min(1.0, attenuation) : attenuation)};
+    return Illumination{d / l, l, color, atMostOne ? std::min(1.0, attenuation) : attenuation};
   }
 };
 

@@ -14,6 +14,12 @@ namespace trace {
 /// Which angle the highlight measures: normal against half-way vector, or eye against mirrored light.
 enum class Highlight { blinn, phong };
 
+/// What a surface scatters of a light, in parts.
+struct Scatter {
+  Color diffuse, specular;
+  Color sum() const { return diffuse + specular; }
+};
+
 struct Phong {
   static constexpr std::string_view kKeyword = "material";
   static constexpr std::string_view kHelp = "Phong or Blinn-Phong surface with mirror and glass terms";
@@ -47,10 +53,10 @@ struct Phong {
 
   /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
   /// The highlight is not multiplied by N.L.
-  Color scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
+  Scatter scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
     const Real cosLight = dot(n, toLight);
     const Color scattered = diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight));
-    if (isBlack(specular)) return scattered;
+    if (isBlack(specular)) return {scattered, Color(0)};
     Real cosHighlight;
     if (highlight == Highlight::blinn) {
       const Vec3 half = toLight + toEye;
@@ -60,7 +66,7 @@ struct Phong {
       const Real cosMirror = litFromBehind ? std::max(0.0, cosLight) : cosLight;
       cosHighlight = dot(n * (2 * cosMirror) - toLight, toEye);
     }
-    return scattered + specular * std::pow(std::max(0.0, cosHighlight), shininess);
+    return {scattered, specular * std::pow(std::max(0.0, cosHighlight), shininess)};
   }
 };
 

@@ -16,7 +16,7 @@ std::set<std::uint32_t> visited(Bvh bvh, const Vec3& o, const Vec3& d, Real tMos
   for (const BvhKernel& kernel : bvhKernels())
     for (bool nearestFirst : {true, false}) {
       std::set<std::uint32_t> items;
-      std::uint64_t nodes = 0;
+      NodeCount nodes;
       const auto insert = [&](std::uint32_t item) { return items.insert(item), false; };
       bvh.setKernel(kernel);
       bvh.query(o, d, tMost, nearestFirst, nodes, insert);
@@ -95,7 +95,7 @@ TEST(Bvh, StopsBeyondTheLimitAndWhenTold) {
       visited(bvh, {-1, 0.5, 0.5}, {1, 0, 0}, 5.5).size();  // five boxes, and what shares a leaf
   EXPECT_GE(near, 5u);
   EXPECT_LE(near, 5u + 3u);
-  std::uint64_t nodes = 0;
+  NodeCount nodes;
   int calls = 0;
   bvh.query({-1, 0.5, 0.5}, {1, 0, 0}, kInfinity, true, nodes, [&](std::uint32_t) { return ++calls == 3; });
   EXPECT_EQ(calls, 3);

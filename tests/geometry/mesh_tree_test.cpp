@@ -21,7 +21,8 @@ struct Nearest {
 };
 
 struct Counts {
-  std::uint64_t nodes = 0, triangles = 0;
+  NodeCount nodes;
+  std::uint64_t triangles = 0;
   operator MeshCounts() { return {nodes, triangles}; }
 };
 

@@ -139,14 +139,14 @@ TEST(Whitted, HighlightsOfBlinnAndPhong) {
     Phong p = phong;
     p.highlight = highlight;
     if (highlight == Highlight::blinn) {
-      EXPECT_EQ(p.scatter({0, 0, 1}, {0, 0, -1}, {0, 0, -1}).r, 0);  // N.H < 0
+      EXPECT_EQ(p.scatter({0, 0, 1}, {0, 0, -1}, {0, 0, -1}).sum().r, 0);  // N.H < 0
     }
     p.shininess = 0;
-    EXPECT_EQ(p.scatter({0, 0, 1}, {0, 1, 0}, {1, 0, 0}).r, 1);  // pow(0, 0) = 1: covers everything
-    for (int i = 0; i < 100; ++i) {                              // light and eye may be swapped
+    EXPECT_EQ(p.scatter({0, 0, 1}, {0, 1, 0}, {1, 0, 0}).sum().r, 1);  // pow(0, 0) = 1: covers everything
+    for (int i = 0; i < 100; ++i) {                                    // light and eye may be swapped
       const Vec3 n = random.direction(), l = random.direction(), v = random.direction();
       p.shininess = 7;
-      EXPECT_NEAR(p.scatter(n, l, v).r, p.scatter(n, v, l).r, 1e-12);
+      EXPECT_NEAR(p.scatter(n, l, v).sum().r, p.scatter(n, v, l).sum().r, 1e-12);
     }
   }
 }

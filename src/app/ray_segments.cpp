@@ -1,0 +1,70 @@
+#include "app/ray_segments.h"
+
+#include "base/match.h"
+#include "base/text.h"
+#include "math/box.h"
+
+namespace trace {
+namespace {
+
+RayLooks looksOf(const RayNode& node) {
+  switch (node.kind) {
+    case RayKind::camera: return RayLooks::camera;
+    case RayKind::reflection: return RayLooks::reflection;
+    case RayKind::refraction: return RayLooks::refraction;
+    case RayKind::shadow: break;
+  }
+  return isBlack(node.radiance) ? RayLooks::shadowBlocked : RayLooks::shadowLit;
+}
+
+/// The t at which the ray ends; infinite if it does not.
+Real length(const RayNode& node) {
+  if (node.hit) return node.hit->t;
+  if (!node.ends.empty())
+    if (const auto* blocked = std::get_if<Blocked>(&node.ends.front())) return blocked->t;
+  return node.tMost;
+}
+
+}  // namespace
+
+std::vector<RaySegment> raySegments(const RayTree& tree) {
+  Box3 box;
+  for (const RayNode& node : tree.nodes) {
+    box.extend(node.ray.origin);
+    if (const Real t = length(node); std::isfinite(t)) box.extend(node.ray.at(t));
+  }
+  const Real size = trace::length(box.size()), beyond = size > 0 ? size / 3 : 1;
+  std::vector<RaySegment> segments;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const RayNode& node = tree.nodes[i];
+    const Real t = length(node);
+    const bool leaves = !std::isfinite(t);
+    const Vec3 to = node.ray.at(leaves ? beyond / trace::length(node.ray.direction) : t);
+    segments.push_back({static_cast<int>(i), looksOf(node), node.ray.origin, to, leaves});
+  }
+  return segments;
+}
+
+std::string raysAsObj(const RayTree& tree) {
+  const std::vector<RaySegment> segments = raySegments(tree);
+  const auto vertex = [](const Vec3& v) {
+    return "v " + toText(v.x) + " " + toText(v.y) + " " + toText(v.z) + "\n";
+  };
+  std::string text = "# rays of pixel " + std::to_string(tree.x) + "," + std::to_string(tree.y) +
+                     ", sample " + std::to_string(tree.sample) + "\n";
+  int vertices = 0;
+  for (std::size_t looks = 0; looks < kRayLooks.size(); ++looks) {
+    std::string group;
+    for (const RaySegment& segment : segments) {
+      if (segment.looks != static_cast<RayLooks>(looks)) continue;
+      group += "# ray " + std::to_string(segment.node) + (segment.leaves ? ", goes on without end\n" : "\n");
+      group += vertex(segment.from) + vertex(segment.to);
+      group += "l " + std::to_string(vertices + 1) + " " + std::to_string(vertices + 2) + "\n";
+      vertices += 2;
+    }
+    if (!group.empty()) text += "g " + std::string(kRayLooks[looks].name) + "\n" + group;
+  }
+  return text;
+}
+
+}  // namespace trace

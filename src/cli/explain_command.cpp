@@ -1,0 +1,108 @@
+// ray explain SCENE --pixel X,Y: why a pixel has its colour.
+//
+// The pixel is rendered as a render does it and, apart from that, traced with a record of every ray; the two
+// must agree bit for bit.
+#include <array>
+#include <filesystem>
+
+#include "app/ray_drawing.h"
+#include "app/ray_segments.h"
+#include "app/session.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/explain_json.h"
+#include "cli/explain_text.h"
+#include "cli/terminal.h"
+#include "image/codec.h"
+
+namespace trace::cli {
+namespace {
+
+constexpr std::array<std::string_view, 5> kFormats{"text", "json", "obj", "svg", "png"};
+
+/// Whole numbers with commas between, as many as asked. Throws Error(Fault::usage).
+template <std::size_t N>
+std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text, const char* expected) {
+  std::array<int, N> numbers{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto number = parseNumber(rest);
+    const bool good = number && number->value >= 0 && number->value < 1e6 &&
+                      number->value == static_cast<int>(number->value) &&
+                      (number->length < rest.size() ? i + 1 < N && rest[number->length] == ',' : i + 1 == N);
+    if (!good) throw Error(Fault::usage, flag + ": expected " + expected + ", found \"" + text + "\"");
+    numbers[i] = static_cast<int>(number->value);
+    rest.remove_prefix(std::min(number->length + 1, rest.size()));
+  }
+  return numbers;
+}
+
+/// As chosen, or by the suffix of the file to write.
+std::string_view formatOf(const Arguments& arguments) {
+  if (!arguments.format.empty()) return chosenFormat(arguments, "explain", kFormats);
+  const std::string suffix = std::filesystem::path(arguments.output).extension().string();
+  for (std::string_view format : kFormats)
+    if (suffix == "." + std::string(format)) return format;
+  return "text";
+}
+
+}  // namespace
+
+int explain(const Arguments& arguments, const Console& console) {
+  if (arguments.files.size() != 1)
+    throw Error(Fault::usage,
+                "ray explain: expected the name of one scene file, found " +
+                    (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())),
+                "ray explain SCENE --pixel X,Y");
+  if (arguments.pixel.empty())
+    throw Error(Fault::usage, "ray explain: expected --pixel X,Y, found none",
+                "--pixel 0,0 is at the top left of the picture");
+  const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y");
+  const int sample =
+      arguments.sample.empty() ? 0 : wholeNumbers<1>("--sample", arguments.sample, "a whole number")[0];
+  const std::string_view format = formatOf(arguments);
+  if (format == "png" && arguments.output.empty())
+    throw Error(Fault::usage, "ray explain --format png: expected the name of a file, found none",
+                "-o rays.png");
+  if (!arguments.output.empty()) checkWritable(arguments.output);
+
+  Session session;
+  std::vector<Choice> choices = arguments.choices;
+  const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
+  choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
+  choices.push_back({"time-limit", "0", {}});  // the one pixel is rendered whole
+  session.open(arguments.files[0], choices, arguments.strict);
+  session.build();
+  console.warnings(session.messages().all());
+  const Explanation explanation = session.explain(x, y, sample);
+  session.render();
+  const Size size = session.size();
+  const PixelFacts facts{session.scene(), explanation, size.width, size.height, session.picture().at(x, y)};
+  const int code = facts.agrees() ? kDone : kFailed;
+
+  const auto drawing = [&] {
+    return drawRays(session.scene(), session.settings(), session.world(), explanation.tree);
+  };
+  if (format == "png") {
+    writePicture(arguments.output, toPicture(drawing()), Rounding::nearest);
+    console.line(LogLevel::info, "wrote " + arguments.output);
+    return code;
+  }
+  const std::string text = format == "json"  ? explainJson(facts)
+                           : format == "obj" ? raysAsObj(explanation.tree)
+                           : format == "svg"
+                               ? toSvg(drawing())
+                               : explainText(facts, arguments.output.empty() && canColorResult());
+  if (arguments.output.empty()) {
+    printResult(text);
+  } else {
+    writeFile(arguments.output, text);
+    console.line(LogLevel::info, "wrote " + arguments.output);
+  }
+  if (code != kDone)
+    console.line(LogLevel::error, "the rays do not sum to the picture's pixel: please report this");
+  return code;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,156 @@
+#include "cli/explain_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace trace::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Numbers have all their digits; what is not finite becomes null.
+ordered_json toJson(const Vec3& v) { return {v.x, v.y, v.z}; }
+ordered_json toJson(const Color& c) { return {c.r, c.g, c.b}; }
+ordered_json toJson(Real x) { return x; }
+
+ordered_json toJson(const Place& place) {
+  if (place.file.empty()) return nullptr;
+  return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
+}
+
+template <class Struct>
+ordered_json fieldsOf(const Struct& value) {
+  ordered_json json = ordered_json::object();
+  forEachField<Struct>(
+      [&](const auto& field) { json[std::string(field.keyword)] = toJson(value.*field.member); });
+  return json;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Scene& scene) : scene_(scene) {}
+
+  ordered_json ray(const RayTree& tree, int index) const {
+    const RayNode& node = tree.nodes[static_cast<std::size_t>(index)];
+    ordered_json json;
+    json["id"] = index;
+    json["kind"] = kRayKindNames[static_cast<std::size_t>(node.kind)];
+    json["parent"] = node.parent < 0 ? ordered_json(nullptr) : ordered_json(node.parent);
+    json["depth"] = node.depth;
+    json["origin"] = toJson(node.ray.origin);
+    json["direction"] = toJson(node.ray.direction);
+    json["distance"] = node.hit ? node.hit->t : node.tMost;
+    json["hit"] = node.hit ? hit(*node.hit) : ordered_json(nullptr);
+    json["terms"] = ordered_json::array();
+    for (const Term& t : node.terms) json["terms"].push_back(term(t));
+    json["through"] = toJson(node.through);
+    json["filters"] = ordered_json::array();
+    for (const Filter& filter : node.filters)
+      json["filters"].push_back({{"object", object(filter.object)},
+                                 {"part", filter.part},
+                                 {"distance", filter.t},
+                                 {"factor", toJson(filter.factor)}});
+    json["ends"] = ordered_json::array();
+    for (const RayEnd& why : node.ends) json["ends"].push_back(end(why));
+    json["sentence"] = sentence(node, scene_);
+    json["radiance"] = toJson(node.radiance);
+    json["weight"] = toJson(node.weight);
+    json["nodes"] = node.nodes;
+    json["tests"] = node.tests;
+    return json;
+  }
+
+ private:
+  ordered_json object(std::uint32_t index) const {
+    const Object& o = scene_.objects[index];
+    return {{"index", index},
+            {"name", o.name},
+            {"shape", match(o.shape, [](const auto& s) { return s.kKeyword; })},
+            {"place", toJson(o.place)},
+            {"material", scene_.materials[o.material].name}};
+  }
+
+  ordered_json hit(const Hit& h) const {
+    return {{"object", object(h.object)},
+            {"part", h.part},
+            {"point", toJson(h.surface.point)},
+            {"error", toJson(h.surface.error)},
+            {"normal", toJson(h.surface.normal)},
+            {"shading", toJson(h.surface.shading)},
+            {"uv", {h.surface.uv.x, h.surface.uv.y}},
+            {"leaving", h.leaving},
+            {"indexBefore", h.indexBefore},
+            {"indexBehind", h.indexBehind},
+            {"material", fieldsOf(h.material)}};
+  }
+
+  ordered_json term(const Term& t) const {
+    ordered_json json;
+    json["kind"] = Term::kNames[static_cast<std::size_t>(t.kind)];
+    json["factor"] = toJson(t.factor);
+    json["value"] = toJson(t.value);
+    json["ray"] = t.ray < 0 ? ordered_json(nullptr) : ordered_json(t.ray);
+    if (t.light) {
+      const LightTerm& l = *t.light;
+      const LightSource& source = scene_.lights[l.light];
+      json["light"] = {{"index", l.light},
+                       {"type", match(source.light, [](const auto& s) { return s.kKeyword; })},
+                       {"place", toJson(source.place)},
+                       {"toLight", toJson(l.arriving.toLight)},
+                       {"distance", l.arriving.distance},
+                       {"color", toJson(l.arriving.color)},
+                       {"attenuation", l.arriving.attenuation},
+                       {"diffuse", toJson(l.scatter.diffuse)},
+                       {"specular", toJson(l.scatter.specular)}};
+    }
+    return json;
+  }
+
+  ordered_json end(const RayEnd& why) const {
+    ordered_json json;
+    json["why"] = match(why, [](const auto& w) { return w.kName; });
+    const auto kind = [](RayKind k) { return kRayKindNames[static_cast<std::size_t>(k)]; };
+    match(why,
+          Overloaded{[&](const DepthLimit& w) { json["unsent"] = kind(w.unsent), json["limit"] = w.limit; },
+                     [&](const BelowThreshold& w) {
+                       json["unsent"] = kind(w.unsent), json["contribution"] = w.contribution;
+                       json["threshold"] = w.threshold;
+                     },
+                     [&](const Blocked& w) { json["object"] = object(w.object), json["distance"] = w.t; },
+                     [](const auto&) {}});
+    return json;
+  }
+
+  const Scene& scene_;
+};
+
+}  // namespace
+
+std::string explainJson(const PixelFacts& facts) {
+  const Explanation& e = facts.explanation;
+  ordered_json json;
+  json["schema"] = "trace-explain";
+  json["version"] = kExplainVersion;
+  json["scene"] = facts.scene.file;
+  json["picture"] = {{"width", facts.width}, {"height", facts.height}};
+  json["x"] = e.tree.x;
+  json["y"] = e.tree.y;
+  json["sample"] = e.tree.sample;
+  json["samples"] = ordered_json::array();
+  for (const Color& c : e.samples) json["samples"].push_back(toJson(c));
+  json["pixel"] = toJson(e.pixel);
+  json["rendered"] = toJson(facts.rendered);
+  json["agrees"] = facts.agrees();
+  // One ray a line.
+  const auto text = [](const ordered_json& value) {
+    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  };
+  std::string all = text(json);
+  all.pop_back();  // the closing brace
+  all += ",\"rays\":[";
+  const Writer writer(facts.scene);
+  for (int i = 0; i < static_cast<int>(e.tree.nodes.size()); ++i)
+    all += (i > 0 ? ",\n" : "\n") + text(writer.ray(e.tree, i));
+  return all + "\n]}\n";
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,180 @@
+#include "cli/explain_text.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+#include "base/text.h"
+#include "cli/console.h"
+
+namespace trace::cli {
+namespace {
+
+// --- numbers: for the eye, six digits ---
+
+std::string text(Real x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", x);
+  return buffer;
+}
+std::string text(Real x, Real y, Real z) { return text(x) + " " + text(y) + " " + text(z); }
+std::string text(const Vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
+/// A grey is one number.
+std::string text(const Color& c) { return c.r == c.g && c.g == c.b ? text(c.r) : text(c.r, c.g, c.b); }
+/// All digits: what reads back as the same bits.
+std::string exact(const Color& c) { return toText(c.r) + " " + toText(c.g) + " " + toText(c.b); }
+
+bool sameBits(const Color& a, const Color& b) {
+  const auto same = [](double x, double y) {
+    return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
+  };
+  return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);
+}
+
+// --- the tree ---
+
+/// Terminal colours, by kind of ray.
+constexpr std::array<std::string_view, kRayKindNames.size()> kColors{"\033[1m", "\033[1;36m", "\033[1;35m",
+                                                                     "\033[1;33m"};
+
+class TreeText {
+ public:
+  TreeText(const PixelFacts& facts, bool color)
+      : scene_(facts.scene), tree_(facts.explanation.tree), color_(color), children_(tree_.nodes.size()) {
+    for (int i = 1; i < static_cast<int>(tree_.nodes.size()); ++i)
+      children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
+  }
+
+  std::string all() {
+    ray(0, "", "");
+    return std::move(text_);
+  }
+
+ private:
+  const RayNode& at(int index) const { return tree_.nodes[static_cast<std::size_t>(index)]; }
+  std::string material(std::uint32_t object) const {
+    const std::string& name = scene_.materials[scene_.objects[object].material].name;
+    return name.empty() ? "" : ", material \"" + name + "\"";
+  }
+
+  /// `first` stands before the ray's first line, `rest` before the others.
+  void ray(int index, const std::string& first, const std::string& rest) {
+    const RayNode& node = at(index);
+    const std::vector<int>& children = children_[static_cast<std::size_t>(index)];
+    margin_ = rest + (children.empty() ? "    " : "|   ");
+
+    const std::string kind(kRayKindNames[static_cast<std::size_t>(node.kind)]);
+    const std::string name = "#" + std::to_string(index) + " " + kind + " ray";
+    std::string title = name;
+    if (color_) title = std::string(kColors[static_cast<std::size_t>(node.kind)]) + name + "\033[0m";
+    if (const Term* term = termOf(tree_, index); term && term->light)
+      title += " to " + lightName(scene_, term->light->light);
+    text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
+    line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
+    if (node.hit) hit(*node.hit);
+    if (node.kind == RayKind::shadow)
+      shadow(node);
+    else
+      terms(node);
+    line("-> " + sentence(node, scene_));
+    line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
+
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      text_ += rest + "|\n";
+      ray(children[i], rest + "+-- ", rest + (i + 1 < children.size() ? "|   " : "    "));
+    }
+  }
+
+  void line(const std::string& words) { text_ += margin_ + words + "\n"; }
+
+  void hit(const Hit& hit) {
+    const Object& object = scene_.objects[hit.object];
+    const std::string shape = match(object.shape, [](const auto& s) { return std::string(s.kKeyword); });
+    std::string what = "hits ";
+    if (!object.name.empty()) what += "\"" + object.name + "\", ";
+    what += shape;
+    if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
+    const bool mesh = std::holds_alternative<Mesh>(object.shape);
+    line(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + material(hit.object) +
+         ", at distance " + text(hit.t));
+    const SurfacePoint& s = hit.surface;
+    std::string side = hit.leaving ? "leaving it" : "entering it";
+    if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);
+    line(side + "; uv (" + text(s.uv.x) + ", " + text(s.uv.y) + ")");
+    line("point " + text(s.point) + ", normal " + text(s.normal));
+    if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
+  }
+
+  void terms(const RayNode& node) {
+    for (const Term& term : node.terms) {
+      const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
+      if (term.light) {
+        light(term);
+        continue;
+      }
+      const Color value = term.factor * term.value;
+      std::string words = "+ " + kind + " " + text(value);
+      const std::string product = text(term.factor) + " * " + text(term.value);
+      if (term.ray >= 0)
+        words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);
+      else if (!(term.factor == Color(1)) && !isBlack(value))
+        words += " = " + product;
+      line(words);
+    }
+    if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
+    line("= " + text(node.radiance));
+  }
+
+  void light(const Term& term) {
+    const LightTerm& light = *term.light;
+    line("+ " + lightName(scene_, light.light) + " " + text(term.factor * term.value) +
+         (term.ray < 0 ? "; faces away, no shadow ray" : ""));
+    const Illumination& from = light.arriving;
+    const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
+    if (term.ray < 0) return;
+    line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) +
+         " + specular " + text(light.scatter.specular) + ")");
+    line("      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
+  }
+
+  void shadow(const RayNode& node) {
+    if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
+    for (const Filter& filter : node.filters)
+      line("* " + text(filter.factor) + " through " + objectName(scene_, filter.object) + " at distance " +
+           text(filter.t));
+    line("= " + text(node.radiance) + " passes");
+  }
+
+  const Scene& scene_;
+  const RayTree& tree_;
+  bool color_;
+  std::vector<std::vector<int>> children_;
+  std::string text_, margin_;
+};
+
+}  // namespace
+
+bool PixelFacts::agrees() const {
+  const RayTree& tree = explanation.tree;
+  return sumsUp(tree) && sameBits(explanation.pixel, rendered) &&
+         sameBits(tree.nodes[0].radiance, explanation.samples[static_cast<std::size_t>(tree.sample)]);
+}
+
+std::string explainText(const PixelFacts& facts, bool color) {
+  const Explanation& e = facts.explanation;
+  std::string text = facts.scene.file + ", pixel " + std::to_string(e.tree.x) + "," +
+                     std::to_string(e.tree.y) + " of " + std::to_string(facts.width) + " x " +
+                     std::to_string(facts.height) + ", sample " + std::to_string(e.tree.sample) + " of " +
+                     std::to_string(e.samples.size()) + "\n\n";
+  text += TreeText(facts, color).all() + "\n";
+  for (std::size_t i = 0; i < e.samples.size(); ++i)
+    text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
+            (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
+            (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
+  text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
+  text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
+                         : "The rays above do NOT sum to the picture's pixel: please report this.\n";
+  return text;
+}
+
+}  // namespace trace::cli

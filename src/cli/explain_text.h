@@ -1,0 +1,24 @@
+// A ray tree for people: one block of lines per ray, indented under the ray that sent it.
+#pragma once
+
+#include <string>
+
+#include "render/explain.h"
+#include "scene/scene.h"
+
+namespace trace::cli {
+
+/// What the tree belongs to and whether it agrees with the picture.
+struct PixelFacts {
+  const Scene& scene;
+  const Explanation& explanation;
+  int width = 0, height = 0;  ///< of the picture
+  Color rendered;             ///< the pixel, from a render
+  /// The tree's sum, the pixel's samples and the render agree bit for bit.
+  bool agrees() const;
+};
+
+/// Lines of about 100 columns; with colours of a terminal if asked.
+std::string explainText(const PixelFacts& facts, bool color);
+
+}  // namespace trace::cli

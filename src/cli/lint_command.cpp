@@ -1,0 +1,71 @@
+// ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "app/lint.h"
+#include "app/session.h"
+#include "base/file.h"
+#include "cli/commands.h"
+
+namespace trace::cli {
+namespace {
+
+std::string lintText(const std::string& scene, std::span<const LintFinding> findings) {
+  std::string text;
+  for (const LintFinding& finding : findings) {
+    std::string message = toString(finding.message);
+    const std::size_t end = message.find('\n');  // of the first line
+    text += message.insert(end, " [" + std::string(finding.check) + "]");
+  }
+  return text + scene + ": " +
+         (findings.empty() ? "nothing to complain about" : counted(findings.size(), "finding")) + "\n";
+}
+
+std::string lintJson(const std::string& scene, std::span<const LintFinding> findings) {
+  using nlohmann::ordered_json;
+  ordered_json json;
+  json["schema"] = "trace-lint";
+  json["version"] = 1;
+  json["scene"] = scene;
+  json["findings"] = ordered_json::array();
+  for (const LintFinding& finding : findings) {
+    const Place& place = finding.message.place;
+    json["findings"].push_back({{"check", finding.check},
+                                {"file", place.file},
+                                {"line", place.line},
+                                {"column", place.column},
+                                {"what", finding.message.what},
+                                {"hint", finding.message.hint}});
+  }
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int lint(const Arguments& arguments, const Console& console) {
+  if (arguments.files.size() != 1)
+    throw Error(Fault::usage,
+                "ray lint: expected the name of one scene file, found " +
+                    (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
+  constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
+  const bool json = chosenFormat(arguments, "lint", kFormats) == "json";
+  Session session;
+  session.open(arguments.files[0], arguments.choices, arguments.strict);
+  Messages messages = session.messages();
+  const World world = compile(session.scene(), session.settings(), messages);
+  std::vector<LintFinding> findings;
+  for (const Message& message : messages.all()) findings.push_back({"reading", message});
+  for (LintFinding& finding : lint(session.scene(), session.settings(), world))
+    findings.push_back(std::move(finding));
+  const std::string& scene = session.scene().file;
+  const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);
+  if (arguments.output.empty()) {
+    printResult(text);
+  } else {
+    writeFile(arguments.output, text);
+    console.line(LogLevel::info, "wrote " + arguments.output);
+  }
+  return findings.empty() ? kDone : kFound;
+}
+
+}  // namespace trace::cli

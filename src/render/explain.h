@@ -1,0 +1,24 @@
+// One pixel again, with a record of every ray: why it has its colour.
+#pragma once
+
+#include <vector>
+
+#include "render/ray_tree.h"
+#include "render/render.h"
+#include "render/world.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+struct Explanation {
+  RayTree tree;                ///< of the sample asked for
+  std::vector<Color> samples;  ///< all of the pixel's, in order; those that are not finite do not count
+  Color pixel;                 ///< the mean of those that count: the picture's, bit for bit
+};
+
+/// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
+/// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, Error(Fault::limit) for
+/// one with more than kMostRecordedRays rays.
+Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample);
+
+}  // namespace trace

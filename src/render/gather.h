@@ -1,0 +1,58 @@
+// The radiance that one ray brings back, summed term by term.
+//
+// An integrator makes one for each ray it follows and adds the terms of its equation in order. When a RayTree
+// is attached to the Tracer, the terms are written to the ray's node: what is recorded is what is summed.
+#pragma once
+
+#include "render/tracer.h"
+
+namespace trace {
+
+class Gather {
+ public:
+  /// Casts the ray. Rays that are cast while this lives are its children.
+  Gather(Tracer& tracer, const Ray& ray, RayKind kind)
+      : tracer_(tracer), hit_(tracer.cast(ray, kind)), node_(tracer.enter()) {}
+  ~Gather() { tracer_.leave(node_); }
+  Gather(const Gather&) = delete;
+  Gather& operator=(const Gather&) = delete;
+
+  const std::optional<Hit>& hit() const { return hit_; }
+
+  /// sum += factor * value. A ray that was cast for the value is the one cast last.
+  void add(Term::Kind kind, const Color& factor, const Color& value) {
+    sum_ += factor * value;
+    if (node_ != Tracer::kNoNode) tracer_.record(node_, {kind, factor, value});
+  }
+  void add(Term::Kind kind, const Color& value) { add(kind, Color(1), value); }
+  /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
+  /// scatters; factor is their product, of which `passed` is not in shadow.
+  void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
+                const Color& passed) {
+    sum_ += factor * passed;
+    if (node_ != Tracer::kNoNode)
+      tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
+                             LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
+  }
+
+  /// Notes why a ray is not sent on: one of RayEnd.
+  template <class Why>
+  void stop(const Why& why) {
+    if (node_ != Tracer::kNoNode) tracer_.record(node_, RayEnd(why));
+  }
+
+  /// The sum, after a medium of which `through` is not absorbed. The last thing to ask.
+  Color radiance(const Color& through = Color(1)) const {
+    const Color radiance = sum_ * through;
+    if (node_ != Tracer::kNoNode) tracer_.record(node_, through, radiance);
+    return radiance;
+  }
+
+ private:
+  Tracer& tracer_;
+  std::optional<Hit> hit_;
+  int node_;
+  Color sum_;
+};
+
+}  // namespace trace

@@ -1,0 +1,51 @@
+// The camera rays of a pixel and what they bring: the same for a render, for one pixel again, and for its
+// explanation.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/integrator.h"
+#include "render/render.h"
+
+namespace trace {
+
+/// Takes a picture's samples, one at a time, by one worker.
+class PixelTracer {
+ public:
+  /// `tree`, if any, records the rays.
+  PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree = nullptr);
+
+  /// How many a pixel has: the rays of its grid.
+  int samples() const { return grid_ * grid_; }
+  /// What the camera ray of sample 0 <= k < samples() brings; may be NaN or infinite. Row y = 0 is the top.
+  Color sample(int x, int y, int k);
+  /// The mean of the pixel's finite samples; black if there is none. badSample(x, y, k) hears of the others.
+  template <class BadSample>
+  Color pixel(int x, int y, BadSample&& badSample);
+
+  Statistics& statistics() { return tracer_.statistics(); }
+
+ private:
+  Tracer tracer_;
+  Color (*radiance_)(Tracer&, const Ray&);
+  Size size_;
+  int grid_;
+  Real within_;  ///< where a ray goes through its cell of the grid
+};
+
+template <class BadSample>
+Color PixelTracer::pixel(int x, int y, BadSample&& badSample) {
+  Color sum;
+  int good = 0;
+  for (int k = 0; k < samples(); ++k) {
+    const Color color = sample(x, y, k);
+    if (isFinite(color))
+      sum += color, ++good;
+    else
+      badSample(x, y, k);
+  }
+  return good > 0 ? sum / good : Color(0);
+}
+
+}  // namespace trace

@@ -1,0 +1,137 @@
+#include "render/ray_tree.h"
+
+#include <cmath>
+
+#include "base/match.h"
+#include "base/text.h"
+
+namespace trace {
+namespace {
+
+const RayNode& at(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
+
+bool same(const Color& a, const Color& b) {
+  const auto equal = [](double x, double y) {
+    return std::isnan(x) ? std::isnan(y) : x == y && std::signbit(x) == std::signbit(y);
+  };
+  return equal(a.r, b.r) && equal(a.g, b.g) && equal(a.b, b.b);
+}
+
+std::string kindName(RayKind kind) { return std::string(kRayKindNames[static_cast<std::size_t>(kind)]); }
+
+/// The rays that it was sent on as: "reflection and refraction".
+std::string sentOn(const RayNode& node) {
+  std::string text;
+  for (const Term& term : node.terms)
+    if (term.ray >= 0 && term.kind != Term::Kind::light)
+      text += (text.empty() ? "" : " and ") + std::string(Term::kNames[static_cast<std::size_t>(term.kind)]);
+  return text;
+}
+
+/// What it is and where: "sphere (scene.ray:12)".
+template <class Variant>
+std::string named(const Variant& thing, const Place& place) {
+  std::string text = match(thing, [](const auto& kind) { return std::string(kind.kKeyword); });
+  if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";
+  return text;
+}
+
+std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
+  return match(end,
+               Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
+                          [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
+                          [](const DepthLimit& e) {
+                            return "depth limit " + std::to_string(e.limit) + " reached: no " +
+                                   kindName(e.unsent);
+                          },
+                          [](const BelowThreshold& e) {
+                            if (e.contribution == 0) return "contribution 0: no " + kindName(e.unsent);
+                            return "contribution " + toText(e.contribution) + " below threshold " +
+                                   toText(e.threshold) + ": no " + kindName(e.unsent);
+                          },
+                          [](const TotalInternalReflection&) -> std::string {
+                            return "total internal reflection: no refraction";
+                          },
+                          [&](const Blocked& e) { return "blocked by " + objectName(scene, e.object); },
+                          [&](const ReachedLight&) -> std::string {
+                            if (node.filters.empty()) return "reached the light";
+                            std::string names;
+                            for (const Filter& filter : node.filters)
+                              names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
+                            return "reached the light, filtered by " + names;
+                          }});
+}
+
+}  // namespace
+
+Color recomputed(const RayTree& tree, int index) {
+  const RayNode& node = at(tree, index);
+  if (node.kind == RayKind::shadow) {
+    if (!node.ends.empty() && std::holds_alternative<Blocked>(node.ends.front())) return Color(0);
+    Color passed(1);
+    for (const Filter& filter : node.filters) passed *= filter.factor;
+    return passed;
+  }
+  Color sum;
+  for (const Term& term : node.terms)
+    sum += term.factor * (term.ray < 0 ? term.value : recomputed(tree, term.ray));
+  return sum * node.through;
+}
+
+bool sumsUp(const RayTree& tree) {
+  for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i)
+    if (!same(at(tree, i).radiance, recomputed(tree, i))) return false;
+  return true;
+}
+
+void weigh(RayTree& tree, Real cameraWeight) {
+  if (tree.nodes.empty()) return;
+  tree.nodes.front().weight = Color(cameraWeight);
+  for (const RayNode& node : tree.nodes)
+    for (const Term& term : node.terms)
+      if (term.ray >= 0)
+        tree.nodes[static_cast<std::size_t>(term.ray)].weight = node.weight * node.through * term.factor;
+}
+
+const Term* termOf(const RayTree& tree, int index) {
+  const int parent = at(tree, index).parent;
+  if (parent < 0) return nullptr;
+  for (const Term& term : at(tree, parent).terms)
+    if (term.ray == index) return &term;
+  return nullptr;
+}
+
+std::string shortPlace(const Place& place) {
+  std::string text = place.file.substr(place.file.find_last_of('/') + 1);
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  return text;
+}
+
+std::string objectName(const Scene& scene, std::uint32_t index) {
+  const Object& object = scene.objects[index];
+  if (!object.name.empty()) return object.name;
+  return named(object.shape, object.place);
+}
+
+std::string lightName(const Scene& scene, std::uint32_t index) {
+  const LightSource& source = scene.lights[index];
+  return named(source.light, source.place);
+}
+
+std::string sentence(const RayNode& node, const Scene& scene) {
+  std::string text;
+  const RayEnd* last = nullptr;
+  for (const RayEnd& end : node.ends) {
+    const auto* limit = std::get_if<DepthLimit>(&end);
+    if (limit && last && std::holds_alternative<DepthLimit>(*last))
+      text += ", no " + kindName(limit->unsent);
+    else
+      text += (text.empty() ? "" : "; ") + words(end, node, scene);
+    last = &end;
+  }
+  const std::string on = sentOn(node);
+  if (!on.empty()) text += (text.empty() ? "goes on as " : "; goes on as ") + on;
+  return text;
+}
+
+}  // namespace trace

@@ -1,0 +1,139 @@
+// Every ray that one sample of a pixel took, with its numbers: what `ray explain` prints and the studio
+// draws.
+//
+// Plain data. The Tracer and Gather (gather.h) fill it while an integrator works, when one is attached. A
+// ray's radiance is what its terms say, in their order and to the last bit:
+//
+//   sum of (factor * value) over its terms, times `through`       camera, reflected and refracted rays
+//   product of the factors of its crossings, 0 if blocked          shadow rays
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "render/hit.h"
+#include "render/statistics.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+// --- why a ray ended: THE list; sentence() puts each in words ---
+
+/// Met nothing: the background.
+struct LeftScene {
+  static constexpr std::string_view kName = "left-scene";
+};
+/// The surface sends no ray on.
+struct Opaque {
+  static constexpr std::string_view kName = "opaque";
+};
+struct DepthLimit {
+  static constexpr std::string_view kName = "depth-limit";
+  RayKind unsent;  ///< the ray that was not sent for it
+  int limit;
+};
+struct BelowThreshold {
+  static constexpr std::string_view kName = "below-threshold";
+  RayKind unsent;
+  Real contribution;  ///< the largest change of the sample that the unsent ray could make
+  Real threshold;
+};
+/// No ray is refracted.
+struct TotalInternalReflection {
+  static constexpr std::string_view kName = "total-internal-reflection";
+};
+/// Of a shadow ray.
+struct Blocked {
+  static constexpr std::string_view kName = "blocked";
+  std::uint32_t object;  ///< the nearest that lets nothing through
+  Real t;
+};
+/// Of a shadow ray.
+struct ReachedLight {
+  static constexpr std::string_view kName = "reached-light";
+};
+using RayEnd = std::variant<LeftScene, Opaque, DepthLimit, BelowThreshold, TotalInternalReflection, Blocked,
+                            ReachedLight>;
+
+// --- what a ray brings back ---
+
+/// The light of one source as a surface scatters it; the term's factor is intensity * (diffuse + specular).
+struct LightTerm {
+  std::uint32_t light = 0;  ///< index into Scene::lights
+  Illumination arriving;
+  Scatter scatter;
+};
+
+/// factor * value, a summand of a ray's radiance.
+struct Term {
+  enum class Kind { emissive, ambient, light, reflection, refraction };
+  static constexpr std::array<std::string_view, 5> kNames{"emissive", "ambient", "light", "reflection",
+                                                          "refraction"};
+  Kind kind;
+  Color factor, value;
+  int ray = -1;  ///< the node whose radiance is the value; of a light: its shadow ray; -1: no ray was sent
+  std::optional<LightTerm> light{};
+};
+
+/// A surface that a shadow ray went through.
+struct Filter {
+  std::uint32_t object = 0, part = 0;
+  Real t = 0;
+  Color factor;  ///< by which it multiplied the light
+};
+
+struct RayNode {
+  RayKind kind = RayKind::camera;
+  int parent = -1, depth = 0;  ///< of the camera ray: -1 and 0
+  Ray ray;
+  Real tMost = kInfinity;  ///< of a shadow ray: the distance of the light
+  std::optional<Hit> hit;  ///< not of shadow rays
+  std::vector<Term> terms;
+  Color through{1};             ///< what the medium lets pass on the way back
+  std::vector<Filter> filters;  ///< of a shadow ray, in order
+  std::vector<RayEnd> ends;     ///< several where it sends neither of two rays; none where all were sent
+  Color radiance;               ///< brought back; of a shadow ray: the share of the light that passes
+  Color weight;                 ///< factor of the radiance in the pixel
+  std::uint64_t nodes = 0;      ///< of hierarchies, visited
+  std::uint64_t tests = 0;      ///< of shapes and triangles
+};
+
+/// More rays than this are not recorded: a thousand bounces between two panes of glass take more than a
+/// machine's memory.
+inline constexpr std::size_t kMostRecordedRays = 200000;
+
+/// nodes[0] is the camera ray; parents come before their children, in the order of tracing.
+struct RayTree {
+  int x = 0, y = 0, sample = 0;
+  std::vector<RayNode> nodes;
+};
+
+/// What the node's radiance is by its recorded terms and those of the rays below it.
+Color recomputed(const RayTree& tree, int node = 0);
+
+/// Every node's radiance is recomputed() of it, bit for bit; a NaN equals a NaN.
+bool sumsUp(const RayTree& tree);
+
+/// Sets every node's weight, from that of the camera ray: 1 / samples of the pixel.
+void weigh(RayTree& tree, Real cameraWeight);
+
+/// The term of the ray's parent that its radiance went into; null for the camera ray.
+const Term* termOf(const RayTree& tree, int node);
+
+/// "wall", or "sphere (scene.ray:12)" for an object without a name.
+std::string objectName(const Scene& scene, std::uint32_t object);
+/// "point_light (scene.ray:7)".
+std::string lightName(const Scene& scene, std::uint32_t light);
+/// "scene.ray:12", without folders; "" for a place in no file.
+std::string shortPlace(const Place& place);
+
+/// Why the ray ended there, in plain words without a full stop: "left the scene: background". Names objects
+/// as `scene` does.
+std::string sentence(const RayNode& node, const Scene& scene);
+
+}  // namespace trace

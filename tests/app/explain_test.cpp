@@ -1,0 +1,162 @@
+// The rays that are explained are the picture's: for every sample, in our scenes and the courses', under
+// every option.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "app/drawing.h"
+#include "app/ray_drawing.h"
+#include "app/ray_segments.h"
+#include "app/session.h"
+#include "render/visited_boxes.h"
+#include "support/shared.h"
+
+namespace trace::test {
+namespace {
+
+bool sameBits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Renders a small picture and explains every sample of its pixels; returns the number of rays explained.
+std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int width) {
+  choices.insert(choices.begin(), {"width", std::to_string(width), {}});
+  choices.insert(choices.begin(), {"depth", "4", {}});
+  Session session;
+  session.open(file, choices);
+  session.build();
+  session.render();
+  const Picture picture = session.picture();
+  std::size_t rays = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int k = 0; k < gridSize(session.settings()) * gridSize(session.settings()); ++k) {
+        const Explanation e = session.explain(x, y, k);
+        const Color& sample = e.samples[static_cast<std::size_t>(k)];
+        if (!sameBits(e.pixel, picture.at(x, y)) || !sameBits(e.tree.nodes[0].radiance, sample) ||
+            !sumsUp(e.tree)) {
+          ADD_FAILURE() << file << " pixel " << x << "," << y << " sample " << k;
+          return rays;
+        }
+        Color sum;
+        for (const Color& s : e.samples) sum += s;
+        EXPECT_TRUE(sameBits(sum / static_cast<double>(e.samples.size()), e.pixel)) << file;
+        rays += e.tree.nodes.size();
+      }
+  return rays;
+}
+
+std::vector<std::string> examples() { return filesUnder(std::string(TRACE_SOURCE) + "/scenes", ".ray"); }
+
+TEST(Explain, EverySampleOfOurScenesSumsToThePicture) {
+  for (const std::string& scene : examples())
+    EXPECT_GT(explainAll(scene, {{"spp", "4", {}}}, 20), 800u) << scene;
+}
+
+/// A value for the option that is not its default, and that a small picture shows in a moment.
+std::vector<std::string> valuesOf(const Option& option) {
+  switch (option.kind) {
+    case Option::Kind::boolean: return {"on", "off"};
+    case Option::Kind::choice: return {option.choices.begin(), option.choices.end()};
+    case Option::Kind::integer:
+      return {std::to_string(static_cast<int>(std::clamp(4.0, option.least, option.most)))};
+    case Option::Kind::real: return {std::to_string(std::clamp(0.25, option.least, option.most))};
+    case Option::Kind::region: return {};
+  }
+  return {};
+}
+
+TEST(Explain, EverySampleSumsToThePictureUnderEveryOption) {
+  for (const Option& option : options()) {
+    if (option.name == "width" || option.name == "height" || option.name == "time-limit") continue;
+    for (const std::string& value : valuesOf(option))
+      for (const char* scene : {"conventions.ray", "glass.ray", "mesh.ray"}) {
+        SCOPED_TRACE(std::string(option.name) + " = " + value);
+        const std::string file = std::string(TRACE_SOURCE) + "/scenes/" + scene;
+        EXPECT_GT(explainAll(file, {{std::string(option.name), value, {}}, {"spp", "1", {}}}, 16), 100u);
+      }
+  }
+}
+
+TEST(Explain, EverySampleOfTheCoursesScenesSumsToThePicture) {
+  TRACE_NEEDS_SHARED("scenes/uw");
+  const std::vector<std::string> all = filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray");
+  int explained = 0;
+  for (std::size_t i = 0; i < all.size(); i += all.size() / 25 + 1) {
+    try {
+      explainAll(all[i], {}, 12);
+      ++explained;
+    } catch (const Error&) {  // a broken scene
+    }
+  }
+  EXPECT_GT(explained, 10);
+}
+
+/// The middle of a ball of glass.
+Explanation ofGlass(Session& session) {
+  session.open(std::string(TRACE_SOURCE) + "/scenes/glass.ray", {});
+  session.build();
+  return session.explain(200, 120, 0);
+}
+
+TEST(Explain, SegmentsRunFromRayToHitAndObjHoldsThemAll) {
+  Session session;
+  const RayTree tree = ofGlass(session).tree;
+  const std::vector<RaySegment> segments = raySegments(tree);
+  ASSERT_EQ(segments.size(), tree.nodes.size());
+  for (const RaySegment& segment : segments) {
+    const RayNode& node = tree.nodes[static_cast<std::size_t>(segment.node)];
+    EXPECT_EQ(segment.from, node.ray.origin);
+    if (node.hit) {
+      EXPECT_LT(length(segment.to - node.hit->surface.point), 1e-9);
+    }
+    EXPECT_EQ(segment.leaves, !node.hit && node.kind != RayKind::shadow);
+  }
+  const std::string obj = raysAsObj(tree);
+  const auto count = [&](const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = obj.find(what); at != std::string::npos; at = obj.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("\nl "), segments.size());
+  EXPECT_EQ(count("\nv "), 2 * segments.size());
+  for (const char* group : {"camera", "reflection", "refraction", "shadow-lit"})
+    EXPECT_EQ(count(std::string("\ng ") + group + "\n"), 1u) << group;
+}
+
+TEST(Explain, TheDrawingShowsEveryColourOfItsRays) {
+  Session session;
+  const RayTree tree = ofGlass(session).tree;
+  const Drawing drawing = drawRays(session.scene(), session.settings(), session.world(), tree);
+  const Picture picture = toPicture(drawing);
+  ASSERT_EQ(picture.width, drawing.width);
+  for (const RaySegment& segment : raySegments(tree)) {
+    const Color& color = look(segment.looks).color;
+    const auto pixels = std::count(picture.pixels.begin(), picture.pixels.end(), color);
+    EXPECT_GT(pixels, 150) << look(segment.looks).name;  // the legend has 90
+  }
+  const std::string svg = toSvg(drawing);
+  EXPECT_EQ(svg.find("<svg "), 0u);
+  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Drawing, CoversPixelsByArea) {
+  Drawing drawing{9, 9, {DrawnLine{{0, 4.5}, {9, 4.5}, Color(0), 1, false}}};
+  const Picture line = toPicture(drawing);
+  EXPECT_EQ(line.at(4, 4), Color(0));
+  EXPECT_EQ(line.at(4, 3), Color(1));
+  drawing.things = {DrawnFrame{{0, 0}, 4, 9}, DrawnDisk{{4, 4}, 2, Color(0)}};
+  const Picture half = toPicture(drawing);
+  EXPECT_EQ(half.at(3, 4), Color(0));
+  EXPECT_EQ(half.at(4, 4), Color(1)) << "outside the frame";
+  drawing.things = {DrawnWords{{0, 0}, "i", Color(0), 12}};
+  const Picture words = toPicture(drawing);
+  EXPECT_GT(std::count(words.pixels.begin(), words.pixels.end(), Color(0)), 3);
+}
+
+TEST(Drawing, SvgEscapesWords) {
+  const Drawing drawing{9, 9, {DrawnWords{{0, 0}, "a<b & \"c\"\x01", Color(0)}}};
+  EXPECT_NE(toSvg(drawing).find(">a&lt;b &amp; \"c\"</text>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trace::test

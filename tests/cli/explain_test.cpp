@@ -1,0 +1,170 @@
+// ray explain and ray lint, as users meet them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "cli/program.h"
+#include "image/codec.h"
+#include "support/shared.h"
+
+namespace trace::test {
+namespace {
+
+using nlohmann::json;
+
+const std::string kScenes = std::string(TRACE_SOURCE) + "/scenes/";
+const std::string kLint = std::string(TRACE_SOURCE) + "/tests/corpus/lint/";
+
+struct Explain : testing::Test {
+  std::string folder = testing::TempDir() + "/trace_explain";
+  void SetUp() override {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+  }
+  /// Runs `ray` with the words; fails the test on another exit code.
+  std::string out(std::vector<std::string> words, int code = 0) {
+    Program program(folder, std::move(words));
+    EXPECT_EQ(program.wait(), code) << program.err();
+    return program.out();
+  }
+  std::string error(std::vector<std::string> words, int code) {
+    Program program(folder, std::move(words));
+    EXPECT_EQ(program.wait(), code);
+    return program.err();
+  }
+};
+
+TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {
+  const std::string text = out({"explain", kScenes + "glass.ray", "--pixel", "200,120", "--sample=3"});
+  for (const char* words :
+       {"pixel 200,120 of 400 x 250, sample 3 of 4", "#0 camera ray", "reflection ray", "refraction ray",
+        "shadow ray to point_light (glass.ray:16)", "index 1.0003 -> 1.5", "depth limit 5 reached",
+        "left the scene: background", "The rays above sum to the picture's pixel, bit for bit."})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  EXPECT_EQ(text.find('\033'), std::string::npos) << "colours without a terminal";
+  std::size_t longest = 0, begin = 0;  // without the margin
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    longest = std::max(longest, end - std::min(end, text.find_first_not_of("|+- ", begin)));
+  EXPECT_LE(longest, 100u);
+}
+
+/// What the schema promises: each ray's radiance follows from its terms.
+std::array<double, 3> sum(const json& rays, const json& ray) {
+  std::array<double, 3> all{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (ray["kind"] == "shadow") {
+      all[c] = 1;
+      for (const json& filter : ray["filters"]) all[c] *= filter["factor"][c].get<double>();
+      if (ray["ends"][0]["why"] == "blocked") all[c] = 0;
+      continue;
+    }
+    for (const json& term : ray["terms"]) {
+      const double value = term["ray"].is_null() ? term["value"][c].get<double>()
+                                                 : sum(rays, rays[term["ray"].get<std::size_t>()])[c];
+      all[c] += term["factor"][c].get<double>() * value;
+    }
+    all[c] *= ray["through"][c].get<double>();
+  }
+  return all;
+}
+
+TEST_F(Explain, JsonFollowsItsSchemaToTheLastBit) {
+  const json all =
+      json::parse(out({"explain", kScenes + "glass.ray", "--pixel", "200,120", "--format", "json"}));
+  EXPECT_EQ(all["schema"], "trace-explain");
+  EXPECT_EQ(all["version"], 1);
+  EXPECT_EQ(all["agrees"], true);
+  EXPECT_EQ(all["pixel"], all["rendered"]);
+  const json& rays = all["rays"];
+  ASSERT_GT(rays.size(), 10u);
+  EXPECT_EQ(rays[0]["radiance"], all["samples"][0]);
+  for (const json& ray : rays) {
+    const auto expected = sum(rays, ray);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(ray["radiance"][c].get<double>(), expected[c]);
+    EXPECT_FALSE(ray["sentence"].get<std::string>().empty());
+  }
+  const json& object = rays[0]["hit"]["object"];
+  EXPECT_EQ(object["shape"], "sphere");
+  EXPECT_EQ(object["place"]["line"], 46);
+  EXPECT_EQ(rays[0]["hit"]["material"]["index"], 1.5);
+}
+
+TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
+  // The first block of docs/explain.md is what the command above it prints.
+  const std::string page = readFile(std::string(TRACE_SOURCE) + "/docs/explain.md");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(page, match,
+                                std::regex("\n    ray explain (scenes/[a-z]+\\.ray) --pixel ([0-9,]+)\n")));
+  const std::string scene = match[1], pixel = match[2];
+  std::filesystem::create_directory_symlink(kScenes, folder + "/scenes");
+  const std::string text = out({"explain", scene, "--pixel", pixel});
+  std::string block;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    block += (end > begin ? "    " : "") + text.substr(begin, end - begin) + "\n";
+  EXPECT_NE(page.find(block), std::string::npos) << block;
+}
+
+TEST_F(Explain, FilesGetTheFormatOfTheirName) {
+  const std::vector<std::string> words{"explain", kScenes + "shapes.ray", "--pixel=150,100", "-o"};
+  for (const auto& [name, begins] :
+       {std::pair{"a.json", "{\"schema\""}, {"a.obj", "# rays of"}, {"a.svg", "<svg "}}) {
+    std::vector<std::string> with = words;
+    with.push_back(name);
+    EXPECT_EQ(out(with), "");
+    EXPECT_EQ(readFile(folder + "/" + name).find(begins), 0u) << name;
+  }
+  std::vector<std::string> with = words;
+  with.push_back("a.png");
+  out(with);
+  EXPECT_GT(readPicture(folder + "/a.png").width, 1000);
+}
+
+TEST_F(Explain, RefusesWithAReason) {
+  const std::string scene = kScenes + "shapes.ray";
+  EXPECT_NE(error({"explain", scene}, 2).find("--pixel"), std::string::npos);
+  EXPECT_NE(error({"explain", "--pixel", "1,1"}, 2).find("scene file"), std::string::npos);
+  for (const char* pixel : {"1", "1,2,3", "a,b", "-1,0", "1.5,2", "1,", ",1", "99999999999,0"})
+    EXPECT_NE(error({"explain", scene, std::string("--pixel=") + pixel}, 2).find("--pixel"),
+              std::string::npos)
+        << pixel;
+  EXPECT_NE(error({"explain", scene, "--pixel", "400,0"}, 2).find("from 0 to 399"), std::string::npos);
+  EXPECT_NE(error({"explain", scene, "--pixel", "0,0", "--sample", "9999"}, 2).find("sample"),
+            std::string::npos);
+  EXPECT_NE(error({"explain", scene, "--pixel", "0,0", "--format", "png"}, 2).find("-o"), std::string::npos);
+  EXPECT_NE(error({"info", scene, "--format", "svg"}, 2).find("text | json"), std::string::npos);
+  EXPECT_EQ(error({"explain", "none.ray", "--pixel", "0,0"}, 1).empty(), false);
+}
+
+TEST_F(Explain, OptionsCountAsInARender) {
+  const std::string text =
+      out({"explain", kScenes + "glass.ray", "--pixel", "50,30", "-w", "100", "-r", "0", "--spp", "1"});
+  EXPECT_NE(text.find("pixel 50,30 of 100 x 63, sample 0 of 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("depth limit 0 reached: no reflection, no refraction"), std::string::npos) << text;
+}
+
+TEST_F(Explain, LintEndsWithSixWhenItFindsSomething) {
+  const std::string bad = kLint + "light-inside.bad.ray", good = kLint + "light-inside.good.ray";
+  const std::string text = out({"lint", bad}, 6);
+  EXPECT_NE(text.find(bad + ":5:1: warning: the light is inside \"ball\""), std::string::npos) << text;
+  EXPECT_NE(text.find("[light-inside]"), std::string::npos);
+  EXPECT_NE(text.find("1 finding\n"), std::string::npos);
+  EXPECT_NE(out({"lint", good}, 0).find("nothing to complain about"), std::string::npos);
+  const json all = json::parse(out({"lint", bad, "--format=json"}, 6));
+  EXPECT_EQ(all["schema"], "trace-lint");
+  ASSERT_EQ(all["findings"].size(), 1u);
+  EXPECT_EQ(all["findings"][0]["check"], "light-inside");
+  EXPECT_EQ(all["findings"][0]["line"], 5);
+}
+
+TEST_F(Explain, LintTellsWhatReadingRepaired) {
+  const std::string scene = folder + "/flat.ray";
+  writeFile(scene,
+            "SBT-raytracer 1.0\ndirectional_light { direction = (0, 0, -1); color = (1, 1, 1); }\n"
+            "polymesh { points = ((0,0,-5), (1,0,-5), (0,1,-5)); faces = ((0,1,2), (0,0,1)); "
+            "material = { diffuse = (1,1,1); } }\n");
+  EXPECT_NE(out({"lint", scene}, 6).find("without area"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trace::test
