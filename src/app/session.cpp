@@ -2,10 +2,9 @@
 
 #include <chrono>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 
-#include "image/codec.h"
+#include "render/passes.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
@@ -27,8 +26,11 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
-/// While rendering and saving, a pixel lives in the film, a copy of it and the encoder's buffers.
-constexpr std::uint64_t kBytesPerPixel = 2 * sizeof(Color) + 16;
+/// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
+/// in the encoder's buffers.
+std::uint64_t bytesPerPixel(const Settings& settings) {
+  return (3 + passesOf(settings).size()) * sizeof(Color) + 16;
+}
 
 }  // namespace
 
@@ -44,15 +46,6 @@ std::uint64_t machineMemory() {
 #endif
 }
 
-Metadata describe(const Scene& scene, const Settings& settings) {
-  std::string changed;
-  for (const Choice& choice : changedOptions(settings))
-    changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
-  return {{"Software", "Trace " TRACE_VERSION},
-          {"Title", std::filesystem::path(scene.file).filename().string()},
-          {"Settings", changed.empty() ? "defaults" : changed}};
-}
-
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
   const Stopwatch watch;
   strict_ = strict;
@@ -66,8 +59,8 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
 void Session::build() {
   const Stopwatch watch;
   const Size picture = size();
-  const std::uint64_t needed =
-      static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height) * kBytesPerPixel;
+  const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) *
+                               static_cast<std::uint64_t>(picture.height) * bytesPerPixel(settings_);
   const std::uint64_t allowed =
       settings_.maxMemory > 0 ? static_cast<std::uint64_t>(settings_.maxMemory) << 20 : machineMemory();
   if (needed > allowed)
@@ -79,7 +72,7 @@ void Session::build() {
                     std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
   world_.emplace(compile(scene_, settings_, messages_));
   messages_.throwIfFailed(strict_);
-  film_ = std::make_unique<Film>(picture.width, picture.height);
+  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
 }
 
@@ -92,7 +85,7 @@ RenderResult Session::render() {
 
 void Session::save(const std::string& path) {
   const Stopwatch watch;
-  writePicture(path, picture(), settings_.rounding, describe(scene_, settings_));
+  for (const Output& output : outputs(path, settings_)) write(output, *film_, scene_, settings_);
   phases_.push_back(watch.stop("write"));
 }
 

@@ -59,6 +59,7 @@ std::string placeholder(const Option& option) {
     case Option::Kind::integer: return "N";
     case Option::Kind::real: return "X";
     case Option::Kind::choice: return joined(option.choices, "|");
+    case Option::Kind::choices: return joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
   }
   return "";
@@ -68,6 +69,7 @@ std::string rangeText(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::choice: return joined(option.choices, ", ");
+    case Option::Kind::choices: return "none, or some of " + joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::integer:
     case Option::Kind::real: break;

@@ -15,6 +15,7 @@
 #include "cli/terminal.h"
 #include "cli/watch.h"
 #include "image/codec.h"
+#include "render/passes.h"
 
 namespace trace::cli {
 namespace {
@@ -52,7 +53,8 @@ void open(Session& session, const Arguments& arguments) {
   }
 }
 
-/// Writes the picture, to the folder for temporary files if its own place fails after all. Returns the name.
+/// Writes the picture and its passes, to the folder for temporary files if their own place fails after all.
+/// Returns the picture's name.
 std::string save(Session& session, const std::string& output, const Console& console) {
   try {
     session.save(output);
@@ -75,6 +77,14 @@ void reportBadSamples(const RenderResult& result, const Console& console) {
   console.line(LogLevel::warning, "warning: " + text);
 }
 
+/// "the passes depth, id".
+std::string passNames(const Settings& settings) {
+  std::string names;
+  for (const PassRow* pass : passesOf(settings))
+    names += (names.empty() ? "" : ", ") + std::string(pass->name);
+  return (names.find(',') == std::string::npos ? "the pass " : "the passes ") + names;
+}
+
 /// Renders with an eye on progress and signals.
 RenderResult watched(Session& session, Signals& signals, const Console& console, ProgressStyle style,
                      const std::string& output) {
@@ -89,15 +99,16 @@ int render(const Arguments& arguments, const Console& console) {
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
   const std::string output = outputName(arguments);
-  const PictureFormat& format = pictureFormatFor(output);
+  pictureFormatFor(output);  // an unknown ending is told before a large scene is read
   Signals signals;
   Session session;
   open(session, arguments);
-  checkWritable(output);
+  const std::vector<Output> files = outputs(output, session.settings());
+  for (const Output& file : files) checkWritable(file.path);
   session.build();
   const Size size =
       session.size();  // only now: a lack of memory is the better reason to refuse a huge picture
-  checkEncodable(format, size.width, size.height);
+  for (const Output& file : files) checkEncodable(pictureFormatFor(file.path), size.width, size.height);
   console.warnings(session.messages().all());
   for (const OptionFact& fact : changedOptions(session.scene(), session.settings(), arguments.choices))
     console.line(LogLevel::debug, "option " + fact.name + " = " + fact.value + " (" + fact.from + ")");
@@ -129,8 +140,9 @@ int render(const Arguments& arguments, const Console& console) {
     else
       console.line(LogLevel::error, statisticsTable(run));
   }
-  console.line(LogLevel::error, stopped + "wrote " + written + " (" + pictureText(session, fraction) +
-                                    ") in " + durationText(seconds) +
+  const std::string passes = files.size() > 1 ? " and " + passNames(session.settings()) : "";
+  console.line(LogLevel::error, stopped + "wrote " + written + passes + " (" +
+                                    pictureText(session, fraction) + ") in " + durationText(seconds) +
                                     (written == output ? "" : " instead of " + output));
   return code;
 }

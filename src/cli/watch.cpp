@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "image/codec.h"
-
 namespace trace::cli {
 namespace {
 
@@ -75,8 +73,8 @@ void Watch::save() {
   // Not Session::save(): that notes its duration, which belongs to the thread that renders.
   try {
     const std::string picture = pictureText(session_, session_.job().fraction());
-    writePicture(output_, session_.picture(), session_.settings().rounding,
-                 describe(session_.scene(), session_.settings()));
+    for (const Output& file : outputs(output_, session_.settings()))
+      write(file, session_.film(), session_.scene(), session_.settings());
     console_.line(LogLevel::error, "wrote " + output_ + " (" + picture + "), going on");
   } catch (const Error& error) {
     console_.error(error);

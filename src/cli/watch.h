@@ -15,7 +15,7 @@
 namespace trace::cli {
 
 /// Lives while Session::render() runs. Event::stop cancels the job; Event::save writes the finished tiles to
-/// `output`.
+/// the outputs() of `output`.
 class Watch {
  public:
   Watch(Session& session, Signals& signals, const Console& console, ProgressStyle style, std::string output);

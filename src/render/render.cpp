@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "render/integrator.h"
+#include "render/passes.h"
 
 namespace trace {
 namespace {
@@ -19,29 +20,38 @@ class TileRenderer {
         settings_(settings),
         film_(film),
         radiance_(integratorRow(settings.integrator).radiance),
+        passes_(passesOf(settings)),
+        passSums_(passes_.size()),
         grid_(gridSize(settings)) {}
 
   void render(const Tile& tile) {
     const Region& r = settings_.region;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) film_.set(x, y, pixel(x, y));
+        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) {
+          film_.set(x, y, pixel(x, y));
+          if (!passes_.empty()) setPasses(x, y);
+        }
   }
 
   Statistics& statistics() { return tracer_.statistics(); }
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
-  Color pixel(int x, int y) {
+  Ray cameraRay(int x, int y, int sample) const {
     // A pixel of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
     const Real within = settings_.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
     const int fromBottom = film_.height() - 1 - y;
+    const Real u = (x + (sample % grid_ + within) / grid_) / film_.width();
+    const Real v = (fromBottom + (sample / grid_ + within) / grid_) / film_.height();
+    return tracer_.world().camera().ray(u, v);
+  }
+
+  Color pixel(int x, int y) {
     Color sum;
     int good = 0;
     for (int sample = 0; sample < grid_ * grid_; ++sample) {
-      const Real u = (x + (sample % grid_ + within) / grid_) / film_.width();
-      const Real v = (fromBottom + (sample / grid_ + within) / grid_) / film_.height();
-      const Color color = radiance_(tracer_, tracer_.world().camera().ray(u, v));
+      const Color color = radiance_(tracer_, cameraRay(x, y, sample));
       if (isFinite(color)) {
         sum += color, ++good;
       } else {
@@ -52,10 +62,29 @@ class TileRenderer {
     return good > 0 ? sum / good : Color(0);
   }
 
+  /// Casts camera rays of its own, so that no integrator has to know of passes.
+  void setPasses(int x, int y) {
+    const bool averages =
+        std::any_of(passes_.begin(), passes_.end(), [](const PassRow* pass) { return pass->averaged; });
+    const int samples = averages ? grid_ * grid_ : 1;
+    std::fill(passSums_.begin(), passSums_.end(), Color(0));
+    for (int sample = 0; sample < samples; ++sample) {
+      const Ray ray = cameraRay(x, y, sample);
+      const std::optional<Hit> hit = tracer_.cast(ray, RayKind::camera);
+      for (std::size_t i = 0; i < passes_.size(); ++i)
+        if (sample == 0 || passes_[i]->averaged)
+          passSums_[i] += hit ? passes_[i]->value(*hit, ray, tracer_) : passes_[i]->background;
+    }
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+      film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);
+  }
+
   Tracer tracer_;
   const Settings& settings_;
   Film& film_;
   Color (*radiance_)(Tracer&, const Ray&);
+  std::vector<const PassRow*> passes_;
+  std::vector<Color> passSums_;
   int grid_;
   std::vector<BadSample> bad_;
 };

@@ -14,7 +14,7 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
   if (!found) return {};
-  Hit hit{found->t, world_.surface(ray, *found), world_.material(*found), false};
+  Hit hit{found->t, found->object, world_.surface(ray, *found), world_.material(*found), false};
   hit.leaving = dot(ray.direction, hit.surface.normal) > 0;
   return hit;
 }

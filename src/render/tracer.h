@@ -11,6 +11,7 @@ namespace trace {
 
 struct Hit {
   Real t = 0;
+  std::uint32_t object = 0;  ///< index into Scene::objects
   SurfacePoint surface;
   Phong material;
   bool leaving = false;  ///< the ray comes from inside: it runs along the true normal

@@ -1,0 +1,14 @@
+// Colours that stand for numbers, for the eye.
+#pragma once
+
+#include <cstdint>
+
+#include "math/color.h"
+
+namespace trace {
+
+/// A colour of its own for each whole number: black for 0, bright ones for the others; neighbouring numbers
+/// get colours that are easy to tell apart. The same for ever.
+Color numberColor(std::uint64_t number);
+
+}  // namespace trace
