@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/difference.h"
 #include "cli/console.h"
 #include "cli/progress.h"
+#include "image/flip.h"
 #include "scene/options.h"
 
 namespace trace::cli {
@@ -24,8 +26,18 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   bool strict = false;
   bool quick = false;
-  bool json = false;      ///< info: --format=json
+  bool json = false;      ///< --format=json
   bool markdown = false;  ///< features: as docs/options.md
+  // diff and grade
+  double tolerance = 0;  ///< levels or values
+  std::vector<Limit> limits;
+  const Show* show = &shows().front();
+  double magnify = 8;
+  double pixelsPerDegree = usualPixelsPerDegree();
+  std::vector<const Metric*> printed;  ///< --print
+  bool idiffCodes = false;
+  std::string reference;      ///< a folder
+  bool renderScenes = false;  ///< --render
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 

@@ -63,6 +63,9 @@ std::span<const Command> commands() {
       Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
               true, render},
       Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
+      Command{"diff", "A B", "how far two pictures are apart, in numbers and as a picture", false, diff},
+      Command{"grade", "DIR --reference DIR",
+              "compare a folder of pictures, or of scenes, with reference pictures", false, grade},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
       Command{"help", "[all]", "print help, or all of it", false, help},
   };

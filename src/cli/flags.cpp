@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/text.h"
 
@@ -9,7 +10,7 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render info features help";
+constexpr std::string_view kEverywhere = "render info diff grade features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -59,6 +60,49 @@ void set(Arguments& arguments, std::string_view value) {
   choose(arguments, value.substr(0, equals), value.substr(equals + 1));
 }
 
+/// A number from `least` on.
+double numberOf(std::string_view flag, std::string_view value, double least) {
+  const auto number = parseNumber(value);
+  if (!number || number->length != value.size() || !std::isfinite(number->value) || number->value < least)
+    throw Error(Fault::usage, "--" + std::string(flag) + ": expected a number from " + toText(least) +
+                                  " on, found \"" + std::string(value) + "\"");
+  return number->value;
+}
+
+void setShow(Arguments& arguments, std::string_view value) {
+  std::vector<std::string_view> names;
+  for (const Show& show : shows()) {
+    if (show.name == value) return void(arguments.show = &show);
+    names.push_back(show.name);
+  }
+  std::string all;
+  for (std::string_view name : names) all += (all.empty() ? "" : " | ") + std::string(name);
+  throw Error(Fault::usage, "--show: expected " + all + ", found \"" + std::string(value) + "\"",
+              didYouMean(value, names));
+}
+
+/// Errors of `use` name the flag.
+template <class Use>
+void withFlag(std::string_view flag, Use use) {
+  try {
+    use();
+  } catch (const Error& error) {
+    Message message = error.messages().front();
+    message.what = "--" + std::string(flag) + ": " + message.what;
+    throw Error(Fault::usage, {message});
+  }
+}
+
+void setPrinted(Arguments& arguments, std::string_view value) {
+  withFlag("print", [&] {
+    for (std::size_t at = 0; at <= value.size();) {
+      const std::size_t comma = std::min(value.find(',', at), value.size());
+      arguments.printed.push_back(&findMetric(value.substr(at, comma - at)));
+      at = comma + 1;
+    }
+  });
+}
+
 void setOutput(Arguments& arguments, std::string_view value) {
   if (value.empty()) throw Error(Fault::usage, "--output: expected the name of a file, found nothing");
   arguments.output = value;
@@ -68,15 +112,19 @@ void setOutput(Arguments& arguments, std::string_view value) {
 
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
-      Flag{"output", 'o', Takes::value, "FILE", "", "render", true,
-           "picture to write; by default the scene's name with .png, in this folder", setOutput},
-      Flag{"quick", 0, Takes::nothing, "", "", "render info", true,
+      Flag{"output", 'o', Takes::value, "FILE", "", "render diff grade", true,
+           "picture to write; by default the scene's name with .png, in this folder. Of diff: a picture of "
+           "the "
+           "difference; of grade: an HTML page",
+           setOutput},
+      Flag{"quick", 0, Takes::nothing, "", "", "render info grade", true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
-      Flag{"enable", 0, Takes::value, "NAME", "", "render info", true,
+      Flag{"enable", 0, Takes::value, "NAME", "", "render info grade", true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
-      Flag{"disable", 0, Takes::value, "NAME", "", "render info", true, "switch an extra off", disable},
-      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info", false, "give any option a value", set},
+      Flag{"disable", 0, Takes::value, "NAME", "", "render info grade", true, "switch an extra off", disable},
+      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info grade", false, "give any option a value",
+           set},
       Flag{"stats", 0, Takes::optional, "table|json", "table", "render", true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",
            [](Arguments& a, std::string_view value) {
@@ -89,12 +137,44 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};
              a.progress = static_cast<ProgressStyle>(pick("progress", value, kNames));
            }},
-      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", "render info", false,
+      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", "render info diff grade", false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info", true, "warnings about the scene are errors",
-           [](Arguments& a, std::string_view) { a.strict = true; }},
-      Flag{"format", 0, Takes::value, "text|json", "", "info", false, "how ray info prints; default text",
+      Flag{"strict", 0, Takes::nothing, "", "", "render info grade", true,
+           "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
+      Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
+           "differences up to this do not count as beyond; in levels of 255, or in linear values where a "
+           "picture is .exr or .hdr; default 0",
+           [](Arguments& a, std::string_view value) { a.tolerance = numberOf("tolerance", value, 0); }},
+      Flag{"limit", 0, Takes::value, "METRIC=X", "", "diff grade", false,
+           "pictures are equal enough while this holds: max, mean, rmse, flip, beyond, pixels at most, psnr "
+           "at "
+           "least X; may be given again; without it, beyond=0",
+           [](Arguments& a, std::string_view value) {
+             withFlag("limit", [&] { a.limits.push_back(parseLimit(value)); });
+           }},
+      Flag{"show", 0, Takes::value, "heat|absolute|signed|flip", "", "diff", false,
+           "what the picture of the difference shows; default heat, the largest of a pixel in false colour",
+           setShow},
+      Flag{"magnify", 0, Takes::value, "X", "", "diff grade", false,
+           "differences are multiplied by this before they are shown; default 8",
+           [](Arguments& a, std::string_view value) { a.magnify = numberOf("magnify", value, 0); }},
+      Flag{"ppd", 0, Takes::value, "X", "", "diff grade", false,
+           "pixels per degree of the eye for which FLIP is computed; default 67",
+           [](Arguments& a, std::string_view value) { a.pixelsPerDegree = numberOf("ppd", value, 1); }},
+      Flag{"print", 0, Takes::value, "METRIC,METRIC", "", "diff", false,
+           "print these numbers only, on one line, for scripts", setPrinted},
+      Flag{"idiff-codes", 0, Takes::nothing, "", "", "diff", false,
+           "exit with 0 identical, 1 within the limits, 2 beyond, 3 sizes differ, 4 error, as idiff does",
+           [](Arguments& a, std::string_view) { a.idiffCodes = true; }},
+      Flag{"reference", 0, Takes::value, "DIR", "", "grade", false,
+           "folder of the pictures that should have come out",
+           [](Arguments& a, std::string_view value) { a.reference = value; }},
+      Flag{"render", 0, Takes::nothing, "", "", "grade", false,
+           "render the scenes of the folder, with the options given, instead of reading pictures",
+           [](Arguments& a, std::string_view) { a.renderScenes = true; }},
+      Flag{"format", 0, Takes::value, "text|json", "", "info diff grade", false,
+           "how the result is printed; default text",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 2> kNames{"text", "json"};
              a.json = pick("format", value, kNames) == 1;
@@ -128,7 +208,9 @@ bool knows(std::string_view command, const Flag& flag) {
   return false;
 }
 
-bool takesOptions(std::string_view command) { return command == "render" || command == "info"; }
+bool takesOptions(std::string_view command) {
+  return command == "render" || command == "info" || command == "grade";
+}
 
 std::span<const ShortFlag> shortFlags() {
   static constexpr std::array kTable{

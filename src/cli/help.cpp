@@ -145,7 +145,9 @@ constexpr std::string_view kExitCodes =
     "0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene has errors, 4 stopped by the "
     "user "
     "(the finished part is written), 5 a limit was met (time: the finished part is written), 130 stopped at "
-    "once";
+    "once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. ray grade: 6 "
+    "not every "
+    "picture is within the limits";
 constexpr std::string_view kSignals =
     "Ctrl-C or SIGTERM: finish the tiles in work, write, end; twice: end at once. SIGUSR1 or SIGHUP: write "
     "what is "

@@ -5,6 +5,7 @@
 #include "image/false_color.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trace {
@@ -29,6 +30,20 @@ Color numberColor(std::uint64_t number) {
   const double saturation = 1 - 0.2 * static_cast<double>(number % 4);
   const double value = 1 - 0.2 * static_cast<double>(number % 3);
   return fromHsv(turns - std::floor(turns), saturation, value);
+}
+
+Color heatColor(double value) {
+  static constexpr std::array<Color, 7> kScale{{{0, 0, 0},
+                                                {0.20, 0.05, 0.40},
+                                                {0.52, 0.08, 0.52},
+                                                {0.85, 0.20, 0.33},
+                                                {0.98, 0.50, 0.13},
+                                                {0.99, 0.82, 0.30},
+                                                {1, 1, 1}}};
+  if (!(value < 1)) return kScale.back();
+  const double place = std::max(value, 0.0) * (kScale.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  return lerp(place - static_cast<double>(below), kScale[below], kScale[below + 1]);
 }
 
 }  // namespace trace

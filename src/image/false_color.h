@@ -11,4 +11,7 @@ namespace trace {
 /// get colours that are easy to tell apart. The same for ever.
 Color numberColor(std::uint64_t number);
 
+/// From black at 0 over violet, red and yellow to white at 1; ever brighter. Clamps; NaN is white.
+Color heatColor(double value);
+
 }  // namespace trace

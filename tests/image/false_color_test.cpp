@@ -24,5 +24,16 @@ TEST(NumberColor, AnyTwoOfSixtyDiffer) {
     }
 }
 
+TEST(HeatColor, GrowsBrighterFromBlackToWhite) {
+  EXPECT_EQ(heatColor(0), Color(0));
+  EXPECT_EQ(heatColor(-1), Color(0));
+  EXPECT_EQ(heatColor(1), Color(1));
+  EXPECT_EQ(heatColor(7), Color(1));
+  EXPECT_EQ(heatColor(std::nan("")), Color(1));
+  const auto luminance = [](const Color& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
+  for (int i = 0; i < 100; ++i)
+    EXPECT_LT(luminance(heatColor(i / 100.0)), luminance(heatColor((i + 1) / 100.0))) << i;
+}
+
 }  // namespace
 }  // namespace trace
