@@ -4,6 +4,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "base/file.h"
 #include "render/passes.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -50,8 +51,16 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   const Stopwatch watch;
   strict_ = strict;
   messages_ = {};
-  scene_ = readScene(file, messages_);
-  settings_ = resolve({scene_.choices, choices});
+  const std::string bytes = readFile(file);
+  const auto readAt = [&](Real time) {
+    messages_ = {};
+    scene_ = readScene(file, bytes, messages_, time);
+    settings_ = resolve({scene_.choices, choices});
+  };
+  const Real time = resolve({choices}).time;
+  readAt(time);
+  if (settings_.time != time) readAt(settings_.time);  // the file chooses the moment
+  fingerprint_ = fingerprint(bytes, scene_);
   messages_.throwIfFailed(strict_);
   phases_ = {watch.stop("read")};
 }
@@ -83,9 +92,15 @@ RenderResult Session::render() {
   return result;
 }
 
+Metadata Session::metadata() const {
+  Metadata words = describe(scene_, settings_);
+  words.emplace_back("Scene", fingerprint_);
+  return words;
+}
+
 void Session::save(const std::string& path) {
   const Stopwatch watch;
-  for (const Output& output : outputs(path, settings_)) write(output, *film_, scene_, settings_);
+  for (const Output& output : outputs(path, settings_)) write(output, *film_, settings_, metadata());
   phases_.push_back(watch.stop("write"));
 }
 

@@ -45,6 +45,8 @@ class Session {
   /// What is rendered so far. May be asked from other threads while render() runs.
   const Film& film() const { return *film_; }
   Picture picture() const { return film_->picture(); }
+  /// How the picture is made, in words: those of describe(), and Scene, the fingerprint() of what was opened.
+  Metadata metadata() const;
   /// Writes the outputs() of `path`; not while render() runs, since both note their time.
   /// Throws Error(Fault::io), Error(Fault::usage).
   void save(const std::string& path);
@@ -54,6 +56,7 @@ class Session {
  private:
   Scene scene_;
   Settings settings_;
+  std::string fingerprint_;
   Messages messages_;
   bool strict_ = false;
   std::optional<World> world_;

@@ -24,6 +24,8 @@ struct Arguments {
   ProgressStyle progress = ProgressStyle::automatic;
   LogLevel logLevel = LogLevel::info;
   StatsStyle stats = StatsStyle::none;
+  std::vector<int> frames;  ///< --frames, in order; empty for one picture
+  double framesPerSecond = 24;
   bool strict = false;
   bool quick = false;
   bool json = false;      ///< --format=json

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/text.h"
 
@@ -103,6 +104,32 @@ void setPrinted(Arguments& arguments, std::string_view value) {
   });
 }
 
+/// "7", "0-99" or "0-99/10".
+void setFrames(Arguments& arguments, std::string_view value) {
+  constexpr double kMost = 1e6;
+  std::vector<int> numbers;
+  std::string_view rest = value;
+  bool expectsMore = true;
+  for (std::string_view before : {"-", "/", ""}) {
+    const auto number = rest.starts_with('-') || rest.starts_with('+') ? std::nullopt : parseNumber(rest);
+    if (!number || number->value != std::floor(number->value) || number->value > kMost) break;
+    numbers.push_back(static_cast<int>(number->value));
+    rest.remove_prefix(number->length);
+    expectsMore = !before.empty() && rest.starts_with(before);
+    if (!expectsMore) break;
+    rest.remove_prefix(1);
+  }
+  const int first = numbers.empty() ? 0 : numbers[0], last = numbers.size() > 1 ? numbers[1] : first,
+            step = numbers.size() > 2 ? numbers[2] : 1;
+  if (expectsMore || !rest.empty() || last < first || step < 1)
+    throw Error(Fault::usage,
+                "--frames: expected A-B, whole numbers from 0 to 1000000 with A <= B, found \"" +
+                    std::string(value) + "\"",
+                "--frames 0-99, --frames 7, or --frames 0-99/10 for every tenth");
+  arguments.frames.clear();
+  for (int frame = first; frame <= last; frame += step) arguments.frames.push_back(frame);
+}
+
 void setOutput(Arguments& arguments, std::string_view value) {
   if (value.empty()) throw Error(Fault::usage, "--output: expected the name of a file, found nothing");
   arguments.output = value;
@@ -117,6 +144,16 @@ std::span<const Flag> flags() {
            "the "
            "difference; of grade: an HTML page",
            setOutput},
+      Flag{"frames", 0, Takes::value, "A-B", "", "render", false,
+           "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
+           "number; frames that are there already with the same settings are skipped",
+           setFrames},
+      Flag{"fps", 0, Takes::value, "X", "", "render", false,
+           "frames per second: frame F shows the time F / X; default 24",
+           [](Arguments& a, std::string_view value) {
+             a.framesPerSecond = numberOf("fps", value, 0);
+             if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
+           }},
       Flag{"quick", 0, Takes::nothing, "", "", "render info grade", true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},

@@ -48,6 +48,12 @@ class Film {
     done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release);
   }
 
+  bool complete() const {
+    for (std::int64_t i = 0; i < tiles(); ++i)
+      if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) return false;
+    return true;
+  }
+
   /// What is done so far, black elsewhere. May be called from any thread while workers write.
   Picture picture() const { return doneOf(picture_, Color(0)); }
   /// The same of a layer, blank elsewhere.

@@ -12,7 +12,7 @@
 namespace trace {
 
 /// The earliest step of a render that a change of the option repeats.
-enum class Repeats { nothing, tone, picture, world };
+enum class Repeats { nothing, tone, picture, world, scene };
 
 struct Option {
   enum class Kind { boolean, integer, real, choice, choices, region };

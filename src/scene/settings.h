@@ -43,6 +43,7 @@ struct Settings {
   int height = 0;
   Region region{};
   int spp = 1;
+  Real time = 0;
   // Tracing
   Integrator integrator = Integrator::whitted;
   int depth = 5;
