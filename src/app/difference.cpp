@@ -49,7 +49,10 @@ Difference difference(LoadedPicture reference, LoadedPicture test, const Differe
   else
     d.numbers = compare(a, b, options.tolerance);
   if (!d.numbers.sameSize) return d;
-  d.flipErrors = flipErrors(a, b, options.pixelsPerDegree);
+  if (d.numbers.identical)
+    d.flipErrors.assign(a.pixels.size(), 0);
+  else
+    d.flipErrors = flipErrors(a, b, options.pixelsPerDegree);
   d.flip = mean(d.flipErrors);
   return d;
 }

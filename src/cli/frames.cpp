@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
+#include <filesystem>
 
 #include "base/text.h"
 #include "cli/commands.h"
@@ -20,6 +20,8 @@ void open(Session& session, const Arguments& arguments, int frame) {
 
 /// Is every file of the frame there, made with these settings?
 bool isThere(const Arguments& arguments, int frame, const std::string& picture) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(picture, ignored)) return false;  // spares reading the scene
   Session session;
   open(session, arguments, frame);
   const std::vector<Output> files = outputs(picture, session.settings());
