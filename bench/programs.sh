@@ -4,7 +4,7 @@
 #
 #   programs.sh BIN SHARED [--runs N] [--size PIXELS, against POV-Ray] [--json FILE]
 #
-# BIN holds ray, bench_scenes and bench_difference; SHARED is the folder of shared scenes and meshes.
+# BIN holds ray and bench_scenes; SHARED is the folder of shared scenes and meshes.
 set -euo pipefail
 export LC_ALL=C
 
@@ -119,7 +119,8 @@ povray37() {
     local value of=()
     for value in ray.cpu pov.cpu ray.ready pov.ready ray.trace pov.trace; do of+=("$(median "$scene-$value")"); done
     local -a difference
-    read -ra difference < <("$bin/bench_difference" "$scene-ray.png" "$scene-pov.png")
+    read -ra difference < <("$bin/ray" diff --print mean,beyond --tolerance 8 "$scene-ray.png" "$scene-pov.png")
+    difference=("$(printf %.3f "${difference[0]}")" "$(awk -v p="${difference[1]}" 'BEGIN { printf "%.5f", p / 100 }')")
     printf '| %-8s | %6.3f | %7.3f | %13s | %9.3f | %9.3f | %9.3f | %9.3f | %11s | %15s |\n' "$scene" "${of[@]:0:2}" \
       "$(ratio "${of[0]}" "${of[1]}")" "${of[@]:2:4}" "$(ratio "${of[4]}" "${of[5]}")" "${difference[*]}"
     printf '{"scene":"%s","ray":%s,"pov":%s,"rayReady":%s,"povReady":%s,"rayTrace":%s,"povTrace":%s,"meanDifference":%s,"beyond8Levels":%s}\n' \

@@ -2,10 +2,10 @@
 
 #include <chrono>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 
-#include "image/codec.h"
+#include "base/file.h"
+#include "render/passes.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
@@ -27,8 +27,11 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
-/// While rendering and saving, a pixel lives in the film, a copy of it and the encoder's buffers.
-constexpr std::uint64_t kBytesPerPixel = 2 * sizeof(Color) + 16;
+/// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
+/// in the encoder's buffers.
+std::uint64_t bytesPerPixel(const Settings& settings) {
+  return (3 + passesOf(settings).size()) * sizeof(Color) + 16;
+}
 
 }  // namespace
 
@@ -44,21 +47,20 @@ std::uint64_t machineMemory() {
 #endif
 }
 
-Metadata describe(const Scene& scene, const Settings& settings) {
-  std::string changed;
-  for (const Choice& choice : changedOptions(settings))
-    changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
-  return {{"Software", "Trace " TRACE_VERSION},
-          {"Title", std::filesystem::path(scene.file).filename().string()},
-          {"Settings", changed.empty() ? "defaults" : changed}};
-}
-
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
   const Stopwatch watch;
   strict_ = strict;
   messages_ = {};
-  scene_ = readScene(file, messages_);
-  settings_ = resolve({scene_.choices, choices});
+  const std::string bytes = readFile(file);
+  const auto readAt = [&](Real time) {
+    messages_ = {};
+    scene_ = readScene(file, bytes, messages_, time);
+    settings_ = resolve({scene_.choices, choices});
+  };
+  const Real time = resolve({choices}).time;
+  readAt(time);
+  if (settings_.time != time) readAt(settings_.time);  // the file chooses the moment
+  fingerprint_ = fingerprint(bytes, scene_);
   messages_.throwIfFailed(strict_);
   phases_ = {watch.stop("read")};
 }
@@ -66,8 +68,8 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
 void Session::build() {
   const Stopwatch watch;
   const Size picture = size();
-  const std::uint64_t needed =
-      static_cast<std::uint64_t>(picture.width) * static_cast<std::uint64_t>(picture.height) * kBytesPerPixel;
+  const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) *
+                               static_cast<std::uint64_t>(picture.height) * bytesPerPixel(settings_);
   const std::uint64_t allowed =
       settings_.maxMemory > 0 ? static_cast<std::uint64_t>(settings_.maxMemory) << 20 : machineMemory();
   if (needed > allowed)
@@ -79,7 +81,7 @@ void Session::build() {
                     std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
   world_.emplace(compile(scene_, settings_, messages_));
   messages_.throwIfFailed(strict_);
-  film_ = std::make_unique<Film>(picture.width, picture.height);
+  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
 }
 
@@ -90,9 +92,15 @@ RenderResult Session::render() {
   return result;
 }
 
+Metadata Session::metadata() const {
+  Metadata words = describe(scene_, settings_);
+  words.emplace_back("Scene", fingerprint_);
+  return words;
+}
+
 void Session::save(const std::string& path) {
   const Stopwatch watch;
-  writePicture(path, picture(), settings_.rounding, describe(scene_, settings_));
+  for (const Output& output : outputs(path, settings_)) write(output, *film_, settings_, metadata());
   phases_.push_back(watch.stop("write"));
 }
 

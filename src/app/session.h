@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "app/output.h"
 #include "base/error.h"
 #include "formats/format.h"
-#include "image/metadata.h"
 #include "render/explain.h"
 #include "render/render.h"
 #include "scene/options.h"
@@ -49,9 +49,12 @@ class Session {
     return trace::explain(*world_, settings_, size(), x, y, sample);
   }
 
-  /// What is rendered so far. May be called from other threads while render() runs.
+  /// What is rendered so far. May be asked from other threads while render() runs.
+  const Film& film() const { return *film_; }
   Picture picture() const { return film_->picture(); }
-  /// Writes picture() with the settings as metadata; not while render() runs, since both note their time.
+  /// How the picture is made, in words: those of describe(), and Scene, the fingerprint() of what was opened.
+  Metadata metadata() const;
+  /// Writes the outputs() of `path`; not while render() runs, since both note their time.
   /// Throws Error(Fault::io), Error(Fault::usage).
   void save(const std::string& path);
 
@@ -60,6 +63,7 @@ class Session {
  private:
   Scene scene_;
   Settings settings_;
+  std::string fingerprint_;
   Messages messages_;
   bool strict_ = false;
   std::optional<World> world_;
@@ -67,9 +71,6 @@ class Session {
   Job job_;
   std::vector<Phase> phases_;
 };
-
-/// Program version, settings that differ from the defaults and the scene's name, as the picture keeps them.
-Metadata describe(const Scene& scene, const Settings& settings);
 
 /// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.
 std::uint64_t machineMemory();

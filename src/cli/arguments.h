@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/difference.h"
 #include "cli/console.h"
 #include "cli/progress.h"
+#include "image/flip.h"
 #include "scene/options.h"
 
 namespace trace::cli {
@@ -22,12 +24,24 @@ struct Arguments {
   ProgressStyle progress = ProgressStyle::automatic;
   LogLevel logLevel = LogLevel::info;
   StatsStyle stats = StatsStyle::none;
+  std::vector<int> frames;  ///< --frames, in order; empty for one picture
+  double framesPerSecond = 24;
   bool strict = false;
   bool quick = false;
   std::string format;     ///< --format; may be empty
   std::string pixel;      ///< explain: --pixel, as typed
   std::string sample;     ///< explain: --sample, as typed
   bool markdown = false;  ///< features: as docs/options.md
+  // diff and grade
+  double tolerance = 0;  ///< levels or values
+  std::vector<Limit> limits;
+  const Show* show = &shows().front();
+  double magnify = 8;
+  double pixelsPerDegree = usualPixelsPerDegree();
+  std::vector<const Metric*> printed;  ///< --print
+  bool idiffCodes = false;
+  std::string reference;      ///< a folder
+  bool renderScenes = false;  ///< --render
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 

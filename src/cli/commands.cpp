@@ -77,6 +77,9 @@ std::span<const Command> commands() {
       Command{"explain", "SCENE --pixel X,Y", "why a pixel has its colour: every ray, with its numbers",
               false, explain},
       Command{"lint", "SCENE", "look for what is likely a mistake in a scene", false, lint},
+      Command{"diff", "A B", "how far two pictures are apart, in numbers and as a picture", false, diff},
+      Command{"grade", "DIR --reference DIR",
+              "compare a folder of pictures, or of scenes, with reference pictures", false, grade},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
       Command{"help", "[all]", "print help, or all of it", false, help},
   };

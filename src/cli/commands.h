@@ -37,6 +37,8 @@ int render(const Arguments& arguments, const Console& console);
 int info(const Arguments& arguments, const Console& console);
 int explain(const Arguments& arguments, const Console& console);
 int lint(const Arguments& arguments, const Console& console);
+int diff(const Arguments& arguments, const Console& console);
+int grade(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

@@ -7,6 +7,7 @@
 #include "formats/format.h"
 #include "image/codec.h"
 #include "render/integrator.h"
+#include "render/passes.h"
 
 namespace trace::cli {
 namespace {
@@ -24,6 +25,8 @@ std::string featuresText() {
       text += row(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
   text += "integrators\n";
   for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
+  text += "passes (--passes NAME,NAME)\n";
+  for (const PassRow& pass : passRows()) text += row(pass.name, pass.help);
   text += "scene formats\n";
   for (const SceneFormat& format : sceneFormats()) text += row(format.name, format.help);
   text += "picture formats\n";

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "base/text.h"
 
@@ -9,7 +11,7 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render info explain lint features help";
+constexpr std::string_view kEverywhere = "render info explain lint diff grade features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -59,6 +61,75 @@ void set(Arguments& arguments, std::string_view value) {
   choose(arguments, value.substr(0, equals), value.substr(equals + 1));
 }
 
+/// A number from `least` on.
+double numberOf(std::string_view flag, std::string_view value, double least) {
+  const auto number = parseNumber(value);
+  if (!number || number->length != value.size() || !std::isfinite(number->value) || number->value < least)
+    throw Error(Fault::usage, "--" + std::string(flag) + ": expected a number from " + toText(least) +
+                                  " on, found \"" + std::string(value) + "\"");
+  return number->value;
+}
+
+void setShow(Arguments& arguments, std::string_view value) {
+  std::vector<std::string_view> names;
+  for (const Show& show : shows()) {
+    if (show.name == value) return void(arguments.show = &show);
+    names.push_back(show.name);
+  }
+  std::string all;
+  for (std::string_view name : names) all += (all.empty() ? "" : " | ") + std::string(name);
+  throw Error(Fault::usage, "--show: expected " + all + ", found \"" + std::string(value) + "\"",
+              didYouMean(value, names));
+}
+
+/// Errors of `use` name the flag.
+template <class Use>
+void withFlag(std::string_view flag, Use use) {
+  try {
+    use();
+  } catch (const Error& error) {
+    Message message = error.messages().front();
+    message.what = "--" + std::string(flag) + ": " + message.what;
+    throw Error(Fault::usage, {message});
+  }
+}
+
+void setPrinted(Arguments& arguments, std::string_view value) {
+  withFlag("print", [&] {
+    for (std::size_t at = 0; at <= value.size();) {
+      const std::size_t comma = std::min(value.find(',', at), value.size());
+      arguments.printed.push_back(&findMetric(value.substr(at, comma - at)));
+      at = comma + 1;
+    }
+  });
+}
+
+/// "7", "0-99" or "0-99/10".
+void setFrames(Arguments& arguments, std::string_view value) {
+  constexpr double kMost = 1e6;
+  std::vector<int> numbers;
+  std::string_view rest = value;
+  bool expectsMore = true;
+  for (std::string_view before : {"-", "/", ""}) {
+    const auto number = rest.starts_with('-') || rest.starts_with('+') ? std::nullopt : parseNumber(rest);
+    if (!number || number->value != std::floor(number->value) || number->value > kMost) break;
+    numbers.push_back(static_cast<int>(number->value));
+    rest.remove_prefix(number->length);
+    expectsMore = !before.empty() && rest.starts_with(before);
+    if (!expectsMore) break;
+    rest.remove_prefix(1);
+  }
+  const int first = numbers.empty() ? 0 : numbers[0], last = numbers.size() > 1 ? numbers[1] : first,
+            step = numbers.size() > 2 ? numbers[2] : 1;
+  if (expectsMore || !rest.empty() || last < first || step < 1)
+    throw Error(Fault::usage,
+                "--frames: expected A-B, whole numbers from 0 to 1000000 with A <= B, found \"" +
+                    std::string(value) + "\"",
+                "--frames 0-99, --frames 7, or --frames 0-99/10 for every tenth");
+  arguments.frames.clear();
+  for (int frame = first; frame <= last; frame += step) arguments.frames.push_back(frame);
+}
+
 void setOutput(Arguments& arguments, std::string_view value) {
   if (value.empty()) throw Error(Fault::usage, "--output: expected the name of a file, found nothing");
   arguments.output = value;
@@ -68,16 +139,29 @@ void setOutput(Arguments& arguments, std::string_view value) {
 
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
-      Flag{"output", 'o', Takes::value, "FILE", "", "render explain lint", true,
-           "file to write; of a render, by default the scene's name with .png, in this folder", setOutput},
-      Flag{"quick", 0, Takes::nothing, "", "", "render info explain lint", true,
+      Flag{"output", 'o', Takes::value, "FILE", "", "render explain lint diff grade", true,
+           "file to write; of a render, by default the scene's name with .png, in this folder; of diff a "
+           "picture of "
+           "the difference, of grade an HTML page",
+           setOutput},
+      Flag{"frames", 0, Takes::value, "A-B", "", "render", false,
+           "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
+           "number; frames that are there already with the same settings are skipped",
+           setFrames},
+      Flag{"fps", 0, Takes::value, "X", "", "render", false,
+           "frames per second: frame F shows the time F / X; default 24",
+           [](Arguments& a, std::string_view value) {
+             a.framesPerSecond = numberOf("fps", value, 0);
+             if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
+           }},
+      Flag{"quick", 0, Takes::nothing, "", "", "render info explain lint grade", true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
-      Flag{"enable", 0, Takes::value, "NAME", "", "render info explain lint", true,
+      Flag{"enable", 0, Takes::value, "NAME", "", "render info explain lint grade", true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
-      Flag{"disable", 0, Takes::value, "NAME", "", "render info explain lint", true, "switch an extra off",
-           disable},
-      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info explain lint", false,
+      Flag{"disable", 0, Takes::value, "NAME", "", "render info explain lint grade", true,
+           "switch an extra off", disable},
+      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info explain lint grade", false,
            "give any option a value", set},
       Flag{"stats", 0, Takes::optional, "table|json", "table", "render", true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",
@@ -91,18 +175,49 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};
              a.progress = static_cast<ProgressStyle>(pick("progress", value, kNames));
            }},
-      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", "render info explain lint", false,
-           "which messages are shown; default info",
+      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "",
+           "render info explain lint diff grade", false, "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint", true,
+      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint grade", true,
            "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
+      Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
+           "differences up to this do not count as beyond; in levels of 255, or in linear values where a "
+           "picture is .exr or .hdr; default 0",
+           [](Arguments& a, std::string_view value) { a.tolerance = numberOf("tolerance", value, 0); }},
+      Flag{"limit", 0, Takes::value, "METRIC=X", "", "diff grade", false,
+           "pictures are equal enough while this holds: max, mean, rmse, flip, beyond, pixels at most, psnr "
+           "at "
+           "least X; may be given again; without it, beyond=0",
+           [](Arguments& a, std::string_view value) {
+             withFlag("limit", [&] { a.limits.push_back(parseLimit(value)); });
+           }},
+      Flag{"show", 0, Takes::value, "heat|absolute|signed|flip", "", "diff", false,
+           "what the picture of the difference shows; default heat, the largest of a pixel in false colour",
+           setShow},
+      Flag{"magnify", 0, Takes::value, "X", "", "diff grade", false,
+           "differences are multiplied by this before they are shown; default 8",
+           [](Arguments& a, std::string_view value) { a.magnify = numberOf("magnify", value, 0); }},
+      Flag{"ppd", 0, Takes::value, "X", "", "diff grade", false,
+           "pixels per degree of the eye for which FLIP is computed; default 67",
+           [](Arguments& a, std::string_view value) { a.pixelsPerDegree = numberOf("ppd", value, 1); }},
+      Flag{"print", 0, Takes::value, "METRIC,METRIC", "", "diff", false,
+           "print these numbers only, on one line, for scripts", setPrinted},
+      Flag{"idiff-codes", 0, Takes::nothing, "", "", "diff", false,
+           "exit with 0 identical, 1 within the limits, 2 beyond, 3 sizes differ, 4 error, as idiff does",
+           [](Arguments& a, std::string_view) { a.idiffCodes = true; }},
+      Flag{"reference", 0, Takes::value, "DIR", "", "grade", false,
+           "folder of the pictures that should have come out",
+           [](Arguments& a, std::string_view value) { a.reference = value; }},
+      Flag{"render", 0, Takes::nothing, "", "", "grade", false,
+           "render the scenes of the folder, with the options given, instead of reading pictures",
+           [](Arguments& a, std::string_view) { a.renderScenes = true; }},
       Flag{"pixel", 0, Takes::value, "X,Y", "", "explain", true,
            "the pixel to explain; 0,0 is at the top left",
            [](Arguments& a, std::string_view value) { a.pixel = value; }},
       Flag{"sample", 0, Takes::value, "K", "", "explain", true,
            "which of the pixel's camera rays; default 0, the first",
            [](Arguments& a, std::string_view value) { a.sample = value; }},
-      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info explain lint", true,
+      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info explain lint diff grade", true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 5> kNames{"text", "json", "obj", "svg", "png"};
@@ -138,7 +253,8 @@ bool knows(std::string_view command, const Flag& flag) {
 }
 
 bool takesOptions(std::string_view command) {
-  return command == "render" || command == "info" || command == "explain" || command == "lint";
+  constexpr std::array<std::string_view, 5> kScenes{"render", "info", "explain", "lint", "grade"};
+  return std::find(kScenes.begin(), kScenes.end(), command) != kScenes.end();
 }
 
 std::span<const ShortFlag> shortFlags() {

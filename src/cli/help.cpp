@@ -59,6 +59,7 @@ std::string placeholder(const Option& option) {
     case Option::Kind::integer: return "N";
     case Option::Kind::real: return "X";
     case Option::Kind::choice: return joined(option.choices, "|");
+    case Option::Kind::choices: return joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
   }
   return "";
@@ -68,6 +69,7 @@ std::string rangeText(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::choice: return joined(option.choices, ", ");
+    case Option::Kind::choices: return "none, or some of " + joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::integer:
     case Option::Kind::real: break;
@@ -142,9 +144,10 @@ std::string conventionsText() {
 constexpr std::string_view kExitCodes =
     "0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene has errors, 4 stopped by the "
     "user "
-    "(the finished part is written), 5 a limit was met (time: the finished part is written), 6 ray lint "
-    "found "
-    "something, 130 stopped at once";
+    "(the finished part is written), 5 a limit was met (time: the finished part is written), 130 stopped at "
+    "once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. ray grade: 6 "
+    "not every "
+    "picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
     "Ctrl-C or SIGTERM: finish the tiles in work, write, end; twice: end at once. SIGUSR1 or SIGHUP: write "
     "what is "

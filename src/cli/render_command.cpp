@@ -1,6 +1,7 @@
 // ray [render] SCENE [OUT]: read, check that the picture can be written, render, write, report.
 //
-// Whatever ends the render early (Ctrl-C, the time limit), the finished tiles are written.
+// Whatever ends the render early (Ctrl-C, the time limit), the finished tiles are written. With --frames it
+// renders an animation instead (frames.h).
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -9,11 +10,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/frames.h"
 #include "cli/help.h"
+#include "cli/render_steps.h"
 #include "cli/scene_facts.h"
-#include "cli/statistics_text.h"
 #include "cli/terminal.h"
-#include "cli/watch.h"
 #include "image/codec.h"
 
 namespace trace::cli {
@@ -21,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The picture's file: as named, or the scene's name with .png in the current folder.
+/// The picture's file: as named, or the scene's name with .png, or .####.png for frames, in the current
+/// folder.
 std::string outputName(const Arguments& arguments) {
   const std::vector<std::string>& files = arguments.files;
   if (files.empty())
@@ -33,7 +35,7 @@ std::string outputName(const Arguments& arguments) {
                 "two names for the picture: \"" + arguments.output + "\" and \"" + files[1] + "\"");
   if (files.size() == 2) return files[1];
   if (!arguments.output.empty()) return arguments.output;
-  return fs::path(files[0]).stem().string() + ".png";
+  return fs::path(files[0]).stem().string() + (arguments.frames.empty() ? ".png" : ".####.png");
 }
 
 void open(Session& session, const Arguments& arguments) {
@@ -52,36 +54,6 @@ void open(Session& session, const Arguments& arguments) {
   }
 }
 
-/// Writes the picture, to the folder for temporary files if its own place fails after all. Returns the name.
-std::string save(Session& session, const std::string& output, const Console& console) {
-  try {
-    session.save(output);
-    return output;
-  } catch (const Error& error) {
-    console.error(error);
-  }
-  const std::string elsewhere = (fs::temp_directory_path() / fs::path(output).filename()).string();
-  session.save(elsewhere);
-  return elsewhere;
-}
-
-void reportBadSamples(const RenderResult& result, const Console& console) {
-  if (result.statistics.badSamples == 0) return;
-  std::string text = counted(result.statistics.badSamples, "sample") +
-                     (result.statistics.badSamples == 1 ? " was" : " were") + " not finite and left out";
-  if (!result.badSamples.empty())
-    text += "; first at pixel " + std::to_string(result.badSamples[0].x) + "," +
-            std::to_string(result.badSamples[0].y);
-  console.line(LogLevel::warning, "warning: " + text);
-}
-
-/// Renders with an eye on progress and signals.
-RenderResult watched(Session& session, Signals& signals, const Console& console, ProgressStyle style,
-                     const std::string& output) {
-  const Watch watch(session, signals, console, style, output);
-  return session.render();
-}
-
 }  // namespace
 
 int render(const Arguments& arguments, const Console& console) {
@@ -89,32 +61,25 @@ int render(const Arguments& arguments, const Console& console) {
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
   const std::string output = outputName(arguments);
-  const PictureFormat& format = pictureFormatFor(output);
+  if (!arguments.frames.empty()) return renderFrames(arguments, output, console);
+  pictureFormatFor(output);  // an unknown ending is told before a large scene is read
   Signals signals;
   Session session;
   open(session, arguments);
-  checkWritable(output);
-  session.build();
-  const Size size =
-      session.size();  // only now: a lack of memory is the better reason to refuse a huge picture
-  checkEncodable(format, size.width, size.height);
+  for (const Output& file : outputs(output, session.settings())) checkWritable(file.path);
+  session.build();  // a lack of memory is the better reason to refuse a huge picture
+  checkOutputs(session, output);
   console.warnings(session.messages().all());
   for (const OptionFact& fact : changedOptions(session.scene(), session.settings(), arguments.choices))
     console.line(LogLevel::debug, "option " + fact.name + " = " + fact.value + " (" + fact.from + ")");
 
   signals.renderingBegins();
-  const RenderResult result = watched(session, signals, console, arguments.progress, output);
-  const double fraction = session.job().fraction();
+  Progress progress = makeProgress(arguments.progress, console);
+  const RenderResult result = renderWatched(session, signals, console, progress, output, Part{});
   reportBadSamples(result, console);
 
-  const std::string stopped = result.end == End::cancelled   ? "stopped by the user: "
-                              : result.end == End::timeLimit ? "stopped by the time limit: "
-                              : result.end == End::failed    ? "broke off (" + result.failure + "): "
-                                                             : "";
-  int code = result.end == End::cancelled   ? kStopped
-             : result.end == End::timeLimit ? static_cast<int>(Fault::limit)
-             : result.end == End::failed    ? kFailed
-                                            : kDone;
+  const std::string stopped = whyStopped(result);
+  int code = exitCode(result);
   if (session.job().done == 0) {  // a black picture is worth less than what the file may hold now
     console.line(LogLevel::error, stopped + "nothing written, for nothing was finished");
     return code;
@@ -122,15 +87,10 @@ int render(const Arguments& arguments, const Console& console) {
   const std::string written = save(session, output, console);
   if (written != output) code = kFailed;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (arguments.stats != StatsStyle::none) {
-    const Run run{session, result, written, fraction, seconds, peakMemory()};
-    if (arguments.stats == StatsStyle::json)
-      printResult(statisticsJson(run) + "\n");
-    else
-      console.line(LogLevel::error, statisticsTable(run));
-  }
-  console.line(LogLevel::error, stopped + "wrote " + written + " (" + pictureText(session, fraction) +
-                                    ") in " + durationText(seconds) +
+  reportStatistics(arguments, session, result, written, seconds, console);
+  console.line(LogLevel::error, stopped + "wrote " + written + andPasses(session.settings()) + " (" +
+                                    pictureText(session, session.job().fraction()) + ") in " +
+                                    durationText(seconds) +
                                     (written == output ? "" : " instead of " + output));
   return code;
 }

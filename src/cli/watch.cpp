@@ -3,21 +3,23 @@
 #include <cmath>
 #include <cstdio>
 
-#include "image/codec.h"
-
 namespace trace::cli {
 namespace {
 
 constexpr int kInterval = 100;  // milliseconds
 
-/// What `auto` means here and now.
-ProgressStyle settled(ProgressStyle style, const Console& console) {
-  if (style != ProgressStyle::automatic) return style;
-  if (!console.shows(LogLevel::info)) return ProgressStyle::none;
-  return canRedraw() ? ProgressStyle::bar : ProgressStyle::plain;
-}
-
 }  // namespace
+
+Progress makeProgress(ProgressStyle style, const Console& console) {
+  if (style == ProgressStyle::automatic)
+    style = !console.shows(LogLevel::info) ? ProgressStyle::none
+            : canRedraw()                  ? ProgressStyle::bar
+                                           : ProgressStyle::plain;
+  return Progress(style, columns(), [](const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+  });
+}
 
 std::string pictureText(const Session& session, double fraction) {
   const Size size = session.size();
@@ -26,16 +28,14 @@ std::string pictureText(const Session& session, double fraction) {
   return text;
 }
 
-Watch::Watch(Session& session, Signals& signals, const Console& console, ProgressStyle style,
-             std::string output)
+Watch::Watch(Session& session, Signals& signals, const Console& console, Progress& progress,
+             std::string output, const Part& part)
     : session_(session),
       signals_(signals),
       console_(console),
       output_(std::move(output)),
-      progress_(settled(style, console), columns(), [](const std::string& text) {
-        std::fputs(text.c_str(), stderr);
-        std::fflush(stderr);
-      }) {
+      progress_(progress),
+      part_(part) {
   Signals::receive(false);
   thread_ = std::thread([this] { run(); });
 }
@@ -47,13 +47,14 @@ Watch::~Watch() {
   Signals::receive(true);
 }
 
-double Watch::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+void Watch::report(void (Progress::*tell)(std::int64_t, std::int64_t, double)) {
+  const Job& job = session_.job();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - part_.start;
+  (progress_.*tell)(part_.before * job.total + job.done, part_.all * job.total, elapsed.count());
 }
 
 void Watch::run() {
   Signals::receive(true);
-  const Job& job = session_.job();
   while (!finished_) {
     switch (signals_.wait(kInterval)) {
       case Signals::Event::stop:
@@ -65,9 +66,9 @@ void Watch::run() {
       case Signals::Event::save: save(); break;
       case Signals::Event::none: break;
     }
-    progress_.update(job.done, job.total, elapsed());
+    report(&Progress::update);
   }
-  progress_.finish(job.done, job.total, elapsed());
+  report(&Progress::finish);
 }
 
 void Watch::save() {
@@ -75,8 +76,8 @@ void Watch::save() {
   // Not Session::save(): that notes its duration, which belongs to the thread that renders.
   try {
     const std::string picture = pictureText(session_, session_.job().fraction());
-    writePicture(output_, session_.picture(), session_.settings().rounding,
-                 describe(session_.scene(), session_.settings()));
+    for (const Output& file : outputs(output_, session_.settings()))
+      write(file, session_.film(), session_.settings(), session_.metadata());
     console_.line(LogLevel::error, "wrote " + output_ + " (" + picture + "), going on");
   } catch (const Error& error) {
     console_.error(error);

@@ -14,11 +14,21 @@
 
 namespace trace::cli {
 
+/// Which part of the work the render is: of an animation, one of several frames.
+struct Part {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< of the whole work
+  std::int64_t before = 0, all = 1;  ///< renders done before, and in all
+};
+
+/// What `auto` means here and now, drawn on stderr.
+Progress makeProgress(ProgressStyle style, const Console& console);
+
 /// Lives while Session::render() runs. Event::stop cancels the job; Event::save writes the finished tiles to
-/// `output`.
+/// the outputs() of `output`.
 class Watch {
  public:
-  Watch(Session& session, Signals& signals, const Console& console, ProgressStyle style, std::string output);
+  Watch(Session& session, Signals& signals, const Console& console, Progress& progress, std::string output,
+        const Part& part);
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -26,14 +36,14 @@ class Watch {
  private:
   void run();
   void save();
-  double elapsed() const;
+  void report(void (Progress::*tell)(std::int64_t done, std::int64_t total, double elapsed));
 
   Session& session_;
   Signals& signals_;
   const Console& console_;
   const std::string output_;
-  Progress progress_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Progress& progress_;
+  const Part part_;
   std::atomic<bool> finished_{false};
   std::thread thread_;
 };

@@ -12,7 +12,11 @@ namespace trace {
 namespace {
 
 constexpr std::array kTable{
-    SceneFormat{"ray", "scenes that begin with SBT-raytracer 1.0", recognisesRay, readRay},
+    SceneFormat{"ray", "scenes that begin with SBT-raytracer 1.0", recognisesRay,
+                [](const std::string& file, std::string_view bytes, Messages& messages) {
+                  return readRay(file, bytes, messages);
+                },
+                readRay},
 };
 
 /// What bytes that are no scene look like.
@@ -56,13 +60,14 @@ std::string expectedFormats() {
 
 std::span<const SceneFormat> sceneFormats() { return kTable; }
 
-Scene readScene(const std::string& file, Messages& messages) {
-  return readScene(file, readFile(file), messages);
+Scene readScene(const std::string& file, Messages& messages, Real time) {
+  return readScene(file, readFile(file), messages, time);
 }
 
-Scene readScene(const std::string& file, std::string_view bytes, Messages& messages) {
+Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   for (const SceneFormat& format : sceneFormats())
-    if (format.recognises(bytes)) return format.read(file, bytes, messages);
+    if (format.recognises(bytes))
+      return format.readAt ? format.readAt(file, bytes, messages, time) : format.read(file, bytes, messages);
   throw Error(Fault::scene, Place{file, 0, 0, {}}, "expected a scene, found " + kindOf(bytes),
               "formats Trace reads: " + expectedFormats());
 }

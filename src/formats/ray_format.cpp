@@ -20,6 +20,7 @@
 #include "formats/ray_camera.h"
 #include "formats/ray_fields.h"
 #include "formats/ray_findings.h"
+#include "formats/ray_keys.h"
 #include "formats/ray_material.h"
 #include "formats/ray_mesh.h"
 #include "formats/ray_syntax.h"
@@ -462,6 +463,7 @@ class Reader {
   /// As on the command line: `(0, 0, 8, 8)` is 0,0,8,8.
   static std::string choiceText(const Item& value) {
     if (value.is(Kind::word)) return std::string(value.text());
+    if (value.is(Kind::number) && value.source().starts_with(Syntax::kKey)) return toText(value.number());
     if (!value.is(Kind::tuple)) return std::string(value.source());
     std::string text;
     for (const Item item : value) text += (text.empty() ? "" : ",") + choiceText(item);
@@ -480,11 +482,12 @@ class Reader {
 
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
 
-Scene readRay(const std::string& file, std::string_view bytes, Messages& messages) {
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   Scene scene;
   scene.file = file;
   scene.format = "ray";
-  const rayfile::Syntax syntax(file, bytes);
+  rayfile::Syntax syntax(file, bytes);
+  rayfile::settleKeys(syntax, time);
   rayfile::Reader(syntax, scene, messages).read();
   return scene;
 }

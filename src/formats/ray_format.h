@@ -12,7 +12,8 @@ namespace trace {
 /// Does the content begin, after white space and comments, with the word SBT-raytracer?
 bool recognisesRay(std::string_view bytes);
 
-/// Throws Error(Fault::scene) with up to twenty errors; one, if the syntax is wrong.
-Scene readRay(const std::string& file, std::string_view bytes, Messages& messages);
+/// The scene at `time`, in seconds (ray_keys.h). Throws Error(Fault::scene) with up to twenty errors; one, if
+/// the syntax is wrong.
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
 
 }  // namespace trace

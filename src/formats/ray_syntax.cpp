@@ -183,6 +183,7 @@ class Parser {
   }
 
   void call(std::uint32_t word) {
+    if (Item(syntax_, word).text() == Syntax::kKey) syntax_.hasKeys_ = true;
     openAround(word, Kind::call);
     brackets();
     close(word);

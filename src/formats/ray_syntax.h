@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -45,6 +46,8 @@ class Syntax {
   static constexpr int kMostDepth = 1000;
   /// A string or identifier may have this many bytes.
   static constexpr std::size_t kLongestWord = 4096;
+  /// The call that stands for a value that changes with time (ray_keys.h).
+  static constexpr std::string_view kKey = "key";
 
   /// Throws Error(Fault::scene) where the text is not of the grammar, or holds a number that is not finite.
   Syntax(std::string file, std::string_view source);
@@ -55,6 +58,10 @@ class Syntax {
   Item root() const;
   std::span<const Node> nodes() const { return nodes_; }
   std::string_view source() const { return source_; }
+  /// Is there a call of kKey?
+  bool hasKeys() const { return hasKeys_; }
+  /// Takes another tree over the same source.
+  void replace(std::vector<Node> nodes) { nodes_ = std::move(nodes), hasKeys_ = false; }
   const std::string& file() const { return file_; }
 
   /// With the whole line of text.
@@ -73,6 +80,7 @@ class Syntax {
   std::string_view source_;
   std::vector<std::uint32_t> lineStarts_;
   std::vector<Node> nodes_;
+  bool hasKeys_ = false;
 };
 
 /// A node of a Syntax; two words, passed by value.

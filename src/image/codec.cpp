@@ -117,7 +117,7 @@ std::string listed(const std::vector<std::string_view>& words) {
 
 /// Calls use(format) with the row the bytes belong to; any failure becomes an Error that names the file.
 template <class Use>
-auto withFormatOf(std::string_view bytes, const std::string& name, Use use) {
+decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use use) {
   std::vector<std::string_view> names;
   for (const PictureFormat& format : kFormats) {
     names.push_back(format.name);
@@ -180,6 +180,11 @@ std::string encodePicture(const PictureFormat& format, const Picture& picture, R
 void writePicture(const std::string& path, const Picture& picture, Rounding rounding,
                   const Metadata& metadata) {
   writeFile(path, encodePicture(pictureFormatFor(path), picture, rounding, metadata));
+}
+
+const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name) {
+  return withFormatOf(bytes, name,
+                      [](const PictureFormat& format) -> const PictureFormat& { return format; });
 }
 
 Picture decodePicture(std::string_view bytes, const std::string& name) {

@@ -52,6 +52,9 @@ std::string encodePicture(const PictureFormat& format, const Picture& picture,
 void writePicture(const std::string& path, const Picture& picture, Rounding rounding = Rounding::truncate,
                   const Metadata& metadata = {});
 
+/// The row that the bytes of a picture file belong to. Throws as decodePicture().
+const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name);
+
 /// The picture in the bytes; transparency is dropped. `name` is for messages. Throws Error(Fault::io) on
 /// anything that is not a whole, sound file of a known format, Error(Fault::limit) when memory is short.
 Picture decodePicture(std::string_view bytes, const std::string& name);

@@ -1,10 +1,13 @@
-// The picture while it is being made: square tiles, each written by one worker and then marked done.
+// The picture while it is being made: square tiles, each written by one worker and then marked done. Beside
+// it, when asked for, layers of the same size: what else is kept of every pixel.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "image/picture.h"
 
@@ -20,11 +23,14 @@ class Film {
   /// A constant: the tile, not the thread, selects the work (same picture for any number of threads).
   static constexpr int kTileSize = 32;
 
-  Film(int width, int height)
+  /// With one layer for each of `blank`, of that value wherever nothing is rendered.
+  explicit Film(int width, int height, std::span<const Color> blank = {})
       : picture_(width, height),
         columns_((width + kTileSize - 1) / kTileSize),
         rows_((height + kTileSize - 1) / kTileSize),
-        done_(std::make_unique<std::atomic<bool>[]>(static_cast<std::size_t>(tiles()))) {}
+        done_(std::make_unique<std::atomic<bool>[]>(static_cast<std::size_t>(tiles()))) {
+    for (const Color& color : blank) layers_.push_back({filled(color), color});
+  }
 
   int width() const { return picture_.width; }
   int height() const { return picture_.height; }
@@ -37,24 +43,47 @@ class Film {
 
   /// Each pixel is set by the one worker that has its tile, before that tile is marked done.
   void set(int x, int y, const Color& color) { picture_.at(x, y) = color; }
+  void set(std::size_t layer, int x, int y, const Color& value) { layers_[layer].values.at(x, y) = value; }
   void markDone(std::int64_t index) {
     done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release);
   }
 
+  bool complete() const {
+    for (std::int64_t i = 0; i < tiles(); ++i)
+      if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) return false;
+    return true;
+  }
+
   /// What is done so far, black elsewhere. May be called from any thread while workers write.
-  Picture picture() const {
-    Picture copy(width(), height());
+  Picture picture() const { return doneOf(picture_, Color(0)); }
+  /// The same of a layer, blank elsewhere.
+  Picture layer(std::size_t index) const { return doneOf(layers_[index].values, layers_[index].blank); }
+  std::size_t layers() const { return layers_.size(); }
+
+ private:
+  struct Layer {
+    Picture values;
+    Color blank;
+  };
+
+  Picture filled(const Color& color) const {
+    Picture picture(width(), height());
+    std::fill(picture.pixels.begin(), picture.pixels.end(), color);
+    return picture;
+  }
+  Picture doneOf(const Picture& all, const Color& blank) const {
+    Picture copy = filled(blank);
     for (std::int64_t i = 0; i < tiles(); ++i) {
       if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) continue;
       const Tile t = tile(i);
       for (int y = t.y0; y < t.y1; ++y)
-        std::copy(&picture_.at(t.x0, y), &picture_.at(t.x0, y) + (t.x1 - t.x0), &copy.at(t.x0, y));
+        std::copy(&all.at(t.x0, y), &all.at(t.x0, y) + (t.x1 - t.x0), &copy.at(t.x0, y));
     }
     return copy;
   }
 
- private:
   Picture picture_;
+  std::vector<Layer> layers_;
   int columns_, rows_;
   std::unique_ptr<std::atomic<bool>[]> done_;
 };

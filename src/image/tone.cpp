@@ -3,9 +3,38 @@
 // The comparison in toLevel is written so that a NaN fails it and becomes black.
 #include "image/tone.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace trace {
+
+Range finiteRange(const Picture& picture) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Range range{kInfinity, -kInfinity};
+  for (const Color& c : picture.pixels)
+    for (double channel : {c.r, c.g, c.b}) {
+      if (!std::isfinite(channel)) continue;
+      range.low = std::min(range.low, channel);
+      range.high = std::max(range.high, channel);
+    }
+  return range.low <= range.high ? range : Range{};
+}
+
+Picture stretched(Picture picture, const Range& range) {
+  const double extent = range.high - range.low;
+  if (!(extent > 0)) return picture;
+  const auto stretch = [&](double c) { return (c - range.low) / extent; };
+  for (Color& c : picture.pixels) c = {stretch(c.r), stretch(c.g), stretch(c.b)};
+  return picture;
+}
+
+Picture toned(Picture picture, Tone tone) {
+  if (tone == Tone::clamp) return picture;
+  const Range range = finiteRange(picture);
+  return stretched(std::move(picture), range);
+}
 
 std::uint8_t toLevel(double c, Rounding rounding) {
   if (!(c > 0)) return 0;

@@ -1,8 +1,9 @@
 // From linear colours to the 8-bit levels of a picture file, and back.
 //
 // The last step of a picture's life before codec or screen. No gamma is applied: the courses' programs
-// write linear values as they are, and so their published pictures compare. The two roundings are the
-// two found in those programs: (int)(255*c) in the skeletons, (int)(255*c + 0.5) elsewhere.
+// write linear values as they are, and so their published pictures compare. The two tones and the two
+// roundings are those found in the programs: most cut off what is beyond [0,1], those of British Columbia
+// stretch the picture to it; (int)(255*c) in the skeletons, (int)(255*c + 0.5) elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 namespace trace {
 
+enum class Tone { clamp, stretch };
 enum class Rounding { truncate, nearest };
 
 /// Levels 0 to 255: three per pixel, r g b; row 0 at the top.
@@ -21,6 +23,19 @@ struct Bytes {
 
   bool operator==(const Bytes&) const = default;
 };
+
+struct Range {
+  double low = 0, high = 0;
+  bool operator==(const Range&) const = default;
+};
+/// Of the finite values of all channels; {0, 0} if there are none.
+Range finiteRange(const Picture& picture);
+
+/// (c - low) / (high - low) for every channel; the picture itself if the range is empty.
+Picture stretched(Picture picture, const Range& range);
+
+/// The picture whose levels are to be taken: itself (clamp), or stretched by its own finiteRange().
+Picture toned(Picture picture, Tone tone);
 
 /// The level of one channel: c clamped to [0,1], times 255, rounded. NaN gives 0.
 std::uint8_t toLevel(double c, Rounding rounding);

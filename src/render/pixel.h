@@ -24,6 +24,10 @@ class PixelTracer {
   template <class BadSample>
   Color pixel(int x, int y, BadSample&& badSample);
 
+  /// The camera ray of that sample.
+  Ray cameraRay(int x, int y, int k) const;
+
+  Tracer& tracer() { return tracer_; }
   Statistics& statistics() { return tracer_.statistics(); }
 
  private:

@@ -6,6 +6,7 @@
 #include <memory>
 #include <tuple>
 
+#include "render/passes.h"
 #include "render/pixel.h"
 
 namespace trace {
@@ -15,7 +16,11 @@ namespace {
 class TileRenderer {
  public:
   TileRenderer(const World& world, const Settings& settings, Film& film)
-      : tracer_(world, settings, {film.width(), film.height()}), region_(settings.region), film_(film) {}
+      : tracer_(world, settings, {film.width(), film.height()}),
+        region_(settings.region),
+        film_(film),
+        passes_(passesOf(settings)),
+        passSums_(passes_.size()) {}
 
   void render(const Tile& tile) {
     const auto bad = [&](int x, int y, int sample) {
@@ -25,17 +30,38 @@ class TileRenderer {
     const Region& r = region_;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1))
+        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) {
           film_.set(x, y, tracer_.pixel(x, y, bad));
+          if (!passes_.empty()) setPasses(x, y);
+        }
   }
 
   Statistics& statistics() { return tracer_.statistics(); }
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
+  /// Casts camera rays of its own, so that no integrator has to know of passes.
+  void setPasses(int x, int y) {
+    const bool averages =
+        std::any_of(passes_.begin(), passes_.end(), [](const PassRow* pass) { return pass->averaged; });
+    const int samples = averages ? tracer_.samples() : 1;
+    std::fill(passSums_.begin(), passSums_.end(), Color(0));
+    for (int sample = 0; sample < samples; ++sample) {
+      const Ray ray = tracer_.cameraRay(x, y, sample);
+      const std::optional<Hit> hit = tracer_.tracer().cast(ray, RayKind::camera);
+      for (std::size_t i = 0; i < passes_.size(); ++i)
+        if (sample == 0 || passes_[i]->averaged)
+          passSums_[i] += hit ? passes_[i]->value(*hit, ray, tracer_.tracer()) : passes_[i]->background;
+    }
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+      film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);
+  }
+
   PixelTracer tracer_;
   const Region region_;
   Film& film_;
+  std::vector<const PassRow*> passes_;
+  std::vector<Color> passSums_;
   std::vector<BadSample> bad_;
 };
 

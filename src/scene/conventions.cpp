@@ -21,6 +21,7 @@ std::span<const Convention> conventions() {
         {"vertex-normals", "unit"},
         {"camera-axes", "orthonormal"},
         {"pixel-position", "corner"},
+        {"tone", "clamp"},
         {"rounding", "truncate"}}},
       {Like::uw2009,
        "uw2009",
@@ -36,6 +37,7 @@ std::span<const Convention> conventions() {
         {"vertex-normals", "mean"},
         {"camera-axes", "raw"},
         {"pixel-position", "corner"},
+        {"tone", "clamp"},
         {"rounding", "truncate"}}},
       {Like::uw2001,
        "uw2001",
@@ -51,6 +53,7 @@ std::span<const Convention> conventions() {
         {"vertex-normals", "mean"},
         {"camera-axes", "normalized"},
         {"pixel-position", "corner"},
+        {"tone", "clamp"},
         {"rounding", "truncate"}}},
       {Like::ut,
        "ut",
@@ -66,6 +69,7 @@ std::span<const Convention> conventions() {
         {"vertex-normals", "mean"},
         {"camera-axes", "raw"},
         {"pixel-position", "corner"},
+        {"tone", "clamp"},
         {"rounding", "truncate"}}},
   }};
   return kTable;

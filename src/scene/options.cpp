@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "base/text.h"
@@ -39,7 +40,17 @@ constexpr std::array<std::string_view, 2> kNames<DiffuseSides>{"front", "both-on
 template <>
 constexpr std::array<std::string_view, 3> kNames<CameraAxes>{"orthonormal", "raw", "normalized"};
 template <>
+constexpr std::array<std::string_view, 2> kNames<Tone>{"clamp", "stretch"};
+template <>
 constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"};
+template <>
+constexpr std::array<std::string_view, 5> kNames<Pass>{"depth", "normal", "id", "uv", "position"};
+template <>
+constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
+
+constexpr std::string_view kNone = "none";  // of a set
 
 // --- values from and to text --------------------------------------------------------------------------
 
@@ -103,17 +114,43 @@ void parse(const Option& option, std::string_view text, Region& value) {
   value = region;
 }
 
+/// The value of that name, if there is one.
+template <class Enum>
+std::optional<Enum> named(std::string_view text) {
+  for (size_t i = 0; i < kNames<Enum>.size(); ++i)
+    if (kNames<Enum>[i] == text) return static_cast<Enum>(i);
+  return {};
+}
+
+std::string alternatives(Names names, std::string_view between) {
+  std::string text;
+  for (std::string_view name : names) text += (text.empty() ? "" : std::string(between)) + std::string(name);
+  return text;
+}
+
 template <class Enum>
 requires std::is_enum_v<Enum>
 void parse(const Option& option, std::string_view text, Enum& value) {
-  for (size_t i = 0; i < kNames<Enum>.size(); ++i)
-    if (kNames<Enum>[i] == text) {
-      value = static_cast<Enum>(i);
-      return;
-    }
-  std::string expected;
-  for (std::string_view name : kNames<Enum>) expected += (expected.empty() ? "" : " | ") + std::string(name);
-  refuse(option, expected, text, didYouMean(text, kNames<Enum>));
+  const std::optional<Enum> found = named<Enum>(text);
+  if (!found) refuse(option, alternatives(kNames<Enum>, " | "), text, didYouMean(text, kNames<Enum>));
+  value = *found;
+}
+
+/// Names with commas between, or "none".
+template <class Enum>
+void parse(const Option& option, std::string_view text, EnumSet<Enum>& value) {
+  EnumSet<Enum> set;
+  for (std::string_view rest = text; text != kNone;) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    const std::optional<Enum> found = named<Enum>(name);
+    if (!found)
+      refuse(option, "none, or some of " + alternatives(kNames<Enum>, ",") + " with commas between", text,
+             didYouMean(name, kNames<Enum>));
+    set.add(*found);
+    if (name.size() == rest.size()) break;
+    rest.remove_prefix(name.size() + 1);
+  }
+  value = set;
 }
 
 std::string format(double value) { return toText(value); }
@@ -127,6 +164,13 @@ template <class Enum>
 requires std::is_enum_v<Enum> std::string format(Enum value) {
   return std::string(kNames<Enum>[static_cast<size_t>(value)]);
 }
+template <class Enum>
+std::string format(const EnumSet<Enum>& set) {
+  std::string text;
+  for (size_t i = 0; i < kNames<Enum>.size(); ++i)
+    if (set.has(static_cast<Enum>(i))) text += (text.empty() ? "" : ",") + std::string(kNames<Enum>[i]);
+  return text.empty() ? std::string(kNone) : text;
+}
 
 // --- rows ---------------------------------------------------------------------------------------------
 
@@ -135,6 +179,18 @@ struct MemberType;
 template <class T, T Settings::*Member>
 struct MemberType<Member> {
   using type = T;
+};
+
+/// The enum of which a field holds several values.
+template <class T>
+struct ElementOf {};
+template <class Enum>
+struct ElementOf<EnumSet<Enum>> {
+  using type = Enum;
+};
+template <class T>
+constexpr bool kIsSet = requires {
+  typename ElementOf<T>::type;
 };
 
 template <class T>
@@ -147,6 +203,8 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::real;
   else if constexpr (std::is_same_v<T, Region>)
     return Option::Kind::region;
+  else if constexpr (kIsSet<T>)
+    return Option::Kind::choices;
   else
     return Option::Kind::choice;
 }
@@ -166,6 +224,7 @@ constexpr Option row(const Text& t) {
   using T = typename MemberType<Member>::type;
   Names names;
   if constexpr (std::is_enum_v<T>) names = kNames<T>;
+  if constexpr (kIsSet<T>) names = kNames<typename ElementOf<T>::type>;
   return {t.name,
           t.group,
           t.unit,
@@ -215,6 +274,14 @@ constexpr std::array kTable{
          .most = 65536,
          .unit = "rays",
          .extra = true}),
+    row<&Settings::time>({.name = "time",
+                          .group = "Picture",
+                          .help = "the moment shown of a scene whose values change with time: key(...)",
+                          .source = "docs/animation.md",
+                          .repeats = Repeats::scene,
+                          .least = -1e9,
+                          .most = 1e9,
+                          .unit = "seconds"}),
     row<&Settings::integrator>({.name = "integrator",
                                 .group = "Tracing",
                                 .help = "how light is found; whitted is recursive ray tracing",
@@ -305,11 +372,49 @@ constexpr std::array kTable{
          .group = "Conventions",
          .help = "the camera ray of a pixel goes through its lower left corner or its centre",
          .source = "courses: corner"}),
+    row<&Settings::tone>({.name = "tone",
+                          .group = "Conventions",
+                          .help =
+                              "8-bit pictures: values below 0 and above 1 are cut off, or the least to the "
+                              "largest value of the picture become 0 to 1",
+                          .source = "stretch in British Columbia and Montreal",
+                          .repeats = Repeats::tone}),
     row<&Settings::rounding>({.name = "rounding",
                               .group = "Conventions",
                               .help = "8-bit values are cut off or rounded to the nearest",
                               .source = "courses: (int)(255 c)",
                               .repeats = Repeats::tone}),
+    row<&Settings::passes>({.name = "passes",
+                            .group = "Passes",
+                            .help = "pictures beside the picture, of what the camera rays meet",
+                            .source = "docs/passes.md"}),
+    row<&Settings::passFormat>(
+        {.name = "pass-format",
+         .group = "Passes",
+         .help = "files of passes: raw values (exr), levels for the eye (png), or the picture's format",
+         .source = "",
+         .repeats = Repeats::nothing}),
+    row<&Settings::passDepth>({.name = "pass-depth",
+                               .group = "Passes",
+                               .help = "the pass depth measures along the view direction, or along the ray",
+                               .source = "ray in British Columbia"}),
+    row<&Settings::passNear>(
+        {.name = "pass-near",
+         .group = "Passes",
+         .help = "depth that 8-bit pictures show black; counts where pass-far is beyond it",
+         .source = "British Columbia",
+         .repeats = Repeats::tone,
+         .least = 0,
+         .most = 1e30,
+         .unit = "units"}),
+    row<&Settings::passFar>({.name = "pass-far",
+                             .group = "Passes",
+                             .help = "depth that 8-bit pictures show white; 0 takes the range of the picture",
+                             .source = "British Columbia",
+                             .repeats = Repeats::tone,
+                             .least = 0,
+                             .most = 1e30,
+                             .unit = "units"}),
     row<&Settings::threads>({.name = "threads",
                              .group = "Resources",
                              .help = "threads that trace; 0 takes all",

@@ -12,10 +12,10 @@
 namespace trace {
 
 /// The earliest step of a render that a change of the option repeats.
-enum class Repeats { nothing, tone, picture, world };
+enum class Repeats { nothing, tone, picture, world, scene };
 
 struct Option {
-  enum class Kind { boolean, integer, real, choice, region };
+  enum class Kind { boolean, integer, real, choice, choices, region };
 
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
@@ -27,7 +27,7 @@ struct Option {
   Repeats repeats;
   bool extra;  ///< an extension that is off by default
   Kind kind;
-  std::span<const std::string_view> choices;  ///< of Kind::choice, in the order of the enum
+  std::span<const std::string_view> choices;  ///< of Kind::choice and choices, in the order of the enum
 
   std::string (*get)(const Settings&);
   void (*set)(const Option&, Settings&, std::string_view value);

@@ -3,6 +3,7 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
+#include "base/enum_set.h"
 #include "image/tone.h"
 #include "shading/camera.h"
 #include "shading/phong.h"
@@ -22,6 +23,13 @@ enum class PixelPosition { corner, center };
 enum class VertexNormals { unit, mean };
 enum class DiffuseSides { front, bothOnGlass };
 
+/// A picture beside the picture: a row of render/passes.cpp.
+enum class Pass { depth, normal, id, uv, position };
+/// What is measured in the pass "depth": along the view direction, or along the ray.
+enum class PassDepth { view, ray };
+/// The file format of passes; same: that of the picture.
+enum class PassFormat { exr, png, same };
+
 /// Pixels x0 <= x < x1, y0 <= y < y1, counted from the top left; empty means the whole picture.
 struct Region {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -35,6 +43,7 @@ struct Settings {
   int height = 0;
   Region region{};
   int spp = 1;
+  Real time = 0;
   // Tracing
   Integrator integrator = Integrator::whitted;
   int depth = 5;
@@ -52,7 +61,14 @@ struct Settings {
   VertexNormals vertexNormals = VertexNormals::unit;
   CameraAxes cameraAxes = CameraAxes::orthonormal;
   PixelPosition pixelPosition = PixelPosition::corner;
+  Tone tone = Tone::clamp;
   Rounding rounding = Rounding::truncate;
+  // Passes
+  EnumSet<Pass> passes{};
+  PassFormat passFormat = PassFormat::exr;
+  PassDepth passDepth = PassDepth::view;
+  Real passNear = 0;
+  Real passFar = 0;
   // Resources
   int threads = 0;
   Accel accel = Accel::bvh;

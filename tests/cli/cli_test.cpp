@@ -25,6 +25,15 @@ TEST_F(Cli, CoursesLine) {
   EXPECT_EQ(readFile(path("out.bmp")).substr(0, 2), "BM");
 }
 
+TEST_F(Cli, PassesLieBesideThePicture) {
+  const Run r = run({"white.ray", "out.png", "-w", "8", "--passes", "depth,normal"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.last, "wrote out.png and the passes depth, normal (8x6) in ")) << r.err;
+  EXPECT_TRUE(exists("out.png") && exists("out.depth.exr") && exists("out.normal.exr"));
+  EXPECT_EQ(files(), 4u);
+  EXPECT_TRUE(contains(run({"white.ray", "-w", "8", "--passes", "depht"}).err, "did you mean \"depth\"?"));
+}
+
 TEST_F(Cli, CoursesFlagsAreOptions) {
   const auto settings = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"white.ray", "-w", "8", "--stats=json"});

@@ -48,6 +48,35 @@ TEST(Tone, KeepsTheOrderOfChannelsAndRows) {
   EXPECT_EQ(toBytes(picture, Rounding::truncate), (Bytes{1, 2, {255, 0, 0, 0, 255, 127}}));
 }
 
+TEST(Tone, StretchMapsTheLeastToZeroAndTheLargestToOne) {
+  Picture picture(2, 1);
+  picture.at(0, 0) = {2, 4, 6};
+  picture.at(1, 0) = {-2, 0, 3};
+  EXPECT_EQ(finiteRange(picture), (Range{-2, 6}));
+  EXPECT_EQ(toned(picture, Tone::clamp), picture);
+  const Picture stretched = toned(picture, Tone::stretch);
+  EXPECT_EQ(stretched.at(0, 0), Color(0.5, 0.75, 1));
+  EXPECT_EQ(stretched.at(1, 0), Color(0, 0.25, 0.625));
+}
+
+TEST(Tone, StretchPassesOverWhatIsNotFinite) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Picture picture(2, 1);
+  picture.at(0, 0) = {kInfinity, 1, std::numeric_limits<double>::quiet_NaN()};
+  picture.at(1, 0) = {3, -kInfinity, 2};
+  EXPECT_EQ(finiteRange(picture), (Range{1, 3}));
+  EXPECT_EQ(toBytes(toned(picture, Tone::stretch), Rounding::truncate),
+            (Bytes{2, 1, {255, 0, 0, 255, 0, 127}}));
+}
+
+TEST(Tone, StretchLeavesAPictureOfOneValue) {
+  Picture picture(3, 1);
+  for (Color& c : picture.pixels) c = Color(0.25);
+  EXPECT_EQ(toned(picture, Tone::stretch), picture);
+  EXPECT_EQ(toned(Picture(), Tone::stretch), Picture());
+  EXPECT_EQ(finiteRange(Picture()), Range{});
+}
+
 TEST(Tone, EmptyPicture) {
   EXPECT_EQ(toBytes(Picture(), Rounding::nearest), Bytes());
   EXPECT_EQ(fromBytes(Bytes()), Picture());

@@ -14,6 +14,10 @@ std::vector<std::string> someValues(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return {"on", "off"};
     case Option::Kind::choice: return {option.choices.begin(), option.choices.end()};
+    case Option::Kind::choices: {
+      const std::string first(option.choices.front()), last(option.choices.back());
+      return {last, first + "," + last, "none"};
+    }
     case Option::Kind::region: return {"1,2,30,40", "0,0,0,0"};
     default: return {option.get({}), std::to_string(static_cast<int>(option.least) + 1)};
   }
@@ -25,7 +29,8 @@ TEST(Options, NamesAreUniqueAndTextsComplete) {
     EXPECT_TRUE(names.insert(option.name).second) << option.name;
     EXPECT_FALSE(option.help.empty() || option.group.empty() || option.integrators.empty()) << option.name;
     EXPECT_NE(option.help.back(), '.') << option.name;
-    EXPECT_EQ(option.kind == Option::Kind::choice, !option.choices.empty()) << option.name;
+    const bool chooses = option.kind == Option::Kind::choice || option.kind == Option::Kind::choices;
+    EXPECT_EQ(chooses, !option.choices.empty()) << option.name;
   }
 }
 

@@ -1,0 +1,141 @@
+// ray diff A B: how far two pictures are apart, in numbers and as a picture.
+//
+// Keys of the JSON object: reference, test, width, height (of A), unit ("levels" or "values"), tolerance,
+// sameSize, identical, within (the limits), then each metric by name (null when infinite), worst.{x, y},
+// limits[] of {metric, limit, met}, difference (name of the picture written, or null).
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/difference.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/metric_text.h"
+#include "image/codec.h"
+
+namespace trace::cli {
+namespace {
+
+constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
+
+/// What the command found; each has an exit code in two scales.
+enum class Finding { identical, within, beyond, sizesDiffer, failed };
+
+int exitCode(Finding finding, bool likeIdiff) {
+  if (likeIdiff) return static_cast<int>(finding);
+  constexpr int kEqual = 0, kDifferent = 1, kError = 2;  // as ImageMagick's compare
+  switch (finding) {
+    case Finding::identical:
+    case Finding::within: return kEqual;
+    case Finding::beyond: return kDifferent;
+    case Finding::sizesDiffer:
+    case Finding::failed: break;
+  }
+  return kError;
+}
+
+std::string sizeText(const Picture& picture) {
+  return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+}
+
+std::string colorText(const Color& c, bool levels) {
+  const auto text = [&](double channel) {
+    return levels ? toText(std::round(255 * channel)) : numberText(channel);
+  };
+  return "(" + text(c.r) + " " + text(c.g) + " " + text(c.b) + ")";
+}
+
+std::string diffText(const Difference& d, const Arguments& arguments) {
+  const std::string &a = arguments.files[0], &b = arguments.files[1];
+  if (!d.numbers.sameSize)
+    return a + " (" + sizeText(d.reference.picture) + ") and " + b + " (" + sizeText(d.test.picture) +
+           ") differ in size\n";
+  const std::string size = " (" + sizeText(d.reference.picture) + ")\n";
+  if (d.numbers.identical) return a + " and " + b + " are identical" + size;
+  std::string text = a + " and " + b + " differ" + size;
+  for (const Metric& metric : metrics()) {
+    text +=
+        "  " + std::string(metric.name) + std::string(8 - metric.name.size(), ' ') + metricText(metric, d);
+    if (metric.name == "max") {
+      const int x = d.numbers.worstX, y = d.numbers.worstY;
+      text += " at pixel " + std::to_string(x) + "," + std::to_string(y) + ": " +
+              colorText(d.reference.picture.at(x, y), d.levels) + " and " +
+              colorText(d.test.picture.at(x, y), d.levels);
+    }
+    if (metric.name == "beyond")
+      text += " of the values differ by more than " + toText(d.tolerance) + " " + std::string(d.unit());
+    if (metric.name == "pixels") text += " of the pixels have such a value";
+    text += "\n";
+  }
+  for (const Limit& limit : arguments.limits)
+    text += "  limit " + limitText(limit) + (limit.met(d) ? ": met\n" : ": exceeded\n");
+  return text;
+}
+
+std::string diffJson(const Difference& d, const Arguments& arguments) {
+  using nlohmann::ordered_json;
+  ordered_json json;
+  json["reference"] = arguments.files[0];
+  json["test"] = arguments.files[1];
+  json["width"] = d.reference.picture.width;
+  json["height"] = d.reference.picture.height;
+  json["unit"] = d.unit();
+  json["tolerance"] = d.tolerance;
+  json["sameSize"] = d.numbers.sameSize;
+  json["identical"] = d.numbers.identical;
+  json["within"] = within(d, arguments.limits);
+  addMetrics(json, d);
+  json["worst"] = {{"x", d.numbers.worstX}, {"y", d.numbers.worstY}};
+  json["limits"] = ordered_json::array();
+  for (const Limit& limit : arguments.limits)
+    json["limits"].push_back({{"metric", limit.metric->name}, {"limit", limit.value}, {"met", limit.met(d)}});
+  json["difference"] = nullptr;
+  if (!arguments.output.empty() && d.numbers.sameSize) json["difference"] = arguments.output;
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// The metrics asked for by --print, on one line.
+std::string printed(const Difference& d, const Arguments& arguments) {
+  std::string text;
+  for (const Metric* metric : arguments.printed) text += (text.empty() ? "" : " ") + toText(metric->value(d));
+  return text + "\n";
+}
+
+Finding findDifference(const Arguments& arguments, const Console& console) {
+  if (arguments.files.size() != 2)
+    throw Error(Fault::usage,
+                "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
+  if (!arguments.output.empty()) pictureFormatFor(arguments.output);
+  const Difference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
+                                  {arguments.tolerance, arguments.pixelsPerDegree});
+  printResult(chosenFormat(arguments, "diff", kFormats) == "json" ? diffJson(d, arguments)
+              : arguments.printed.empty()                         ? diffText(d, arguments)
+                                                                  : printed(d, arguments));
+  if (!d.numbers.sameSize) return Finding::sizesDiffer;
+  if (!arguments.output.empty()) {
+    writePicture(arguments.output, arguments.show->picture(d.pictures(), arguments.magnify),
+                 Rounding::nearest);
+    console.line(LogLevel::info,
+                 "wrote " + arguments.output + " (" + std::string(arguments.show->name) + ")");
+  }
+  return d.numbers.identical           ? Finding::identical
+         : within(d, arguments.limits) ? Finding::within
+                                       : Finding::beyond;
+}
+
+}  // namespace
+
+int diff(const Arguments& arguments, const Console& console) {
+  Finding finding = Finding::failed;
+  try {
+    finding = findDifference(arguments, console);
+  } catch (const Error& error) {
+    console.error(error);
+  } catch (const std::exception& error) {
+    console.error(Error(Fault::limit, error.what()));
+  }
+  return exitCode(finding, arguments.idiffCodes);
+}
+
+}  // namespace trace::cli

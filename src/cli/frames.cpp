@@ -1,0 +1,117 @@
+#include "cli/frames.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/render_steps.h"
+#include "image/codec.h"
+
+namespace trace::cli {
+namespace {
+
+void open(Session& session, const Arguments& arguments, int frame) {
+  std::vector<Choice> choices = arguments.choices;
+  choices.push_back({"time", toText(frame / arguments.framesPerSecond), {}});
+  session.open(arguments.files[0], choices, arguments.strict);
+}
+
+/// Is every file of the frame there, made with these settings?
+bool isThere(const Arguments& arguments, int frame, const std::string& picture) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(picture, ignored)) return false;  // spares reading the scene
+  Session session;
+  open(session, arguments, frame);
+  const std::vector<Output> files = outputs(picture, session.settings());
+  const Metadata metadata = session.metadata();
+  return std::all_of(files.begin(), files.end(),
+                     [&](const Output& file) { return isRendered(file, metadata); });
+}
+
+/// "a.0000.png to a.0099.png".
+std::string span(const std::string& pattern, const std::vector<int>& frames) {
+  const std::string first = frameName(pattern, frames.front());
+  return frames.size() == 1 ? first : first + " to " + frameName(pattern, frames.back());
+}
+
+}  // namespace
+
+std::string frameName(const std::string& pattern, int frame) {
+  const std::size_t last = pattern.rfind('#');
+  if (last == std::string::npos) return pattern;
+  const std::size_t before = pattern.find_last_not_of('#', last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1, length = last - first + 1;
+  std::string number = std::to_string(frame);
+  if (number.size() < length) number.insert(0, length - number.size(), '0');
+  return pattern.substr(0, first) + number + pattern.substr(last + 1);
+}
+
+int renderFrames(const Arguments& arguments, const std::string& pattern, const Console& console) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  pictureFormatFor(pattern);
+  if (arguments.frames.size() > 1 && pattern.find('#') == std::string::npos)
+    throw Error(Fault::usage,
+                "expected a name with #### for the number of the frame, found \"" + pattern + "\"",
+                "-o frame.####.png");
+  Signals signals;
+  std::vector<int> missing;
+  for (int frame : arguments.frames)
+    if (!isThere(arguments, frame, frameName(pattern, frame))) missing.push_back(frame);
+  const std::size_t there = arguments.frames.size() - missing.size();
+  const std::string skipped = there > 0 ? std::to_string(there) + " already there" : "";
+  if (missing.empty()) {
+    console.line(LogLevel::error,
+                 "nothing to write: " + span(pattern, arguments.frames) + " are already there");
+    return kDone;
+  }
+
+  Progress progress = makeProgress(arguments.progress, console);
+  int code = kDone;
+  std::string size, stopped;
+  std::size_t done = 0;
+  for (; done < missing.size(); ++done) {
+    const std::string picture = frameName(pattern, missing[done]);
+    Session session;
+    open(session, arguments, missing[done]);
+    if (done == 0) checkOutputs(session, picture);
+    session.build();
+    if (done == 0) console.warnings(session.messages().all());
+    signals.renderingBegins();
+    const auto frameStart = elapsed();
+    const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
+    const RenderResult result = renderWatched(session, signals, console, progress, picture, part);
+    reportBadSamples(result, console);
+    if (result.end != End::finished) {
+      code = exitCode(result), stopped = whyStopped(result);
+      break;
+    }
+    const std::string written = save(session, picture, console);
+    reportStatistics(arguments, session, result, written, elapsed() - frameStart, console);
+    if (written != picture) {
+      code = kFailed, stopped = "could not write where it should, but " + written + ": ";
+      ++done;
+      break;
+    }
+    size = pictureText(session, 1) + andPasses(session.settings());
+    console.line(LogLevel::debug, "wrote " + picture);
+  }
+
+  const std::string what =
+      done == 0
+          ? "nothing written"
+          : "wrote " + span(pattern, {missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(done)});
+  const std::string of = done < missing.size() ? " of " + std::to_string(missing.size()) : "";
+  console.line(LogLevel::error,
+               stopped + what + " (" +
+                   (of.empty() ? counted(done, "frame") : std::to_string(done) + of + " frames") +
+                   (size.empty() ? "" : ", " + size) + (skipped.empty() ? "" : "; " + skipped) + ") in " +
+                   durationText(elapsed()));
+  return code;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,23 @@
+// The numbers of a comparison, for people and for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/difference.h"
+
+namespace trace::cli {
+
+/// Four digits.
+std::string numberText(double value);
+
+/// "0.21 levels", "62.3 dB".
+std::string metricText(const Metric& metric, const Difference& difference);
+
+/// "rmse <= 6", "psnr >= 30".
+std::string limitText(const Limit& limit);
+
+/// Each metric as a key; null where it is infinite.
+void addMetrics(nlohmann::ordered_json& json, const Difference& difference);
+
+}  // namespace trace::cli

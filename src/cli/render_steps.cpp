@@ -1,0 +1,88 @@
+#include "cli/render_steps.h"
+
+#include <filesystem>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/statistics_text.h"
+#include "image/codec.h"
+#include "render/passes.h"
+
+namespace trace::cli {
+
+void checkOutputs(const Session& session, const std::string& output) {
+  const Size size = session.size();
+  for (const Output& file : outputs(output, session.settings())) {
+    checkEncodable(pictureFormatFor(file.path), size.width, size.height);
+    checkWritable(file.path);
+  }
+}
+
+RenderResult renderWatched(Session& session, Signals& signals, const Console& console, Progress& progress,
+                           const std::string& output, const Part& part) {
+  const Watch watch(session, signals, console, progress, output, part);
+  return session.render();
+}
+
+void reportBadSamples(const RenderResult& result, const Console& console) {
+  if (result.statistics.badSamples == 0) return;
+  std::string text = counted(result.statistics.badSamples, "sample") +
+                     (result.statistics.badSamples == 1 ? " was" : " were") + " not finite and left out";
+  if (!result.badSamples.empty())
+    text += "; first at pixel " + std::to_string(result.badSamples[0].x) + "," +
+            std::to_string(result.badSamples[0].y);
+  console.line(LogLevel::warning, "warning: " + text);
+}
+
+std::string save(Session& session, const std::string& output, const Console& console) {
+  try {
+    session.save(output);
+    return output;
+  } catch (const Error& error) {
+    console.error(error);
+  }
+  namespace fs = std::filesystem;
+  const std::string elsewhere = (fs::temp_directory_path() / fs::path(output).filename()).string();
+  session.save(elsewhere);
+  return elsewhere;
+}
+
+void reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
+                      const std::string& written, double seconds, const Console& console) {
+  if (arguments.stats == StatsStyle::none) return;
+  const Run run{session, result, written, session.job().fraction(), seconds, peakMemory()};
+  if (arguments.stats == StatsStyle::json)
+    printResult(statisticsJson(run) + "\n");
+  else
+    console.line(LogLevel::error, statisticsTable(run));
+}
+
+std::string andPasses(const Settings& settings) {
+  std::string names;
+  for (const PassRow* pass : passesOf(settings))
+    names += (names.empty() ? "" : ", ") + std::string(pass->name);
+  if (names.empty()) return "";
+  return (names.find(',') == std::string::npos ? " and the pass " : " and the passes ") + names;
+}
+
+std::string whyStopped(const RenderResult& result) {
+  switch (result.end) {
+    case End::cancelled: return "stopped by the user: ";
+    case End::timeLimit: return "stopped by the time limit: ";
+    case End::failed: return "broke off (" + result.failure + "): ";
+    case End::finished: break;
+  }
+  return "";
+}
+
+int exitCode(const RenderResult& result) {
+  switch (result.end) {
+    case End::cancelled: return kStopped;
+    case End::timeLimit: return static_cast<int>(Fault::limit);
+    case End::failed: return kFailed;
+    case End::finished: break;
+  }
+  return kDone;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,100 @@
+// ray diff and ray grade: what they print and their exit codes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "image/codec.h"
+#include "program.h"
+
+namespace trace::test {
+namespace {
+
+using nlohmann::json;
+
+class Diff : public ProgramTest {
+ protected:
+  Diff() {
+    picture("a.png", 0.5), picture("b.png", 0.5), picture("c.png", 0.6), picture("small.png", 0.5, 3);
+    write("no.png", "no picture");
+  }
+  void picture(const std::string& name, double value, int width = 6) const {
+    Picture p(width, 4);
+    for (Color& c : p.pixels) c = Color(value);
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    writePicture(path(name), p);
+  }
+};
+
+TEST_F(Diff, ExitCodes) {
+  EXPECT_EQ(run({"diff", "a.png", "b.png"}).code, 0);
+  EXPECT_EQ(run({"diff", "a.png", "c.png"}).code, 1);
+  EXPECT_EQ(run({"diff", "a.png", "c.png", "--limit", "max=26"}).code, 0);
+  EXPECT_EQ(run({"diff", "a.png", "c.png", "--tolerance", "26"}).code, 0);
+  EXPECT_EQ(run({"diff", "a.png", "small.png"}).code, 2);
+  for (const char* wrong : {"no.png", "nothing.png"}) {
+    const Run r = run({"diff", "a.png", wrong});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(contains(r.err, std::string("cannot read \"") + wrong));
+  }
+  EXPECT_EQ(run({"diff", "a.png"}).code, 2);
+}
+
+TEST_F(Diff, ExitCodesOfIdiff) {
+  const auto code = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"diff", "--idiff-codes", "a.png"});
+    return run(words).code;
+  };
+  EXPECT_EQ(code({"b.png"}), 0);
+  EXPECT_EQ(code({"c.png", "--limit", "max=26"}), 1);
+  EXPECT_EQ(code({"c.png"}), 2);
+  EXPECT_EQ(code({"small.png"}), 3);
+  EXPECT_EQ(code({"no.png"}), 4);
+}
+
+TEST_F(Diff, SaysHowFarAndWritesThePicture) {
+  const Run r = run({"diff", "a.png", "c.png", "-o", "d.png", "--show", "signed", "--magnify", "2"});
+  EXPECT_TRUE(contains(r.out, "a.png and c.png differ (6x4)"));
+  EXPECT_TRUE(contains(r.out, "max     26 levels at pixel 0,0: (127 127 127) and (153 153 153)"));
+  EXPECT_TRUE(contains(r.err, "wrote d.png (signed)"));
+  EXPECT_NEAR(readPicture(path("d.png")).at(0, 0).r, 0.5 + 26 / 255.0, 1.0 / 255);
+  EXPECT_TRUE(contains(run({"diff", "a.png", "b.png"}).out, "are identical"));
+  EXPECT_EQ(run({"diff", "a.png", "c.png", "--print", "max,pixels"}).out, "26 100\n");
+  EXPECT_TRUE(
+      contains(run({"diff", "a.png", "c.png", "--print", "maxx"}).err, "--print: expected one of max"));
+}
+
+TEST_F(Diff, Json) {
+  const json same = json::parse(run({"diff", "a.png", "b.png", "--format", "json"}).out);
+  EXPECT_EQ(same["identical"], true);
+  EXPECT_EQ(same["psnr"], nullptr);
+  const json far = json::parse(run({"diff", "a.png", "c.png", "--format", "json", "--limit", "rmse=1"}).out);
+  EXPECT_EQ(far["max"], 26);
+  EXPECT_EQ(far["within"], false);
+  EXPECT_EQ(far["limits"][0]["metric"], "rmse");
+  EXPECT_EQ(json::parse(run({"diff", "a.png", "small.png", "--format", "json"}).out)["sameSize"], false);
+}
+
+TEST_F(Diff, Grade) {
+  picture("ref/a.png", 0.5), picture("out/a.png", 0.5), picture("ref/b.png", 0.5), picture("out/b.png", 0.7);
+  Run r = run({"grade", "out", "--reference", "ref", "-o", "page.html"});
+  EXPECT_EQ(r.code, 6);
+  EXPECT_TRUE(contains(r.out, "1 of 2 within the limits"));
+  EXPECT_TRUE(exists("page.html"));
+  EXPECT_LT(r.out.find("b.png"), r.out.find("a.png"));
+  r = run({"grade", "out", "--reference", "ref", "--limit", "max=100", "--format", "json"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(json::parse(r.out)["pairs"][0]["verdict"], "within");
+  EXPECT_EQ(run({"grade", "out"}).code, 2);
+  EXPECT_EQ(run({"grade", "nowhere", "--reference", "ref"}).code, 1);
+}
+
+TEST_F(Diff, GradeRendersScenes) {
+  std::filesystem::create_directories(path("scenes"));
+  std::filesystem::copy(path("white.ray"), path("scenes/white.ray"));
+  picture("ref/white.png", 1);
+  const Run r = run({"grade", "scenes", "--reference", "ref", "--render", "-w", "6", "--height", "4"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+}
+
+}  // namespace
+}  // namespace trace::test

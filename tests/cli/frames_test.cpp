@@ -1,0 +1,117 @@
+// Animations: ray render SCENE --frames A-B.
+#include "cli/frames.h"
+
+#include <gtest/gtest.h>
+
+#include "image/codec.h"
+#include "program.h"
+
+namespace trace::test {
+namespace {
+
+using cli::frameName;
+
+TEST(FrameName, PutsTheNumberInThePlaceOfTheLastHashes) {
+  EXPECT_EQ(frameName("a.####.png", 7), "a.0007.png");
+  EXPECT_EQ(frameName("a#.png", 12345), "a12345.png");
+  EXPECT_EQ(frameName("#1/b-##.png", 3), "#1/b-03.png");
+  EXPECT_EQ(frameName("##", 3), "03");
+  EXPECT_EQ(frameName("a.png", 3), "a.png");
+}
+
+class Frames : public ProgramTest {
+ protected:
+  /// Inside of a ball that glows the brighter the later: white at 2 seconds.
+  static constexpr const char* kGlow = R"(SBT-raytracer 1.0
+camera { aspectratio = 2; }
+scale(10, sphere { material = { emissive = key((0, 0), (2, 1)); } })
+)";
+  Frames() { write("glow.ray", kGlow); }
+
+  Run render(std::vector<std::string> more = {}, const std::string& frames = "0-4") const {
+    std::vector<std::string> words{"render", "glow.ray", "-w", "8", "--fps", "2", "--frames", frames};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+  double brightness(const std::string& name) const { return readPicture(path(name)).at(0, 0).r; }
+  auto written(const std::string& name) const { return std::filesystem::last_write_time(path(name)); }
+};
+
+TEST_F(Frames, ShowTheSceneAtTheirTimes) {
+  const Run r = render();
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.last, "wrote glow.0000.png to glow.0004.png (5 frames, 8x4) in ")) << r.err;
+  for (int frame = 0; frame <= 4; ++frame)
+    EXPECT_NEAR(brightness("glow.000" + std::to_string(frame) + ".png"), frame / 4.0, 1.0 / 255) << frame;
+  EXPECT_EQ(run({"glow.ray", "-w", "8", "--time", "1.5", "-o", "moment.bmp"}).code, 0);
+  EXPECT_NEAR(brightness("moment.bmp"), 0.75, 1.0 / 255);
+}
+
+TEST_F(Frames, ASceneMayChooseItsMoment) {
+  write("later.ray", std::string(kGlow) + "settings { time = 1; }");
+  run({"later.ray", "-w", "8", "-o", "a.bmp"});
+  EXPECT_NEAR(brightness("a.bmp"), 0.5, 1.0 / 255);
+  run({"later.ray", "-w", "8", "-o", "a.bmp", "--time", "2"});
+  EXPECT_EQ(brightness("a.bmp"), 1);
+}
+
+TEST_F(Frames, AreSkippedWhenTheyAreThereWithTheSameSettings) {
+  render();
+  const auto before = written("glow.0003.png");
+  Run r = render({"-t", "1"});  // threads do not change a picture
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(contains(r.last, "nothing to write")) << r.err;
+  EXPECT_EQ(written("glow.0003.png"), before);
+  std::filesystem::remove(path("glow.0002.png"));
+  write("glow.0004.png", "no picture");
+  r = render();
+  EXPECT_TRUE(contains(r.last, "(2 frames, 8x4; 3 already there)")) << r.err;
+  EXPECT_EQ(written("glow.0003.png"), before);
+  EXPECT_EQ(brightness("glow.0004.png"), 1);
+}
+
+TEST_F(Frames, AreRenderedAgainWhenSettingsSceneOrSizeDiffer) {
+  render();
+  EXPECT_TRUE(contains(render({"--depth", "2"}).last, "(5 frames, 8x4)"));
+  EXPECT_TRUE(contains(render({"--depth", "2", "--passes", "id"}).last, "(5 frames, 8x4 and the pass id)"));
+  EXPECT_TRUE(contains(render({"--depth", "2", "--passes", "id"}).last, "nothing to write"));
+  std::filesystem::remove(path("glow.0001.id.exr"));
+  EXPECT_TRUE(
+      contains(render({"--depth", "2", "--passes", "id"}).last, "(1 frame, 8x4 and the pass id; 4 already"));
+  write("glow.ray", std::string(kGlow) + " // edited");
+  EXPECT_TRUE(contains(render({"--depth", "2", "--passes", "id"}).last, "(5 frames"));
+}
+
+TEST_F(Frames, EveryNthAndSingleOnes) {
+  EXPECT_EQ(render({}, "0-4/2").code, 0);
+  EXPECT_TRUE(exists("glow.0002.png") && !exists("glow.0001.png"));
+  EXPECT_EQ(render({"-o", "one.png"}, "3").code, 0);
+  EXPECT_TRUE(exists("one.png"));
+}
+
+TEST_F(Frames, WrongOnesAreRefused) {
+  for (const char* wrong : {"", "a", "4-2", "-3", "1.5", "1-2-3", "0-9/0", "0-9/", "1-2000000"})
+    EXPECT_EQ(render({}, wrong).code, 2) << wrong;
+  const Run r = render({"-o", "one.png"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "####"));
+  EXPECT_EQ(render({"--fps", "0"}).code, 2);
+}
+
+TEST_F(Frames, CtrlCLeavesFinishedFrames) {
+  write("slow.ray", std::string(kGlow) + "scale(5, sphere { material = { reflective = (0.9, 0.9, 0.9); } })");
+  Program program(folder(),
+                  {"slow.ray", "-w", "500", "--spp", "9", "--frames", "0-500", "--log-level", "debug"});
+  ASSERT_TRUE(program.says("wrote slow.0000.png"));
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 4) << program.err();
+  EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote slow.0000.png")) << program.err();
+  EXPECT_TRUE(contains(program.lastLine(), " of 501 frames"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    if (entry.path().extension() != ".png") continue;
+    for (const auto& [key, text] : readMetadata(entry.path().string())) EXPECT_NE(key, "Incomplete");
+  }
+}
+
+}  // namespace
+}  // namespace trace::test
