@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -69,7 +70,11 @@ std::string readFile(const std::string& path) {
   if (fs::is_directory(path, ignored)) fail("read", path, "it is a folder");
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) fail("read", path, std::strerror(errno));
-  std::string bytes;
+  // A file of known size in one go; a pipe, or what has grown since, piece by piece.
+  std::error_code unknown;
+  const std::uintmax_t size = fs::file_size(path, unknown);
+  std::string bytes(unknown ? 0 : static_cast<size_t>(size), '\0');
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file));
   char buffer[1 << 16];
   for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) bytes.append(buffer, n);
   const bool failed = std::ferror(file);

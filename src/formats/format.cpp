@@ -6,25 +6,37 @@
 #include <utility>
 
 #include "base/file.h"
+#include "formats/ply_format.h"
 #include "formats/ray_format.h"
 
 namespace trace {
 namespace {
 
+using Suffixes = std::array<std::string_view, 1>;
+constexpr Suffixes kRay{".ray"}, kPly{".ply"};
+
 constexpr std::array kTable{
-    SceneFormat{"ray", "scenes that begin with SBT-raytracer 1.0", recognisesRay, readRay},
+    SceneFormat{.name = "ray",
+                .suffixes = kRay,
+                .help = "scenes that begin with SBT-raytracer 1.0",
+                .recognises = recognisesRay,
+                .read = readRay},
+    SceneFormat{.name = "ply",
+                .suffixes = kPly,
+                .help = "PLY meshes, text and binary",
+                .recognises = recognisesPly,
+                .readModel = readPly},
 };
 
 /// What bytes that are no scene look like.
 std::string kindOf(std::string_view bytes) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kBeginnings{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
       {"\xff\xd8\xff", "a JPEG picture"},
       {"BM", "a BMP picture"},
       {"GIF8", "a GIF picture"},
       {"\x76\x2f\x31\x01", "an OpenEXR picture"},
       {"#?RADIANCE", "a Radiance picture"},
-      {"ply", "a PLY mesh"},
       {"#Inventor", "an Open Inventor scene, which Trace does not read yet"},
       {"#VRML", "a VRML scene, which Trace does not read"},
       {"glTF", "a glTF scene, which Trace does not read"},
@@ -45,11 +57,19 @@ std::string kindOf(std::string_view bytes) {
   return "other text";
 }
 
-std::string expectedFormats() {
-  std::string text;
-  for (const SceneFormat& format : sceneFormats())
-    text += (text.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
-  return text;
+/// The row that fits, of those that `wanted` accepts. Throws Error(Fault::scene).
+template <class Wanted>
+const SceneFormat& formatOf(const std::string& file, std::string_view bytes, const char* expected,
+                            Wanted&& wanted) {
+  std::string known;
+  for (const SceneFormat& format : sceneFormats()) {
+    if (!wanted(format)) continue;
+    if (format.recognises(bytes)) return format;
+    known += (known.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
+  }
+  throw Error(Fault::scene, Place{file, 0, 0, {}},
+              "expected " + std::string(expected) + ", found " + kindOf(bytes),
+              "formats Trace reads: " + known);
 }
 
 }  // namespace
@@ -61,10 +81,16 @@ Scene readScene(const std::string& file, Messages& messages) {
 }
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages) {
-  for (const SceneFormat& format : sceneFormats())
-    if (format.recognises(bytes)) return format.read(file, bytes, messages);
-  throw Error(Fault::scene, Place{file, 0, 0, {}}, "expected a scene, found " + kindOf(bytes),
-              "formats Trace reads: " + expectedFormats());
+  const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
+  if (format.read) return format.read(file, bytes, messages);
+  return sceneOf(format.readModel(file, bytes, messages), file, format.name);
+}
+
+Model readModel(const std::string& file, Messages& messages) {
+  const std::string bytes = readFile(file);
+  const SceneFormat& format =
+      formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
+  return format.readModel(file, bytes, messages);
 }
 
 }  // namespace trace

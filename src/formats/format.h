@@ -1,4 +1,5 @@
-// THE table of scene formats, and reading any of them. A format is recognised by its content.
+// THE table of scene formats, and reading and writing any of them. A format is recognised by its content;
+// what is written follows from the file's name.
 #pragma once
 
 #include <span>
@@ -6,16 +7,20 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "formats/model.h"
 #include "scene/scene.h"
 
 namespace trace {
 
+/// A row of the table. A format has `read`, or, if it holds meshes that other scenes may name, `readModel`.
 struct SceneFormat {
   std::string_view name;
-  std::string_view help;
+  std::span<const std::string_view> suffixes;  ///< lower case with the dot, the usual one first
+  std::string_view help;                       ///< one sentence, no full stop
   bool (*recognises)(std::string_view bytes);
   /// Repairs what it can with warnings. Throws Error(Fault::scene) for the rest.
-  Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages);
+  Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
+  Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
 };
 
 std::span<const SceneFormat> sceneFormats();
@@ -24,5 +29,8 @@ std::span<const SceneFormat> sceneFormats();
 /// content is wrong.
 Scene readScene(const std::string& file, Messages& messages);
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages);
+
+/// The meshes of a file of a format with `readModel`. Throws as readScene().
+Model readModel(const std::string& file, Messages& messages);
 
 }  // namespace trace

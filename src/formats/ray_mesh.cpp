@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/ray_fields.h"
+#include "geometry/mesh_repair.h"
 
 namespace trace::rayfile {
 namespace {
@@ -25,8 +26,7 @@ class MeshReader {
     for (const Item item : block) good_ &= field(item);
     if (good_) good_ = checkCounts() && readFaces();
     if (!good_) return {};
-    dropDegenerate(block);
-    repairNormals(block);
+    repair(block);
     node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
     return std::move(node_);
   }
@@ -169,42 +169,11 @@ class MeshReader {
     return true;
   }
 
-  // --- repairs ---
-
-  void dropDegenerate(const Item& block) {
-    MeshData kept = std::move(data_);
-    const std::vector<Triangle> all = kept.triangles;
-    std::size_t n = 0;
-    for (std::uint32_t i = 0; i < all.size(); ++i)
-      if (faceNormal(kept, i) != Vec3{}) kept.triangles[n++] = all[i];
-    kept.triangles.resize(n);
-    data_ = std::move(kept);
-    if (n < all.size())
-      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", all.size() - n);
-  }
-
-  /// A zero normal becomes the mean of the unit normals of the faces around its point. (Where normals are
-  /// generated they are added to it anyway.)
-  void repairNormals(const Item& block) {
-    if (data_.generateNormals || data_.normals.empty()) return;
-    std::size_t repaired = 0;
-    std::optional<MeshData> generated;
-    for (std::size_t i = 0; i < data_.normals.size(); ++i) {
-      if (data_.normals[i] != Vec3f{}) continue;
-      if (!generated) generated = withGeneratedNormals(withoutNormals(), true);
-      data_.normals[i] = generated->normals[i];
-      ++repaired;
-    }
-    if (repaired)
-      findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces",
-                             repaired);
-  }
-
-  MeshData withoutNormals() const {
-    MeshData mesh;
-    mesh.points = data_.points;
-    mesh.triangles = data_.triangles;
-    return mesh;
+  void repair(const Item& block) {
+    if (const std::size_t n = dropDegenerate(data_); n > 0)
+      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", n);
+    if (const std::size_t n = repairNormals(data_); n > 0)
+      findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces", n);
   }
 
   Findings& findings_;
