@@ -83,6 +83,14 @@ std::string readFile(const std::string& path) {
   return bytes;
 }
 
+std::string readBeside(const std::string& from, const std::string& name) {
+  const std::string path = besideFile(from, name);
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    fail("read", path, "it is no ordinary file");
+  return readFile(path);
+}
+
 void writeFile(const std::string& path, std::string_view bytes) { TemporaryFile(path).keep(bytes); }
 
 void checkWritable(const std::string& path) { TemporaryFile unused(path); }

@@ -6,14 +6,19 @@
 #include <utility>
 
 #include "base/file.h"
+#include "formats/gltf_format.h"
+#include "formats/obj_format.h"
+#include "formats/off_format.h"
 #include "formats/ply_format.h"
 #include "formats/ray_format.h"
+#include "formats/stl_format.h"
 
 namespace trace {
 namespace {
 
 using Suffixes = std::array<std::string_view, 1>;
-constexpr Suffixes kRay{".ray"}, kPly{".ply"};
+constexpr Suffixes kRay{".ray"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
+constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"};
 
 constexpr std::array kTable{
     SceneFormat{.name = "ray",
@@ -26,11 +31,31 @@ constexpr std::array kTable{
                 .help = "PLY meshes, text and binary",
                 .recognises = recognisesPly,
                 .readModel = readPly},
+    SceneFormat{.name = "off",
+                .suffixes = kOff,
+                .help = "OFF meshes, text",
+                .recognises = recognisesOff,
+                .readModel = readOff},
+    SceneFormat{.name = "stl",
+                .suffixes = kStl,
+                .help = "STL triangles, text and binary",
+                .recognises = recognisesStl,
+                .readModel = readStl},
+    SceneFormat{.name = "obj",
+                .suffixes = kObj,
+                .help = "Wavefront OBJ meshes with MTL materials",
+                .recognises = recognisesObj,
+                .readModel = readObj},
+    SceneFormat{.name = "gltf",
+                .suffixes = kGltf,
+                .help = "glTF 2.0 scenes, text and binary",
+                .recognises = recognisesGltf,
+                .readModel = readGltf},
 };
 
 /// What bytes that are no scene look like.
 std::string kindOf(std::string_view bytes) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kBeginnings{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
       {"\xff\xd8\xff", "a JPEG picture"},
       {"BM", "a BMP picture"},
@@ -39,7 +64,6 @@ std::string kindOf(std::string_view bytes) {
       {"#?RADIANCE", "a Radiance picture"},
       {"#Inventor", "an Open Inventor scene, which Trace does not read yet"},
       {"#VRML", "a VRML scene, which Trace does not read"},
-      {"glTF", "a glTF scene, which Trace does not read"},
       {"%PDF", "a PDF document"},
       {"PK\x03\x04", "a zip archive"},
       {"\x7f"
@@ -86,8 +110,7 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
   return sceneOf(format.readModel(file, bytes, messages), file, format.name);
 }
 
-Model readModel(const std::string& file, Messages& messages) {
-  const std::string bytes = readFile(file);
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
   const SceneFormat& format =
       formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
   return format.readModel(file, bytes, messages);

@@ -30,7 +30,7 @@ std::span<const SceneFormat> sceneFormats();
 Scene readScene(const std::string& file, Messages& messages);
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages);
 
-/// The meshes of a file of a format with `readModel`. Throws as readScene().
-Model readModel(const std::string& file, Messages& messages);
+/// The meshes in the bytes of a file of a format with `readModel`. Throws as readScene().
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages);
 
 }  // namespace trace

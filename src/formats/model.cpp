@@ -35,36 +35,42 @@ Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& bas
 
 }  // namespace
 
-void checkMesh(MeshData& mesh, const std::string& file, Messages& messages) {
-  const Place place{file, 0, 0, {}};
+void MeshRepairs::check(MeshData& mesh, const Place& place) {
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     if (!isFinite(mesh.points[i]))
       throw Error(Fault::scene, place,
                   "point " + std::to_string(i) + ": expected three finite numbers of at most 3.4e38");
-  std::size_t odd = 0;
   for (Vec3f& normal : mesh.normals)
-    if (!isFinite(normal)) normal = {}, ++odd;
+    if (!isFinite(normal)) normal = {}, ++notFinite_;
   for (Vec2& uv : mesh.uvs)
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++odd;
-  if (odd > 0) messages.warn(place, "normals or uv that are not finite are replaced: " + std::to_string(odd));
-  if (const std::size_t n = dropDegenerate(mesh); n > 0)
-    messages.warn(place, "triangles without area are left out: " + std::to_string(n));
-  if (const std::size_t n = repairNormals(mesh); n > 0)
-    messages.warn(place, "normals of length 0 are taken from the faces: " + std::to_string(n));
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++notFinite_;
+  degenerate_ += dropDegenerate(mesh);
+  zeroNormals_ += repairNormals(mesh);
+  triangles_ += mesh.triangles.size();
+}
+
+void MeshRepairs::report(const Place& place, Messages& messages) const {
+  const auto warn = [&](const char* what, std::size_t count) {
+    if (count > 0) messages.warn(place, what + (": " + std::to_string(count)));
+  };
+  warn("normals or uv that are not finite are replaced", notFinite_);
+  warn("triangles without area are left out", degenerate_);
+  warn("normals of length 0 are taken from the faces", zeroNormals_);
+  if (triangles_ == 0) messages.warn(place, "the file has no triangle that can be seen");
 }
 
 std::vector<Object> placed(const Model& model, const Material& base,
                            const std::function<std::uint32_t(const Material&)>& index) {
-  std::vector<std::uint32_t> numbers;
-  for (const Material& material : model.materials) numbers.push_back(index(material));
-  std::optional<std::uint32_t> baseNumber;
+  // Numbers of the materials that are used, and of `base` behind them.
+  std::vector<std::optional<std::uint32_t>> numbers(model.materials.size() + 1);
   std::map<std::pair<const MeshData*, std::uint32_t>, Mesh> colored;  // instances share these too
   std::vector<Object> objects = model.objects;
   for (Object& object : objects) {
     const std::uint32_t own = object.material;
     const bool none = own == Model::kNoMaterial;
-    if (none && !baseNumber) baseNumber = index(base);
-    object.material = none ? *baseNumber : numbers[own];
+    auto& number = numbers[none ? model.materials.size() : own];
+    if (!number) number = index(none ? base : model.materials[own]);
+    object.material = *number;
     auto* mesh = std::get_if<Mesh>(&object.shape);
     if (!mesh || mesh->data->materials.empty()) continue;
     const auto [found, fresh] = colored.try_emplace({mesh->data.get(), own});
@@ -104,15 +110,23 @@ Box3 bounds(const Scene& scene) {
 }
 
 Camera framing(const Box3& box) {
-  constexpr Real kFov = 40;
+  constexpr Real kMargin = 1.08;  // of the picture around the box
   Camera camera;
-  camera.fov = kFov;
+  camera.fov = 40;
   camera.viewdir = normalize({-0.35, -0.3, -1});
-  const bool nothing = box.empty() || !isFinite(box.size());
-  const Vec3 centre = nothing ? Vec3{} : box.center();
-  const Real radius = nothing ? 1 : length(box.size()) / 2;
-  // So far that the sphere around the box just touches the edges of the picture.
-  camera.position = centre - camera.viewdir * ((radius > 0 ? radius : 1) / std::sin(kFov * kPi / 360));
+  const bool nothing = box.empty() || !isFinite(box.size()) || box.size() == Vec3{};
+  const Box3 seen = nothing ? Box3{{-1, -1, -1}, {1, 1, 1}} : box;
+  const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
+  const Vec3 right = normalize(axes.right), up = normalize(axes.up);
+  const Real slope = std::tan(camera.fov * kPi / 360) / kMargin;
+  Real distance = 0;  // from the centre, so that every corner is inside the picture's edges
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner = Vec3{i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
+    const Vec3 size = seen.size(), p{corner.x * size.x, corner.y * size.y, corner.z * size.z};
+    const Real aside = max(std::abs(dot(p, right)), std::abs(dot(p, up)));
+    distance = max(distance, aside / slope - dot(p, camera.viewdir));
+  }
+  camera.position = seen.center() - camera.viewdir * distance;
   return camera;
 }
 

@@ -29,9 +29,17 @@ struct Model {
   std::vector<Color> colors;
 };
 
-/// Checks what every reader must: normals and triangles that can be used, numbers that are finite, something
-/// to see. Repairs with warnings. Call before the mesh goes into a Model. Throws Error(Fault::scene).
-void checkMesh(MeshData& mesh, const std::string& file, Messages& messages);
+/// What every reader checks in its meshes, and how often it had to repair them.
+class MeshRepairs {
+ public:
+  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) for a point that is not finite.
+  void check(MeshData& mesh, const Place& place);
+  /// Warns of what all meshes so far had.
+  void report(const Place& place, Messages& messages) const;
+
+ private:
+  std::size_t notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0, triangles_ = 0;
+};
 
 /// The model's objects as a scene has them. `base` is the material of those without one; `index` gives a
 /// material's number in the scene. Meshes are shared with the model unless their points are coloured.

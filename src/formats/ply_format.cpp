@@ -1,12 +1,12 @@
 // The meaning of PLY files: which elements and properties make a mesh. Those not known are skipped.
 #include "formats/ply_format.h"
 
-#include <cmath>
+#include <array>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "formats/ply_syntax.h"
+#include "formats/unique.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {
@@ -33,7 +33,9 @@ class PlyReader {
     if (!hasVertices_) fail("expected an element \"vertex\"");
     if (!hasFaces_)
       fail("expected an element \"face\" or \"tristrips\": this file holds points, and no surface");
-    checkMesh(mesh_, file_, messages_);
+    MeshRepairs repairs;
+    repairs.check(mesh_, Place{file_, 0, 0, {}});
+    repairs.report(Place{file_, 0, 0, {}}, messages_);
     model_.objects.push_back({"",
                               Mesh{std::make_shared<const MeshData>(std::move(mesh_))},
                               {},
@@ -91,14 +93,11 @@ class PlyReader {
   /// Whole numbers count from 0 to the most their type holds, others from 0 to 1. Equal colours become one.
   void takeColors(const std::vector<Vec3f>& colors, Type type) {
     const double scale = type == Type::uint8 ? 1.0 / 255 : type == Type::uint16 ? 1.0 / 65535 : 1;
-    std::unordered_map<std::string, std::uint32_t> numbers;
-    for (const Vec3f& color : colors) {
-      const Color scaled{color.x * scale, color.y * scale, color.z * scale};
-      if (!isFinite(scaled)) fail("expected colours that are finite numbers");
-      const std::string key(reinterpret_cast<const char*>(&color), sizeof color);
-      const auto [found, fresh] = numbers.emplace(key, static_cast<std::uint32_t>(model_.colors.size()));
-      if (fresh) model_.colors.push_back(scaled);
-      mesh_.materials.push_back(found->second);
+    Unique<Vec3f> unique;
+    for (const Vec3f& color : colors) mesh_.materials.push_back(unique.number(color));
+    for (const Vec3f& color : unique.keys()) {
+      model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
+      if (!isFinite(model_.colors.back())) fail("expected colours that are finite numbers");
     }
   }
 

@@ -1,4 +1,5 @@
-// Fuzz target: any bytes as a scene. Whatever they are, reading them returns a scene or throws Error.
+// Fuzz target: any bytes as a scene of any format of the table. Whatever they are, reading them returns a
+// scene or throws Error.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
