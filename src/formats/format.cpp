@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "base/file.h"
 #include "formats/gltf_format.h"
+#include "formats/mesh_writers.h"
 #include "formats/obj_format.h"
 #include "formats/off_format.h"
 #include "formats/ply_format.h"
 #include "formats/ray_format.h"
+#include "formats/ray_writer.h"
 #include "formats/stl_format.h"
 
 namespace trace {
@@ -25,12 +29,14 @@ constexpr std::array kTable{
                 .suffixes = kRay,
                 .help = "scenes that begin with SBT-raytracer 1.0",
                 .recognises = recognisesRay,
-                .read = readRay},
+                .read = readRay,
+                .write = writeRay},
     SceneFormat{.name = "ply",
                 .suffixes = kPly,
                 .help = "PLY meshes, text and binary",
                 .recognises = recognisesPly,
-                .readModel = readPly},
+                .readModel = readPly,
+                .write = writePly},
     SceneFormat{.name = "off",
                 .suffixes = kOff,
                 .help = "OFF meshes, text",
@@ -45,7 +51,8 @@ constexpr std::array kTable{
                 .suffixes = kObj,
                 .help = "Wavefront OBJ meshes with MTL materials",
                 .recognises = recognisesObj,
-                .readModel = readObj},
+                .readModel = readObj,
+                .write = writeObj},
     SceneFormat{.name = "gltf",
                 .suffixes = kGltf,
                 .help = "glTF 2.0 scenes, text and binary",
@@ -114,6 +121,19 @@ Model readModel(const std::string& file, std::string_view bytes, Messages& messa
   const SceneFormat& format =
       formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
   return format.readModel(file, bytes, messages);
+}
+
+const SceneFormat& writableFormatFor(const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string(), known;
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const SceneFormat& format : sceneFormats()) {
+    if (!format.write) continue;
+    for (std::string_view own : format.suffixes) {
+      if (own == suffix) return format;
+      known += (known.empty() ? "" : ", ") + std::string(own);
+    }
+  }
+  throw Error(Fault::usage, "\"" + file + "\": expected a name that ends in one of " + known);
 }
 
 }  // namespace trace

@@ -5,12 +5,23 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "formats/model.h"
 #include "scene/scene.h"
 
 namespace trace {
+
+/// A file to be written.
+struct NamedBytes {
+  std::string file, bytes;
+};
+
+struct WriteOptions {
+  int digits = 0;      ///< of numbers in text that count; 0 for as many as are needed to read the same back
+  bool ascii = false;  ///< text, where a format has both
+};
 
 /// A row of the table. A format has `read`, or, if it holds meshes that other scenes may name, `readModel`.
 struct SceneFormat {
@@ -21,6 +32,10 @@ struct SceneFormat {
   /// Repairs what it can with warnings. Throws Error(Fault::scene) for the rest.
   Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
   Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
+  /// The scene as `file`, and what belongs beside it. Warns of what the format cannot hold; throws
+  /// Error(Fault::scene) if nothing is left.
+  std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                   Messages& messages) = nullptr;
 };
 
 std::span<const SceneFormat> sceneFormats();
@@ -32,5 +47,8 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
 
 /// The meshes in the bytes of a file of a format with `readModel`. Throws as readScene().
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages);
+
+/// The row that writes files of that name, by its suffix in any case. Throws Error(Fault::usage).
+const SceneFormat& writableFormatFor(const std::string& file);
 
 }  // namespace trace
