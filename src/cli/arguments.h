@@ -15,6 +15,15 @@ namespace trace::cli {
 
 enum class StatsStyle { none, table, json };
 
+/// What `ray convert` is told.
+struct Conversion {
+  std::string camera, material;     ///< the inside of a block of a .ray file; empty to keep the scene's
+  std::vector<std::string> lights;  ///< whole nodes of a .ray file; empty to keep the scene's
+  int digits = 0;                   ///< 0 for as many as are needed
+  int steps = 64;                   ///< of --revolve
+  bool ascii = false, revolve = false;
+};
+
 struct Arguments {
   std::vector<std::string> files;  ///< words that are no flags, in order
   std::vector<Choice> choices;     ///< of options, in order
@@ -22,6 +31,7 @@ struct Arguments {
   ProgressStyle progress = ProgressStyle::automatic;
   LogLevel logLevel = LogLevel::info;
   StatsStyle stats = StatsStyle::none;
+  Conversion conversion;
   bool strict = false;
   bool quick = false;
   bool json = false;      ///< info: --format=json

@@ -63,6 +63,8 @@ std::span<const Command> commands() {
       Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
               true, render},
       Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
+      Command{"convert", "IN OUT", "write a scene or mesh in another format, by the suffix of OUT", true,
+              convert},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
       Command{"help", "[all]", "print help, or all of it", false, help},
   };

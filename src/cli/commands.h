@@ -31,6 +31,7 @@ int run(const std::vector<std::string>& words);
 // The functions of the table; each in its own file.
 int render(const Arguments& arguments, const Console& console);
 int info(const Arguments& arguments, const Console& console);
+int convert(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

@@ -46,7 +46,8 @@ class Writer {
   void writeSettings() {
     const auto isLike = [](const Choice& choice) { return choice.option == "like"; };
     // Else a reader could guess the dialect of 2001 from the shininess of materials.
-    if (std::none_of(scene_.choices.begin(), scene_.choices.end(), isLike)) out_ += "material = { };\n\n";
+    if (std::none_of(scene_.choices.begin(), scene_.choices.end(), isLike))
+      out_ += "material = { };  // what shapes start from\n\n";
     if (scene_.choices.empty()) return;
     out_ += "settings {\n";
     for (const Choice& choice : scene_.choices) field(choice.option, choice.value);
@@ -194,12 +195,10 @@ class Writer {
     out_ += "  " + std::string(keyword) + " = (\n    ";
     std::size_t lineStart = out_.size();
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (out_.size() - lineStart > kLine) {
-        out_ += "\n    ";
-        lineStart = out_.size();
-      }
+      const bool full = out_.size() - lineStart > kLine;
+      if (i > 0) out_ += full ? ",\n    " : ", ";
+      if (full) lineStart = out_.size();
       write(items[i]);
-      if (i + 1 < items.size()) out_ += ", ";
     }
     out_ += ");\n";
   }

@@ -25,6 +25,11 @@ class Words {
     return text_.substr(start_, at_ - start_);
   }
 
+  bool atEnd() {
+    skip();
+    return at_ == text_.size();
+  }
+
   /// Throws Error(Fault::scene) where there is no number.
   double number(std::string_view what) {
     const std::string_view word = next();
