@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/unique.h"
 #include "formats/gltf_material.h"
-#include "formats/unique.h"
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_EXTERNAL_IMAGE

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/file.h"
-#include "formats/unique.h"
+#include "base/unique.h"
 #include "geometry/mesh_repair.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION

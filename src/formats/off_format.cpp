@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "formats/unique.h"
+#include "base/unique.h"
 #include "formats/words.h"
 #include "geometry/mesh_repair.h"
 

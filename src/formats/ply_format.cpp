@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/unique.h"
 #include "formats/ply_syntax.h"
-#include "formats/unique.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {

@@ -8,13 +8,15 @@
 #include <utility>
 
 #include "formats/ray_fields.h"
+#include "formats/ray_mesh_operations.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 8> kFields{"faces", "gennormals", "material", "materials",
-                                                  "name",  "normals",    "points",   "texture_uv"};
+constexpr std::array<std::string_view, 10> kFields{"crease",    "faces",     "gennormals", "material",
+                                                   "materials", "name",      "normals",    "points",
+                                                   "subdivide", "texture_uv"};
 
 class MeshReader {
  public:
@@ -27,6 +29,7 @@ class MeshReader {
     if (good_) good_ = checkCounts() && readFaces();
     if (!good_) return {};
     repair(block);
+    if (!operations_.none()) data_ = operations_.apply(data_, findings_.syntax().shortPlace(block.offset()));
     node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
     return std::move(node_);
   }
@@ -59,6 +62,7 @@ class MeshReader {
       node_.material = materials_.read(value, materials_.current);
       return true;
     }
+    if (operations_.read(findings_, item)) return true;
     findings_.unknownField(Mesh::kKeyword, item, kFields);
     return true;
   }
@@ -180,6 +184,7 @@ class MeshReader {
   Materials& materials_;
   MeshNode node_;
   MeshData data_;
+  MeshOperations operations_;
   std::optional<Item> normals_, uvs_, materialList_, faces_;
   bool good_ = true;
 };

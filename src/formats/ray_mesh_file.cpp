@@ -12,7 +12,8 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 5> kFields{"file", "objfile", "gennormals", "material", "name"};
+constexpr std::array<std::string_view, 7> kFields{"crease",   "file", "objfile",  "gennormals",
+                                                  "material", "name", "subdivide"};
 
 bool isFile(const Item& item) { return item.keyed() && (item.key() == "file" || item.key() == "objfile"); }
 
@@ -30,6 +31,7 @@ std::vector<Object> MeshFiles::read(const Item& block) {
   // Black, which shapes without a material are, would only hide the mesh.
   Material material = materials_.current == Material{} ? plainMaterial() : materials_.current;
   bool generate = false;
+  MeshOperations operations;
   for (const Item item : block) {
     if (item.is(Kind::word) && item.text() == "gennormals") {
       generate = true;
@@ -43,18 +45,19 @@ std::vector<Object> MeshFiles::read(const Item& block) {
       rayfile::read(findings_, "gennormals", item.value(), generate);
     } else if (item.key() == "material") {
       material = materials_.read(item.value(), materials_.current);
-    } else {
+    } else if (!operations.read(findings_, item)) {
       findings_.unknownField("a mesh from a file", item, kFields);
     }
   }
   const Model* found = file ? model(*file, fileName) : nullptr;
   if (!found) return {};
 
-  const auto [placed, fresh] = placed_.try_emplace({found, materials_.index(material), generate});
+  const auto [placed, fresh] = placed_.try_emplace({found, materials_.index(material), generate, operations});
   if (fresh) {
     const auto index = [&](const Material& m) { return materials_.index(m); };
     placed->second = trace::placed(*found, material, index);
-    if (generate) generateNormals(placed->second);
+    if (generate || !operations.none())
+      change(placed->second, generate, operations, findings_.syntax().shortPlace(block.offset()));
   }
   std::vector<Object> objects = placed->second;
   if (!name.empty())
@@ -88,15 +91,17 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
   }
 }
 
-void MeshFiles::generateNormals(std::vector<Object>& objects) {
+/// Does to each mesh what its block asks for.
+void MeshFiles::change(std::vector<Object>& objects, bool generate, const MeshOperations& operations,
+                       const Place& place) {
   std::map<const MeshData*, Mesh> changed;
   for (Object& object : objects) {
     auto* mesh = std::get_if<Mesh>(&object.shape);
     if (!mesh) continue;
     const auto [found, fresh] = changed.try_emplace(mesh->data.get());
     if (fresh) {
-      MeshData data = *mesh->data;
-      data.generateNormals = true;
+      MeshData data = operations.none() ? *mesh->data : operations.apply(*mesh->data, place);
+      data.generateNormals |= generate;
       found->second.data = std::make_shared<const MeshData>(std::move(data));
     }
     *mesh = found->second;

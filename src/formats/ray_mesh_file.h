@@ -10,6 +10,7 @@
 #include "formats/model.h"
 #include "formats/ray_findings.h"
 #include "formats/ray_material.h"
+#include "formats/ray_mesh_operations.h"
 #include "formats/ray_syntax.h"
 
 namespace trace::rayfile {
@@ -28,13 +29,14 @@ class MeshFiles {
 
  private:
   const Model* model(const Item& field, const std::string& name);
-  static void generateNormals(std::vector<Object>& objects);
+  static void change(std::vector<Object>& objects, bool generate, const MeshOperations& operations,
+                     const Place& place);
 
   Findings& findings_;
   Materials& materials_;
   std::map<std::string, Model> models_;
-  /// By file, number of the material for parts without one, and whether normals are generated.
-  std::map<std::tuple<const Model*, std::uint32_t, bool>, std::vector<Object>> placed_;
+  /// By file, number of the material for parts without one, and what is done to the meshes.
+  std::map<std::tuple<const Model*, std::uint32_t, bool, MeshOperations>, std::vector<Object>> placed_;
 };
 
 }  // namespace trace::rayfile

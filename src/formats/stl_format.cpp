@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "formats/unique.h"
+#include "base/unique.h"
 #include "formats/words.h"
 
 namespace trace {
