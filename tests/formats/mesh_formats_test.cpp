@@ -176,6 +176,25 @@ mesh { file = "ply/little.ply"; })")
   EXPECT_EQ(std::get<Phong>(scene.materials.at(coloured.materials[1]).model).diffuse.r, 1);
 }
 
+TEST(RayMeshFile, SmoothsAndSubdivides) {
+  const Scene scene = loadBeside(R"(
+mesh { file = "off/cube.off"; subdivide = 1; }
+mesh { file = "off/cube.off"; crease = 45; }
+mesh { file = "off/cube.off"; crease = 45; }
+polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0,1,2)); subdivide = 2; crease = 10; })")
+                          .scene;
+  ASSERT_EQ(scene.objects.size(), 4u);
+  EXPECT_EQ(meshOf(scene, 0).triangles.size(), 48u);
+  EXPECT_TRUE(meshOf(scene, 0).generateNormals);
+  EXPECT_EQ(meshOf(scene, 1).points.size(), 24u);
+  EXPECT_EQ(&meshOf(scene, 1), &meshOf(scene, 2));
+  EXPECT_EQ(meshOf(scene, 3).triangles.size(), 16u);
+  EXPECT_EQ(meshOf(scene, 3).normals.size(), meshOf(scene, 3).points.size());
+  EXPECT_EQ(errorsOf("polymesh { crease = 181; subdivide = 1.5; }"),
+            "2:21: crease: expected an angle from 0 to 180 degrees, found 181\n"
+            "2:38: subdivide: expected a whole number from 0 to 10, found 1.5");
+}
+
 TEST(RayMeshFile, SaysWhatIsWrong) {
   const auto errors = [](const std::string& text) -> std::string {
     try {
