@@ -356,7 +356,7 @@ class Reader {
             part.material);
       return;
     }
-    std::optional<MeshNode> node = readMesh(findings_, materials_, block);
+    std::optional<MeshNode> node = readMesh(findings_, materials_, sharedMeshes_, block);
     if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
   }
 
@@ -486,6 +486,7 @@ class Reader {
   Findings findings_;
   Materials materials_;
   MeshFiles meshFiles_;
+  SharedMeshes sharedMeshes_;
 };
 
 }  // namespace

@@ -14,27 +14,41 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 10> kFields{"crease",    "faces",     "gennormals", "material",
-                                                   "materials", "name",      "normals",    "points",
-                                                   "subdivide", "texture_uv"};
+constexpr std::array<std::string_view, 11> kFields{"shared",   "crease",    "faces",     "gennormals",
+                                                   "material", "materials", "name",      "normals",
+                                                   "points",   "subdivide", "texture_uv"};
 
 class MeshReader {
  public:
-  MeshReader(Findings& findings, Materials& materials) : findings_(findings), materials_(materials) {
+  MeshReader(Findings& findings, Materials& materials, SharedMeshes& shared)
+      : findings_(findings), materials_(materials), shared_(shared) {
     node_.material = materials.current;
   }
 
   std::optional<MeshNode> read(const Item& block) {
     for (const Item item : block) good_ &= field(item);
+    if (sharedAs_ && data_.points.empty() && !faces_) return again();
     if (good_) good_ = checkCounts() && readFaces();
     if (!good_) return {};
     repair(block);
     if (!operations_.none()) data_ = operations_.apply(data_, findings_.syntax().shortPlace(block.offset()));
     node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
+    if (sharedAs_) shared_.insert_or_assign(sharedName_, node_.mesh);
     return std::move(node_);
   }
 
  private:
+  /// The mesh of an earlier block.
+  std::optional<MeshNode> again() {
+    const auto found = shared_.find(sharedName_);
+    if (good_ && found == shared_.end())
+      findings_.error(*sharedAs_, "expected the name of a mesh before, found " + describe(sharedAs_->value()),
+                      "a mesh is shared by shared = NAME beside its points");
+    if (!good_ || found == shared_.end()) return {};
+    node_.mesh = found->second;
+    return std::move(node_);
+  }
+
   bool field(const Item& item) {
     if (item.is(Kind::word) && item.text() == "gennormals") {
       findings_.sureSignOf2005();
@@ -56,6 +70,7 @@ class MeshReader {
     if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
+    if (key == "shared") return rayfile::read(findings_, key, sharedAs_.emplace(item).value(), sharedName_);
     if (key == "name") return rayfile::read(findings_, key, value, node_.name);
     if (key == "material") {
       if (item.is(Kind::call)) findings_.sureSignOf2001(item);
@@ -182,7 +197,10 @@ class MeshReader {
 
   Findings& findings_;
   Materials& materials_;
+  SharedMeshes& shared_;
   MeshNode node_;
+  std::string sharedName_;
+  std::optional<Item> sharedAs_;
   MeshData data_;
   MeshOperations operations_;
   std::optional<Item> normals_, uvs_, materialList_, faces_;
@@ -191,8 +209,9 @@ class MeshReader {
 
 }  // namespace
 
-std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, const Item& block) {
-  return MeshReader(findings, materials).read(block);
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, SharedMeshes& shared,
+                                 const Item& block) {
+  return MeshReader(findings, materials, shared).read(block);
 }
 
 }  // namespace trace::rayfile

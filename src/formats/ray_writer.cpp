@@ -1,7 +1,8 @@
 // Loops over the lists of shapes, lights and fields, as the reader does: a new one needs nothing here.
 //
 // Every material stands where it is used, as a whole, since a block inherits from what is in force around it;
-// a named one is written once and then named. Meshes from files are written in full.
+// a named one is written once and then named. Meshes from files are written in full, but those of several
+// objects only once.
 #include "formats/ray_writer.h"
 
 #include <algorithm>
@@ -19,7 +20,10 @@ namespace {
 
 class Writer {
  public:
-  Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {}
+  Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Object& object : scene.objects)
+      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) ++uses_[mesh->data.get()];
+  }
 
   std::string write() {
     out_ = "SBT-raytracer 1.0\n\n";
@@ -176,6 +180,11 @@ class Writer {
   void writeMesh(const Object& object, const MeshData& mesh) {
     out_ += std::string(Mesh::kKeyword) + " {\n";
     writeName(object);
+    if (uses_.at(&mesh) > 1) {
+      const auto [number, fresh] = shared_.try_emplace(&mesh, shared_.size());
+      out_ += "  shared = " + std::to_string(number->second) + ";\n";
+      if (!fresh) return writeOwnMaterial(object);
+    }
     list("points", mesh.points, [&](const Vec3f& p) { tuple(std::array{p.x, p.y, p.z}); });
     if (!mesh.normals.empty())
       list("normals", mesh.normals, [&](const Vec3f& n) { tuple(std::array{n.x, n.y, n.z}); });
@@ -219,6 +228,8 @@ class Writer {
   const Scene& scene_;
   int digits_;
   std::string out_;
+  std::map<const MeshData*, std::size_t> uses_,
+      shared_;                                  ///< how many objects have a mesh; its number in the file
   std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 

@@ -153,6 +153,20 @@ TEST(RayWriter, KeepsHowASurfaceMirrors) {
         }
 }
 
+TEST(RayWriter, WritesASharedMeshOnce) {
+  const Scene scene = again(R"(SBT-raytracer 1.0
+polymesh { shared = ball; points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0,1,2)); name = first; }
+translate(1, 2, 3, mesh { shared = ball; material = { diffuse = (1, 0, 0); } }))");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(&meshOf(scene, 0), &meshOf(scene, 1));
+  expectRoundTrip(scene, "shared");
+  const Scene back = again(written(scene));
+  EXPECT_EQ(&meshOf(back, 0), &meshOf(back, 1));
+  EXPECT_EQ(errorsOf("mesh { shared = 7; }"),
+            "2:8: expected the name of a mesh before, found 7 [a mesh is shared by shared = NAME beside its "
+            "points]");
+}
+
 TEST(RayWriter, NamesWithOddLettersLoseThem) {
   Scene scene = again("SBT-raytracer 1.0 sphere { name = x; }");
   scene.objects[0].name = "say \"hi\"\n// }";
