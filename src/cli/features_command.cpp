@@ -25,7 +25,8 @@ std::string featuresText() {
   text += "integrators\n";
   for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
   text += "scene formats\n";
-  for (const SceneFormat& format : sceneFormats()) text += row(format.name, format.help);
+  for (const SceneFormat& format : sceneFormats())
+    text += row(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
   text += "picture formats\n";
   for (const PictureFormat& format : pictureFormats()) {
     std::string suffixes;

@@ -1,6 +1,6 @@
 // The only file that knows tinygltf, which takes the JSON apart and finds the buffers. It trusts the file in
 // some places where a damaged one must not be trusted: checkContainer() looks at those first, and every index
-// and range is checked here.
+// and range is checked here. (Long, because no other file is to know the library.)
 #include "formats/gltf_format.h"
 
 #include <algorithm>

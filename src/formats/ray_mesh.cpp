@@ -14,9 +14,9 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 11> kFields{"shared",   "crease",    "faces",     "gennormals",
-                                                   "material", "materials", "name",      "normals",
-                                                   "points",   "subdivide", "texture_uv"};
+constexpr std::array<std::string_view, 12> kFields{"uv",         "shared",   "crease",    "faces",
+                                                   "gennormals", "material", "materials", "name",
+                                                   "normals",    "points",   "subdivide", "texture_uv"};
 
 class MeshReader {
  public:

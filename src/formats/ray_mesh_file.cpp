@@ -12,8 +12,8 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 7> kFields{"crease",   "file", "objfile",  "gennormals",
-                                                  "material", "name", "subdivide"};
+constexpr std::array<std::string_view, 8> kFields{"uv",         "crease",   "file", "objfile",
+                                                  "gennormals", "material", "name", "subdivide"};
 
 bool isFile(const Item& item) { return item.keyed() && (item.key() == "file" || item.key() == "objfile"); }
 
@@ -100,8 +100,9 @@ void MeshFiles::change(std::vector<Object>& objects, bool generate, const MeshOp
     if (!mesh) continue;
     const auto [found, fresh] = changed.try_emplace(mesh->data.get());
     if (fresh) {
-      MeshData data = operations.none() ? *mesh->data : operations.apply(*mesh->data, place);
-      data.generateNormals |= generate;
+      MeshData data = *mesh->data;
+      data.generateNormals = generate;
+      if (!operations.none()) data = operations.apply(data, place);
       found->second.data = std::make_shared<const MeshData>(std::move(data));
     }
     *mesh = found->second;

@@ -20,6 +20,11 @@ bool MeshOperations::read(Findings& findings, const Item& field) {
       findings.expected(field.value(), key, "an angle from 0 to 180 degrees");
     return true;
   }
+  if (key == "uv") {
+    uv = field.value().is(Kind::word) ? uvProjection(field.value().text()) : std::nullopt;
+    if (!uv) findings.expected(field.value(), key, "spherical, cylindrical, planar or cubic");
+    return true;
+  }
   if (key != "subdivide") return false;
   if (!rayfile::read(findings, key, field.value(), number)) return true;
   if (number >= 0 && number <= 10 && number == std::floor(number))
@@ -40,7 +45,8 @@ MeshData MeshOperations::apply(const MeshData& mesh, const Place& place) const {
     dropDegenerate(result);
     result.generateNormals = crease < 0;
   }
-  return crease >= 0 ? withCreaseNormals(result, crease * kPi / 180) : result;
+  if (crease >= 0) result = withCreaseNormals(result, crease * kPi / 180);
+  return uv ? withProjectedUvs(result, *uv) : result;
 }
 
 }  // namespace trace::rayfile

@@ -190,6 +190,9 @@ polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0,1,2)); subdivide = 
   EXPECT_EQ(&meshOf(scene, 1), &meshOf(scene, 2));
   EXPECT_EQ(meshOf(scene, 3).triangles.size(), 16u);
   EXPECT_EQ(meshOf(scene, 3).normals.size(), meshOf(scene, 3).points.size());
+  EXPECT_GT(meshOf(loadBeside("mesh { file = \"off/cube.off\"; uv = cubic; }").scene).uvs.size(), 8u);
+  EXPECT_EQ(errorsOf("mesh { uv = conical; }"),
+            "2:13: uv: expected spherical, cylindrical, planar or cubic, found \"conical\"");
   EXPECT_EQ(errorsOf("polymesh { crease = 181; subdivide = 1.5; }"),
             "2:21: crease: expected an angle from 0 to 180 degrees, found 181\n"
             "2:38: subdivide: expected a whole number from 0 to 10, found 1.5");
