@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -69,13 +70,25 @@ std::string readFile(const std::string& path) {
   if (fs::is_directory(path, ignored)) fail("read", path, "it is a folder");
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) fail("read", path, std::strerror(errno));
-  std::string bytes;
+  // A file of known size in one go; a pipe, or what has grown since, piece by piece.
+  std::error_code unknown;
+  const std::uintmax_t size = fs::file_size(path, unknown);
+  std::string bytes(unknown ? 0 : static_cast<size_t>(size), '\0');
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file));
   char buffer[1 << 16];
   for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) bytes.append(buffer, n);
   const bool failed = std::ferror(file);
   std::fclose(file);
   if (failed) fail("read", path, std::strerror(errno));
   return bytes;
+}
+
+std::string readBeside(const std::string& from, const std::string& name) {
+  const std::string path = besideFile(from, name);
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    fail("read", path, "it is no ordinary file");
+  return readFile(path);
 }
 
 void writeFile(const std::string& path, std::string_view bytes) { TemporaryFile(path).keep(bytes); }

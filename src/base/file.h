@@ -9,6 +9,10 @@ namespace trace {
 /// The bytes of the file. Throws Error(Fault::io) with the reason when it cannot be read.
 std::string readFile(const std::string& path);
 
+/// The bytes of a file that the file `from` names: besideFile(from, name). Throws as readFile(), and for what
+/// is no regular file, which may have no end.
+std::string readBeside(const std::string& from, const std::string& name);
+
 /// Writes to a temporary name beside `path`, then renames. Throws Error(Fault::io); `path` is then untouched.
 void writeFile(const std::string& path, std::string_view bytes);
 

@@ -66,6 +66,40 @@ std::string toText(double number) {
   return buffer;
 }
 
+void appendNumber(std::string& text, double number, int digits) {
+  char buffer[40];
+  if (digits > 0) {
+    text.append(buffer, static_cast<size_t>(std::snprintf(buffer, sizeof buffer, "%.*g", digits, number)));
+    return;
+  }
+#if defined(__cpp_lib_to_chars)
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
+#else
+  text += toText(number);
+#endif
+}
+
+void appendNumber(std::string& text, float number, int digits) {
+  if (digits > 0) return appendNumber(text, static_cast<double>(number), digits);
+  char buffer[40];
+  size_t length = 0;
+#if defined(__cpp_lib_to_chars)
+  length = static_cast<size_t>(std::to_chars(buffer, buffer + sizeof buffer, number).ptr - buffer);
+#else
+  for (int n = 1; n <= 9; ++n) {
+    length =
+        static_cast<size_t>(std::snprintf(buffer, sizeof buffer, "%.*g", n, static_cast<double>(number)));
+    if (std::strtof(buffer, nullptr) == number) break;
+  }
+#endif
+  // Rounding twice, to a double and then to a float, can differ from rounding once.
+  const auto back = parseNumber({buffer, length});
+  if (back && static_cast<float>(back->value) == number)
+    text.append(buffer, length);
+  else
+    appendNumber(text, static_cast<double>(number));
+}
+
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.size() > 60) return {};
   std::string_view best;

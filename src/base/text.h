@@ -21,6 +21,11 @@ std::optional<ParsedNumber> parseNumber(std::string_view text);
 /// The shortest decimal that reads back as the same number.
 std::string toText(double number);
 
+/// Appends the number as a decimal: the shortest that reads back as the same number, or with `digits` digits
+/// that count. That of a float also reads back through a double. For bulk data: faster than toText().
+void appendNumber(std::string& text, double number, int digits = 0);
+void appendNumber(std::string& text, float number, int digits = 0);
+
 /// The candidate nearest to a misspelt `word`, or "" when none is near.
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates);
 /// `did you mean "..."?`, or "" when nothing is near.

@@ -17,6 +17,15 @@ namespace trace::cli {
 
 enum class StatsStyle { none, table, json };
 
+/// What `ray convert` is told.
+struct Conversion {
+  std::string camera, material;     ///< the inside of a block of a .ray file; empty to keep the scene's
+  std::vector<std::string> lights;  ///< whole nodes of a .ray file; empty to keep the scene's
+  int digits = 0;                   ///< 0 for as many as are needed
+  int steps = 64;                   ///< of --revolve
+  bool ascii = false, revolve = false;
+};
+
 struct Arguments {
   std::vector<std::string> files;  ///< words that are no flags, in order
   std::vector<Choice> choices;     ///< of options, in order
@@ -26,6 +35,7 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   std::vector<int> frames;  ///< --frames, in order; empty for one picture
   double framesPerSecond = 24;
+  Conversion conversion;
   bool strict = false;
   bool quick = false;
   std::string format;     ///< --format; may be empty

@@ -80,6 +80,8 @@ std::span<const Command> commands() {
       Command{"diff", "A B", "how far two pictures are apart, in numbers and as a picture", false, diff},
       Command{"grade", "DIR --reference DIR",
               "compare a folder of pictures, or of scenes, with reference pictures", false, grade},
+      Command{"convert", "IN OUT", "write a scene or mesh in another format, by the suffix of OUT", true,
+              convert},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
       Command{"help", "[all]", "print help, or all of it", false, help},
   };

@@ -39,6 +39,7 @@ int explain(const Arguments& arguments, const Console& console);
 int lint(const Arguments& arguments, const Console& console);
 int diff(const Arguments& arguments, const Console& console);
 int grade(const Arguments& arguments, const Console& console);
+int convert(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

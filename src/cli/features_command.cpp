@@ -28,7 +28,8 @@ std::string featuresText() {
   text += "passes (--passes NAME,NAME)\n";
   for (const PassRow& pass : passRows()) text += row(pass.name, pass.help);
   text += "scene formats\n";
-  for (const SceneFormat& format : sceneFormats()) text += row(format.name, format.help);
+  for (const SceneFormat& format : sceneFormats())
+    text += row(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
   text += "picture formats\n";
   for (const PictureFormat& format : pictureFormats()) {
     std::string suffixes;

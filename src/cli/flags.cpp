@@ -11,7 +11,7 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render info explain lint diff grade features help";
+constexpr std::string_view kEverywhere = "render info explain lint diff grade convert features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -130,6 +130,17 @@ void setFrames(Arguments& arguments, std::string_view value) {
   for (int frame = first; frame <= last; frame += step) arguments.frames.push_back(frame);
 }
 
+/// Throws Error(Fault::usage).
+int wholeNumber(std::string_view flag, std::string_view value, int least, int most) {
+  const auto number = parseNumber(value);
+  if (!number || number->length != value.size() || number->value != std::floor(number->value) ||
+      number->value < least || number->value > most)
+    throw Error(Fault::usage, "--" + std::string(flag) + ": expected a whole number from " +
+                                  std::to_string(least) + " to " + std::to_string(most) + ", found \"" +
+                                  std::string(value) + "\"");
+  return static_cast<int>(number->value);
+}
+
 void setOutput(Arguments& arguments, std::string_view value) {
   if (value.empty()) throw Error(Fault::usage, "--output: expected the name of a file, found nothing");
   arguments.output = value;
@@ -175,10 +186,35 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};
              a.progress = static_cast<ProgressStyle>(pick("progress", value, kNames));
            }},
+      Flag{"camera", 0, Takes::value, "FIELDS", "", "convert", false,
+           "a camera in place of the scene's, as inside camera { } of a .ray file",
+           [](Arguments& a, std::string_view value) { a.conversion.camera = value; }},
+      Flag{"light", 0, Takes::value, "NODE", "", "convert", false,
+           "a light in place of the scene's, as in a .ray file; may be repeated",
+           [](Arguments& a, std::string_view value) { a.conversion.lights.emplace_back(value); }},
+      Flag{"material", 0, Takes::value, "FIELDS", "", "convert", false,
+           "a material for all objects, as inside material { } of a .ray file",
+           [](Arguments& a, std::string_view value) { a.conversion.material = value; }},
+      Flag{"digits", 0, Takes::value, "N", "", "convert", false,
+           "digits of numbers in text that count, 1 to 17; by default as many as are needed to read the same "
+           "back",
+           [](Arguments& a, std::string_view value) {
+             a.conversion.digits = wholeNumber("digits", value, 1, 17);
+           }},
+      Flag{"ascii", 0, Takes::nothing, "", "", "convert", false, "write PLY as text",
+           [](Arguments& a, std::string_view) { a.conversion.ascii = true; }},
+      Flag{"revolve", 0, Takes::nothing, "", "", "convert", false,
+           "the input is a profile, lines of \"x y\", to be turned about the y axis",
+           [](Arguments& a, std::string_view) { a.conversion.revolve = true; }},
+      Flag{"steps", 0, Takes::value, "N", "", "convert", false,
+           "steps of --revolve around the axis, 3 to 100000; default 64",
+           [](Arguments& a, std::string_view value) {
+             a.conversion.steps = wholeNumber("steps", value, 3, 100000);
+           }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "",
-           "render info explain lint diff grade", false, "which messages are shown; default info",
+           "render info explain lint diff grade convert", false, "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint grade", true,
+      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint grade convert", true,
            "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
       Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
            "differences up to this do not count as beyond; in levels of 255, or in linear values where a "

@@ -2,36 +2,75 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "base/file.h"
+#include "formats/gltf_format.h"
+#include "formats/mesh_writers.h"
+#include "formats/obj_format.h"
+#include "formats/off_format.h"
+#include "formats/ply_format.h"
 #include "formats/ray_format.h"
+#include "formats/ray_writer.h"
+#include "formats/stl_format.h"
 
 namespace trace {
 namespace {
 
+using Suffixes = std::array<std::string_view, 1>;
+constexpr Suffixes kRay{".ray"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
+constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"};
+
 constexpr std::array kTable{
-    SceneFormat{"ray", "scenes that begin with SBT-raytracer 1.0", recognisesRay,
-                [](const std::string& file, std::string_view bytes, Messages& messages) {
-                  return readRay(file, bytes, messages);
-                },
-                readRay},
+    SceneFormat{.name = "ray",
+                .suffixes = kRay,
+                .help = "scenes that begin with SBT-raytracer 1.0",
+                .recognises = recognisesRay,
+                .readAt = readRay,
+                .write = writeRay},
+    SceneFormat{.name = "ply",
+                .suffixes = kPly,
+                .help = "PLY meshes, text and binary",
+                .recognises = recognisesPly,
+                .readModel = readPly,
+                .write = writePly},
+    SceneFormat{.name = "off",
+                .suffixes = kOff,
+                .help = "OFF meshes, text",
+                .recognises = recognisesOff,
+                .readModel = readOff},
+    SceneFormat{.name = "stl",
+                .suffixes = kStl,
+                .help = "STL triangles, text and binary",
+                .recognises = recognisesStl,
+                .readModel = readStl},
+    SceneFormat{.name = "obj",
+                .suffixes = kObj,
+                .help = "Wavefront OBJ meshes with MTL materials",
+                .recognises = recognisesObj,
+                .readModel = readObj,
+                .write = writeObj},
+    SceneFormat{.name = "gltf",
+                .suffixes = kGltf,
+                .help = "glTF 2.0 scenes, text and binary",
+                .recognises = recognisesGltf,
+                .readModel = readGltf},
 };
 
 /// What bytes that are no scene look like.
 std::string kindOf(std::string_view bytes) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kBeginnings{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
       {"\xff\xd8\xff", "a JPEG picture"},
       {"BM", "a BMP picture"},
       {"GIF8", "a GIF picture"},
       {"\x76\x2f\x31\x01", "an OpenEXR picture"},
       {"#?RADIANCE", "a Radiance picture"},
-      {"ply", "a PLY mesh"},
       {"#Inventor", "an Open Inventor scene, which Trace does not read yet"},
       {"#VRML", "a VRML scene, which Trace does not read"},
-      {"glTF", "a glTF scene, which Trace does not read"},
       {"%PDF", "a PDF document"},
       {"PK\x03\x04", "a zip archive"},
       {"\x7f"
@@ -49,11 +88,19 @@ std::string kindOf(std::string_view bytes) {
   return "other text";
 }
 
-std::string expectedFormats() {
-  std::string text;
-  for (const SceneFormat& format : sceneFormats())
-    text += (text.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
-  return text;
+/// The row that fits, of those that `wanted` accepts. Throws Error(Fault::scene).
+template <class Wanted>
+const SceneFormat& formatOf(const std::string& file, std::string_view bytes, const char* expected,
+                            Wanted&& wanted) {
+  std::string known;
+  for (const SceneFormat& format : sceneFormats()) {
+    if (!wanted(format)) continue;
+    if (format.recognises(bytes)) return format;
+    known += (known.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
+  }
+  throw Error(Fault::scene, Place{file, 0, 0, {}},
+              "expected " + std::string(expected) + ", found " + kindOf(bytes),
+              "formats Trace reads: " + known);
 }
 
 }  // namespace
@@ -65,11 +112,29 @@ Scene readScene(const std::string& file, Messages& messages, Real time) {
 }
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
-  for (const SceneFormat& format : sceneFormats())
-    if (format.recognises(bytes))
-      return format.readAt ? format.readAt(file, bytes, messages, time) : format.read(file, bytes, messages);
-  throw Error(Fault::scene, Place{file, 0, 0, {}}, "expected a scene, found " + kindOf(bytes),
-              "formats Trace reads: " + expectedFormats());
+  const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
+  if (format.readAt) return format.readAt(file, bytes, messages, time);
+  if (format.read) return format.read(file, bytes, messages);
+  return sceneOf(format.readModel(file, bytes, messages), file, format.name);
+}
+
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
+  const SceneFormat& format =
+      formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
+  return format.readModel(file, bytes, messages);
+}
+
+const SceneFormat& writableFormatFor(const std::string& file) {
+  std::string suffix = std::filesystem::path(file).extension().string(), known;
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const SceneFormat& format : sceneFormats()) {
+    if (!format.write) continue;
+    for (std::string_view own : format.suffixes) {
+      if (own == suffix) return format;
+      known += (known.empty() ? "" : ", ") + std::string(own);
+    }
+  }
+  throw Error(Fault::usage, "\"" + file + "\": expected a name that ends in one of " + known);
 }
 
 }  // namespace trace

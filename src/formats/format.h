@@ -1,23 +1,44 @@
-// THE table of scene formats, and reading any of them. A format is recognised by its content.
+// THE table of scene formats, and reading and writing any of them. A format is recognised by its content;
+// what is written follows from the file's name.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.h"
+#include "formats/model.h"
 #include "scene/scene.h"
 
 namespace trace {
 
+/// A file to be written.
+struct NamedBytes {
+  std::string file, bytes;
+};
+
+struct WriteOptions {
+  int digits = 0;      ///< of numbers in text that count; 0 for as many as are needed to read the same back
+  bool ascii = false;  ///< text, where a format has both
+};
+
+/// A row of the table. A format has `read` or `readAt`, or, if it holds meshes that other scenes may name,
+/// `readModel`.
 struct SceneFormat {
   std::string_view name;
-  std::string_view help;
+  std::span<const std::string_view> suffixes;  ///< lower case with the dot, the usual one first
+  std::string_view help;                       ///< one sentence, no full stop
   bool (*recognises)(std::string_view bytes);
   /// Repairs what it can with warnings. Throws Error(Fault::scene) for the rest.
-  Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages);
+  Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
   /// The same at a moment, in seconds, if the format knows time.
   Scene (*readAt)(const std::string& file, std::string_view bytes, Messages& messages, Real time) = nullptr;
+  Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
+  /// The scene as `file`, and what belongs beside it. Warns of what the format cannot hold; throws
+  /// Error(Fault::scene) if nothing is left.
+  std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                   Messages& messages) = nullptr;
 };
 
 std::span<const SceneFormat> sceneFormats();
@@ -26,5 +47,11 @@ std::span<const SceneFormat> sceneFormats();
 /// when no format fits or the content is wrong.
 Scene readScene(const std::string& file, Messages& messages, Real time = 0);
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
+
+/// The meshes in the bytes of a file of a format with `readModel`. Throws as readScene().
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages);
+
+/// The row that writes files of that name, by its suffix in any case. Throws Error(Fault::usage).
+const SceneFormat& writableFormatFor(const std::string& file);
 
 }  // namespace trace

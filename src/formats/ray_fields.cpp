@@ -1,5 +1,6 @@
 #include "formats/ray_fields.h"
 
+#include <cmath>
 #include <string>
 
 #include "base/text.h"
@@ -54,9 +55,31 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
   return true;
 }
 
+std::string written(Real value, int digits) {
+  if (!std::isfinite(value))
+    throw Error(Fault::scene, "a number that is not finite cannot be written to a .ray file");
+  std::string text;
+  appendNumber(text, value, digits);
+  return text;
+}
+
+std::string written(bool value, int) { return value ? "true" : "false"; }
+
+std::string written(const Vec3& v, int digits) {
+  return "(" + written(v.x, digits) + ", " + written(v.y, digits) + ", " + written(v.z, digits) + ")";
+}
+
+std::string written(const Color& c, int digits) { return written(Vec3{c.r, c.g, c.b}, digits); }
+
+std::string written(const std::string& value, int) {
+  std::string text = "\"";
+  for (char c : value) text += c == '"' ? '\'' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  return text.substr(0, Syntax::kLongestWord - 1) + "\"";
+}
+
 std::string_view canonical(std::string_view word) {
   if (word == "colour") return "color";
-  if (word == "trimesh") return "polymesh";
+  if (word == "trimesh" || word == "mesh") return "polymesh";
   if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
   return word;
 }

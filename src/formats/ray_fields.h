@@ -20,6 +20,13 @@ bool read(Findings& findings, std::string_view name, const Item& value, Color& t
 /// A word, or a number as written.
 bool read(Findings& findings, std::string_view name, const Item& value, std::string& to);
 
+/// What read() reads as the same value; with `digits` digits that count, if that is not 0.
+std::string written(Real value, int digits);
+std::string written(bool value, int digits);
+std::string written(const Vec3& value, int digits);
+std::string written(const Color& value, int digits);
+std::string written(const std::string& value, int digits);
+
 /// Exactly `count` numbers in a tuple; no report.
 bool numbers(const Item& tuple, Real* to, int count);
 

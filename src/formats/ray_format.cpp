@@ -23,6 +23,7 @@
 #include "formats/ray_keys.h"
 #include "formats/ray_material.h"
 #include "formats/ray_mesh.h"
+#include "formats/ray_mesh_file.h"
 #include "formats/ray_syntax.h"
 #include "scene/options.h"
 
@@ -71,7 +72,7 @@ const TransformForm* findTransform(const Item& item) {
 }
 
 std::vector<std::string_view> knownWords() {
-  std::vector<std::string_view> words{"trimesh", Camera::kKeyword, Phong::kKeyword, kSettings};
+  std::vector<std::string_view> words{"trimesh", "mesh", Camera::kKeyword, Phong::kKeyword, kSettings};
   addKeywords<Shape>(words);
   addKeywords<Light>(words);
   for (const TransformForm& transform : kTransforms) words.push_back(transform.name);
@@ -154,7 +155,8 @@ class Reader {
         scene_(scene),
         messages_(messages),
         findings_(syntax, scene, messages),
-        materials_(findings_) {}
+        materials_(findings_),
+        meshFiles_(findings_, materials_) {}
 
   void read() {
     const Item root = syntax_.root();
@@ -350,7 +352,13 @@ class Reader {
   }
 
   void mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
-    std::optional<MeshNode> node = readMesh(findings_, materials_, block);
+    if (namesMeshFile(block)) {
+      for (Object& part : meshFiles_.read(block))
+        add(call, std::move(part.name), std::move(part.shape), worldFromObject * part.worldFromObject,
+            part.material);
+      return;
+    }
+    std::optional<MeshNode> node = readMesh(findings_, materials_, sharedMeshes_, block);
     if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
   }
 
@@ -379,11 +387,16 @@ class Reader {
 
   void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
            const Material& material) {
+    add(call, std::move(name), std::move(shape), worldFromObject, materials_.index(material));
+  }
+
+  void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
+           std::uint32_t material) {
     if (!invertible(worldFromObject))
       return findings_.warn(
           call, "an object is left out: its transform makes it flat, or infinitely large or small");
-    scene_.objects.push_back({std::move(name), std::move(shape), worldFromObject, materials_.index(material),
-                              syntax_.shortPlace(call.offset())});
+    scene_.objects.push_back(
+        {std::move(name), std::move(shape), worldFromObject, material, syntax_.shortPlace(call.offset())});
   }
 
   void namedMaterial(const Item& call) {
@@ -475,6 +488,8 @@ class Reader {
   Messages& messages_;
   Findings findings_;
   Materials materials_;
+  MeshFiles meshFiles_;
+  SharedMeshes sharedMeshes_;
 };
 
 }  // namespace

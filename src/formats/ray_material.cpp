@@ -49,13 +49,21 @@ void setWhite(Phong& phong, std::string_view keyword) {
   });
 }
 
-/// The file of `map("file")`, or of a bare string where a number is expected.
+/// Reads a value into the field of that keyword.
+void setField(Findings& findings, Phong& phong, std::string_view keyword, const Item& value) {
+  forEachField<Phong>([&](const auto& f) {
+    if (f.keyword == keyword) rayfile::read(findings, keyword, value, phong.*f.member);
+  });
+}
+
+/// The file of `map("file")` or `map("file", factor)`, or of a bare string where a number is expected.
 std::optional<std::string_view> fileOf(const Item& value) {
   if (value.is(Kind::word))
     return value.source().starts_with('"') ? std::optional(value.text()) : std::nullopt;
   if (!value.is(Kind::call) || value.key() != "map") return {};
   const Item tuple = value.value();
-  if (!tuple.is(Kind::tuple) || tuple.count() != 1 || !(*tuple.begin()).is(Kind::word)) return {};
+  if (!tuple.is(Kind::tuple) || tuple.count() < 1 || tuple.count() > 2 || !(*tuple.begin()).is(Kind::word))
+    return {};
   return (*tuple.begin()).text();
 }
 
@@ -109,6 +117,10 @@ void Materials::field(Block& block, const Item& field) {
   }
   if (!isColor(key)) return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
 
+  if (key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
+    block.gaveReflective = false, block.phong.mirrorsSpecular = true;
+    return;
+  }
   std::erase_if(block.material.maps, [&](const FieldMap& map) { return map.field == key; });
   if (!picture(block, field)) {
     assignField(findings_, block.phong, field);
@@ -128,6 +140,8 @@ bool Materials::picture(Block& block, const Item& field) {
   if (file) block.material.maps.push_back({std::string(field.key()), std::string(*file)});
   findings_.notRendered(file ? "map" : value.key(), value, {});
   if (isColor(field.key()).value_or(false)) setWhite(block.phong, field.key());
+  if (file && value.is(Kind::call) && value.value().count() == 2)
+    setField(findings_, block.phong, field.key(), *++value.value().begin());
   return true;
 }
 

@@ -8,30 +8,47 @@
 #include <utility>
 
 #include "formats/ray_fields.h"
+#include "formats/ray_mesh_operations.h"
+#include "geometry/mesh_repair.h"
 
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 8> kFields{"faces", "gennormals", "material", "materials",
-                                                  "name",  "normals",    "points",   "texture_uv"};
+constexpr std::array<std::string_view, 12> kFields{"uv",         "shared",   "crease",    "faces",
+                                                   "gennormals", "material", "materials", "name",
+                                                   "normals",    "points",   "subdivide", "texture_uv"};
 
 class MeshReader {
  public:
-  MeshReader(Findings& findings, Materials& materials) : findings_(findings), materials_(materials) {
+  MeshReader(Findings& findings, Materials& materials, SharedMeshes& shared)
+      : findings_(findings), materials_(materials), shared_(shared) {
     node_.material = materials.current;
   }
 
   std::optional<MeshNode> read(const Item& block) {
     for (const Item item : block) good_ &= field(item);
+    if (sharedAs_ && data_.points.empty() && !faces_) return again();
     if (good_) good_ = checkCounts() && readFaces();
     if (!good_) return {};
-    dropDegenerate(block);
-    repairNormals(block);
+    repair(block);
+    if (!operations_.none()) data_ = operations_.apply(data_, findings_.syntax().shortPlace(block.offset()));
     node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
+    if (sharedAs_) shared_.insert_or_assign(sharedName_, node_.mesh);
     return std::move(node_);
   }
 
  private:
+  /// The mesh of an earlier block.
+  std::optional<MeshNode> again() {
+    const auto found = shared_.find(sharedName_);
+    if (good_ && found == shared_.end())
+      findings_.error(*sharedAs_, "expected the name of a mesh before, found " + describe(sharedAs_->value()),
+                      "a mesh is shared by shared = NAME beside its points");
+    if (!good_ || found == shared_.end()) return {};
+    node_.mesh = found->second;
+    return std::move(node_);
+  }
+
   bool field(const Item& item) {
     if (item.is(Kind::word) && item.text() == "gennormals") {
       findings_.sureSignOf2005();
@@ -53,12 +70,14 @@ class MeshReader {
     if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
+    if (key == "shared") return rayfile::read(findings_, key, sharedAs_.emplace(item).value(), sharedName_);
     if (key == "name") return rayfile::read(findings_, key, value, node_.name);
     if (key == "material") {
       if (item.is(Kind::call)) findings_.sureSignOf2001(item);
       node_.material = materials_.read(value, materials_.current);
       return true;
     }
+    if (operations_.read(findings_, item)) return true;
     findings_.unknownField(Mesh::kKeyword, item, kFields);
     return true;
   }
@@ -169,56 +188,30 @@ class MeshReader {
     return true;
   }
 
-  // --- repairs ---
-
-  void dropDegenerate(const Item& block) {
-    MeshData kept = std::move(data_);
-    const std::vector<Triangle> all = kept.triangles;
-    std::size_t n = 0;
-    for (std::uint32_t i = 0; i < all.size(); ++i)
-      if (faceNormal(kept, i) != Vec3{}) kept.triangles[n++] = all[i];
-    kept.triangles.resize(n);
-    data_ = std::move(kept);
-    if (n < all.size())
-      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", all.size() - n);
-  }
-
-  /// A zero normal becomes the mean of the unit normals of the faces around its point. (Where normals are
-  /// generated they are added to it anyway.)
-  void repairNormals(const Item& block) {
-    if (data_.generateNormals || data_.normals.empty()) return;
-    std::size_t repaired = 0;
-    std::optional<MeshData> generated;
-    for (std::size_t i = 0; i < data_.normals.size(); ++i) {
-      if (data_.normals[i] != Vec3f{}) continue;
-      if (!generated) generated = withGeneratedNormals(withoutNormals(), true);
-      data_.normals[i] = generated->normals[i];
-      ++repaired;
-    }
-    if (repaired)
-      findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces",
-                             repaired);
-  }
-
-  MeshData withoutNormals() const {
-    MeshData mesh;
-    mesh.points = data_.points;
-    mesh.triangles = data_.triangles;
-    return mesh;
+  void repair(const Item& block) {
+    if (const std::size_t n = dropDegenerate(data_); n > 0)
+      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", n);
+    if (const std::size_t n = repairNormals(data_); n > 0)
+      findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces", n);
   }
 
   Findings& findings_;
   Materials& materials_;
+  SharedMeshes& shared_;
   MeshNode node_;
+  std::string sharedName_;
+  std::optional<Item> sharedAs_;
   MeshData data_;
+  MeshOperations operations_;
   std::optional<Item> normals_, uvs_, materialList_, faces_;
   bool good_ = true;
 };
 
 }  // namespace
 
-std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, const Item& block) {
-  return MeshReader(findings, materials).read(block);
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, SharedMeshes& shared,
+                                 const Item& block) {
+  return MeshReader(findings, materials, shared).read(block);
 }
 
 }  // namespace trace::rayfile

@@ -1,7 +1,10 @@
 // Triangle meshes of .ray files.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "formats/ray_findings.h"
 #include "formats/ray_material.h"
@@ -17,8 +20,12 @@ struct MeshNode {
   std::string name;
 };
 
+/// Meshes that later blocks may name: `shared = NAME;`.
+using SharedMeshes = std::map<std::string, Mesh, std::less<>>;
+
 /// The mesh of a block `polymesh { ... }`. Reports what is wrong, and returns nothing if it cannot be used.
 /// Points and faces are counted from 0 in messages, as in the file.
-std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, const Item& block);
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, SharedMeshes& shared,
+                                 const Item& block);
 
 }  // namespace trace::rayfile

@@ -1,0 +1,20 @@
+// Scenes as glTF 2.0 files, text (.gltf) and binary (.glb): meshes in a hierarchy of nodes, with materials,
+// the first camera, and lights of KHR_lights_punctual (Khronos, glTF 2.0 specification, 2021).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "formats/model.h"
+
+namespace trace {
+
+/// The magic of a binary file; or a JSON object that has an "asset".
+bool recognisesGltf(std::string_view bytes);
+
+/// One object for each triangle primitive of each node; nodes with the same mesh share it.
+/// Throws Error(Fault::scene).
+Model readGltf(const std::string& file, std::string_view bytes, Messages& messages);
+
+}  // namespace trace

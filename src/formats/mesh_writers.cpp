@@ -1,0 +1,220 @@
+#include "formats/mesh_writers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/world_meshes.h"
+
+namespace trace {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "binary PLY files are written as the memory has them");
+
+Phong phongOf(const Scene& scene, std::uint32_t material) {
+  return match(scene.materials.at(material).model, [](const auto& model) -> Phong { return model; });
+}
+
+// --- PLY ----------------------------------------------------------------------------------------------
+
+/// All meshes as one; its `materials` name one for each point.
+MeshData merged(std::vector<WorldMesh> meshes) {
+  const bool normals =
+      std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return !m.mesh.normals.empty(); });
+  const bool uvs =
+      std::all_of(meshes.begin(), meshes.end(), [](const auto& m) { return !m.mesh.uvs.empty(); });
+  MeshData all;
+  for (WorldMesh& part : meshes) {
+    if (normals && part.mesh.normals.empty()) part.mesh = withFlatNormals(part.mesh);
+    MeshData& mesh = part.mesh;
+    if (mesh.materials.empty()) mesh.materials.assign(mesh.points.size(), part.material);
+    const auto first = static_cast<std::uint32_t>(all.points.size());
+    for (const Triangle& t : mesh.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(all.points, mesh.points), append(all.materials, mesh.materials);
+    if (normals) append(all.normals, mesh.normals);
+    if (uvs) append(all.uvs, mesh.uvs);
+  }
+  return all;
+}
+
+/// Numbers of a row as text, or as bytes.
+class Row {
+ public:
+  Row(std::string& out, const WriteOptions& options) : out_(out), options_(options) {}
+
+  template <class T>
+  void add(T number) {
+    if (!options_.ascii) {
+      char bytes[sizeof number];
+      std::memcpy(bytes, &number, sizeof number);
+      out_.append(bytes, sizeof number);
+      return;
+    }
+    if (!first_) out_ += ' ';
+    first_ = false;
+    if constexpr (std::is_integral_v<T>)
+      out_ += std::to_string(number);
+    else
+      appendNumber(out_, number, options_.digits);
+  }
+  void add(const Vec3f& v) { add(v.x), add(v.y), add(v.z); }
+  void end() {
+    if (options_.ascii) out_ += '\n';
+    first_ = true;
+  }
+
+ private:
+  std::string& out_;
+  const WriteOptions& options_;
+  bool first_ = true;
+};
+
+std::uint8_t toByte(double share) {
+  return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255 + 0.5);
+}
+
+// --- OBJ ----------------------------------------------------------------------------------------------
+
+/// A name without white space for each material that is used, told apart by numbers.
+std::map<std::uint32_t, std::string> materialNames(const Scene& scene, const std::vector<WorldMesh>& meshes) {
+  std::map<std::uint32_t, std::string> names;
+  std::map<std::string, int> used;
+  for (const WorldMesh& part : meshes) {
+    if (names.count(part.material)) continue;
+    std::string name = scene.materials.at(part.material).name;
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    if (name.empty()) name = "material";
+    const int times = ++used[name];
+    names[part.material] = times == 1 ? name : name + "_" + std::to_string(times);
+  }
+  return names;
+}
+
+class ObjWriter {
+ public:
+  explicit ObjWriter(const WriteOptions& options) : digits_(options.digits) {}
+
+  void line(std::string_view keyword, std::initializer_list<double> numbers) {
+    out_ += keyword;
+    for (double n : numbers) out_ += ' ', appendNumber(out_, n, digits_);
+    out_ += '\n';
+  }
+  void line(std::string_view keyword, const Vec3f& v) {
+    out_ += keyword;
+    for (int i = 0; i < 3; ++i) out_ += ' ', appendNumber(out_, v[i], digits_);
+    out_ += '\n';
+  }
+  void line(std::string_view keyword, std::string_view word) {
+    out_ += std::string(keyword) + ' ' + std::string(word) + '\n';
+  }
+  void color(std::string_view keyword, const Color& c) { line(keyword, {c.r, c.g, c.b}); }
+
+  /// Illumination models as readObj() understands them.
+  void material(const std::string& name, const Phong& phong) {
+    const bool mirrors = phong.mirrors() || (phong.mirrorsSpecular && !isBlack(phong.specular));
+    line("newmtl", name);
+    color("Ka", phong.ambient), color("Kd", phong.diffuse), color("Ks", phong.specular);
+    color("Ke", phong.emissive);
+    line("Ns", {phong.shininess}), line("Ni", {phong.index});
+    if (phong.transmits()) color("Tf", phong.transmissive);
+    const int glass = mirrors ? 7 : 9, opaque = mirrors ? 3 : isBlack(phong.specular) ? 1 : 2;
+    line("illum", {static_cast<double>(phong.transmits() ? glass : opaque)});
+    out_ += '\n';
+  }
+
+  void mesh(const MeshData& mesh) {
+    for (const Vec3f& p : mesh.points) line("v", p);
+    for (const Vec2& uv : mesh.uvs) line("vt", {uv.x, uv.y});
+    for (const Vec3f& n : mesh.normals) line("vn", n);
+    for (const Triangle& t : mesh.triangles) {
+      out_ += 'f';
+      for (std::uint32_t corner : t) {
+        out_ += ' ' + std::to_string(points_ + corner);
+        if (!mesh.uvs.empty() || !mesh.normals.empty()) out_ += '/';
+        if (!mesh.uvs.empty()) out_ += std::to_string(uvs_ + corner);
+        if (!mesh.normals.empty()) out_ += '/' + std::to_string(normals_ + corner);
+      }
+      out_ += '\n';
+    }
+    points_ += mesh.points.size(), uvs_ += mesh.uvs.size(), normals_ += mesh.normals.size();
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  int digits_;
+  std::string out_;
+  std::size_t points_ = 1, uvs_ = 1, normals_ = 1;  ///< numbers of the next ones
+};
+
+}  // namespace
+
+std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages) {
+  const MeshData mesh = merged(worldMeshes(scene, messages));
+  const auto& m = mesh.materials;
+  const bool colored = std::adjacent_find(m.begin(), m.end(), std::not_equal_to<>()) != m.end();
+  std::string out = "ply\nformat " + std::string(options.ascii ? "ascii" : "binary_little_endian") +
+                    " 1.0\ncomment written by Trace\nelement vertex " + std::to_string(mesh.points.size()) +
+                    "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.uvs.empty()) out += "property float s\nproperty float t\n";
+  if (colored) out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  out += "element face " + std::to_string(mesh.triangles.size()) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  Row row(out, options);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    row.add(mesh.points[i]);
+    if (!mesh.normals.empty()) row.add(mesh.normals[i]);
+    if (!mesh.uvs.empty())
+      row.add(static_cast<float>(mesh.uvs[i].x)), row.add(static_cast<float>(mesh.uvs[i].y));
+    if (colored) {
+      const Color color = phongOf(scene, m[i]).diffuse;
+      row.add(toByte(color.r)), row.add(toByte(color.g)), row.add(toByte(color.b));
+    }
+    row.end();
+  }
+  for (const Triangle& t : mesh.triangles) {
+    row.add(std::uint8_t{3});
+    for (std::uint32_t corner : t) row.add(static_cast<std::int32_t>(corner));
+    row.end();
+  }
+  return {{file, std::move(out)}};
+}
+
+std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages) {
+  const std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
+  const std::string materialFile = std::filesystem::path(file).replace_extension(".mtl").string();
+  ObjWriter materials(options), objects(options);
+  for (const auto& [index, name] : names) materials.material(name, phongOf(scene, index));
+
+  objects.line("mtllib", std::filesystem::path(materialFile).filename().string());
+  std::size_t colored = 0;
+  for (const WorldMesh& part : meshes) {
+    if (!part.name.empty()) objects.line("o", part.name);
+    objects.line("usemtl", names.at(part.material));
+    objects.mesh(part.mesh);
+    colored += !part.mesh.materials.empty();
+  }
+  if (colored > 0)
+    messages.warn(Place{scene.file, 0, 0, {}}, "an OBJ file holds no materials of points: left out for " +
+                                                   std::to_string(colored) +
+                                                   (colored == 1 ? " mesh" : " meshes"));
+  return {{file, objects.take()}, {materialFile, materials.take()}};
+}
+
+}  // namespace trace

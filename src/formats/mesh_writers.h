@@ -1,0 +1,20 @@
+// The meshes of a scene as PLY and OBJ files, in world space. Analytic shapes are left out with a warning.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/format.h"
+
+namespace trace {
+
+/// One mesh of all triangles, binary unless `options.ascii`. Where the points have several materials, their
+/// diffuse colours are written.
+std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages);
+
+/// An object for each, and their materials in a file NAME.mtl beside it.
+std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages);
+
+}  // namespace trace

@@ -1,0 +1,143 @@
+#include "formats/model.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/match.h"
+#include "geometry/mesh_repair.h"
+
+namespace trace {
+namespace {
+
+bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Material colored(const Material& base, const Color& color) {
+  Material material = base;
+  match(material.model, [&](auto& model) { model.diffuse = model.ambient = color; });
+  std::erase_if(material.maps,
+                [](const FieldMap& map) { return map.field == "diffuse" || map.field == "ambient"; });
+  return material;
+}
+
+/// The mesh with the numbers of its colours replaced by those of materials.
+Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& base,
+                   const std::function<std::uint32_t(const Material&)>& index) {
+  MeshData data = mesh;
+  std::vector<std::uint32_t> numbers(model.colors.size(), Model::kNoMaterial);
+  for (std::uint32_t& material : data.materials) {
+    std::uint32_t& number = numbers[material];
+    if (number == Model::kNoMaterial) number = index(colored(base, model.colors[material]));
+    material = number;
+  }
+  return {std::make_shared<const MeshData>(std::move(data))};
+}
+
+}  // namespace
+
+void MeshRepairs::check(MeshData& mesh, const Place& place) {
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    if (!isFinite(mesh.points[i]))
+      throw Error(Fault::scene, place,
+                  "point " + std::to_string(i) + ": expected three finite numbers of at most 3.4e38");
+  for (Vec3f& normal : mesh.normals)
+    if (!isFinite(normal)) normal = {}, ++notFinite_;
+  for (Vec2& uv : mesh.uvs)
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++notFinite_;
+  degenerate_ += dropDegenerate(mesh);
+  zeroNormals_ += repairNormals(mesh);
+  triangles_ += mesh.triangles.size();
+}
+
+void MeshRepairs::report(const Place& place, Messages& messages) const {
+  const auto warn = [&](const char* what, std::size_t count) {
+    if (count > 0) messages.warn(place, what + (": " + std::to_string(count)));
+  };
+  warn("normals or uv that are not finite are replaced", notFinite_);
+  warn("triangles without area are left out", degenerate_);
+  warn("normals of length 0 are taken from the faces", zeroNormals_);
+  if (triangles_ == 0) messages.warn(place, "the file has no triangle that can be seen");
+}
+
+std::vector<Object> placed(const Model& model, const Material& base,
+                           const std::function<std::uint32_t(const Material&)>& index) {
+  // Numbers of the materials that are used, and of `base` behind them.
+  std::vector<std::optional<std::uint32_t>> numbers(model.materials.size() + 1);
+  std::map<std::pair<const MeshData*, std::uint32_t>, Mesh> colored;  // instances share these too
+  std::vector<Object> objects = model.objects;
+  for (Object& object : objects) {
+    const std::uint32_t own = object.material;
+    const bool none = own == Model::kNoMaterial;
+    auto& number = numbers[none ? model.materials.size() : own];
+    if (!number) number = index(none ? base : model.materials[own]);
+    object.material = *number;
+    auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (!mesh || mesh->data->materials.empty()) continue;
+    const auto [found, fresh] = colored.try_emplace({mesh->data.get(), own});
+    if (fresh) found->second = withMaterials(*mesh->data, model, none ? base : model.materials[own], index);
+    *mesh = found->second;
+  }
+  return objects;
+}
+
+Scene sceneOf(Model model, const std::string& file, std::string_view format) {
+  Scene scene;
+  scene.file = file;
+  scene.format = format;
+  scene.objects = placed(model, plainMaterial(), [&](const Material& material) {
+    scene.materials.push_back(material);
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+  });
+  scene.choices = std::move(model.choices);
+  scene.camera = model.camera ? *model.camera : framing(bounds(scene));
+  scene.lights = model.lights.empty() ? plainLights(scene.camera) : std::move(model.lights);
+  return scene;
+}
+
+Material plainMaterial() {
+  Phong phong;
+  phong.ambient = phong.diffuse = Color(0.7);
+  return {"", phong, {}};
+}
+
+Box3 bounds(const Scene& scene) {
+  Box3 box;
+  for (const Object& object : scene.objects)
+    box.extend(object.worldFromObject *
+               match(object.shape, Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
+                                              [](const auto& shape) { return shape.bounds(); }}));
+  return box;
+}
+
+Camera framing(const Box3& box) {
+  constexpr Real kMargin = 1.08;  // of the picture around the box
+  Camera camera;
+  camera.fov = 40;
+  camera.viewdir = normalize({-0.35, -0.3, -1});
+  const bool nothing = box.empty() || !isFinite(box.size()) || box.size() == Vec3{};
+  const Box3 seen = nothing ? Box3{{-1, -1, -1}, {1, 1, 1}} : box;
+  const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
+  const Vec3 right = normalize(axes.right), up = normalize(axes.up);
+  const Real slope = std::tan(camera.fov * kPi / 360) / kMargin;
+  Real distance = 0;  // from the centre, so that every corner is inside the picture's edges
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner = Vec3{i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
+    const Vec3 size = seen.size(), p{corner.x * size.x, corner.y * size.y, corner.z * size.z};
+    const Real aside = max(std::abs(dot(p, right)), std::abs(dot(p, up)));
+    distance = max(distance, aside / slope - dot(p, camera.viewdir));
+  }
+  camera.position = seen.center() - camera.viewdir * distance;
+  return camera;
+}
+
+std::vector<LightSource> plainLights(const Camera& camera) {
+  const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
+  const Vec3 right = normalize(axes.right), up = normalize(axes.up), look = normalize(axes.look);
+  const auto light = [&](Real x, Real y, Real brightness) {
+    return LightSource{
+        DirectionalLight{.direction = normalize(look + right * x + up * y), .color = Color(brightness)}, {}};
+  };
+  return {light(0.6, -0.9, 0.85), light(-0.9, -0.1, 0.3), {AmbientLight{.color = Color(0.12)}, {}}};
+}
+
+}  // namespace trace

@@ -1,0 +1,64 @@
+// What a file of meshes holds, and how it becomes part of a scene or a scene of its own.
+//
+// Readers of PLY, STL, OFF, OBJ and glTF make a Model. A `.ray` scene that names the file places the model
+// among its objects; a file rendered by itself gets the camera, lights and material it lacks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/box.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+struct Model {
+  /// The material of objects to which the file gives none.
+  static constexpr std::uint32_t kNoMaterial = 0xffffffff;
+
+  std::vector<Material> materials;
+  std::vector<Object> objects;  ///< meshes; `material` is an index into materials, or kNoMaterial
+  std::vector<LightSource> lights;
+  std::optional<Camera> camera;
+  std::vector<Choice> choices;
+  /// Where the file colours its points: MeshData::materials are indices into these, which stand for the
+  /// object's material with this colour as diffuse and ambient.
+  std::vector<Color> colors;
+};
+
+/// What every reader checks in its meshes, and how often it had to repair them.
+class MeshRepairs {
+ public:
+  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) for a point that is not finite.
+  void check(MeshData& mesh, const Place& place);
+  /// Warns of what all meshes so far had.
+  void report(const Place& place, Messages& messages) const;
+
+ private:
+  std::size_t notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0, triangles_ = 0;
+};
+
+/// The model's objects as a scene has them. `base` is the material of those without one; `index` gives a
+/// material's number in the scene. Meshes are shared with the model unless their points are coloured.
+std::vector<Object> placed(const Model& model, const Material& base,
+                           const std::function<std::uint32_t(const Material&)>& index);
+
+/// The model as a scene of its own, with addDefaultView() and a grey material where it has none.
+Scene sceneOf(Model model, const std::string& file, std::string_view format);
+
+/// What a mesh without a material looks like: a light grey, matt.
+Material plainMaterial();
+
+/// The bounds of all objects, in the world.
+Box3 bounds(const Scene& scene);
+
+/// A camera from the front, a little to the right and above, that has the box whole in a square picture.
+Camera framing(const Box3& box);
+
+/// Two directional lights, from above the left and from the right of the camera, and a little ambient light.
+std::vector<LightSource> plainLights(const Camera& camera);
+
+}  // namespace trace

@@ -1,0 +1,88 @@
+// The grammar of PLY files, apart from their meaning: a header that lists elements and their properties, and
+// a body of numbers, as text or binary in either byte order (Turk, The PLY Polygon File Format, 1994).
+//
+// Rows without lists, in a binary file, are read column by column, and the usual list of faces in one tight
+// loop; anything else number by number. Counts in a header are held against the size of the file before
+// memory is taken for them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trace::ply {
+
+enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class Encoding : std::uint8_t { text, little, big };
+
+struct Property {
+  std::string name;
+  Type type;  ///< of the number, or of a list's items
+  bool isList = false;
+  Type countType = Type::uint8;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+
+  /// The index of the first of these properties that it has, or -1.
+  int find(std::initializer_list<std::string_view> names) const;
+  bool hasLists() const;
+};
+
+struct Header {
+  Encoding encoding = Encoding::text;
+  std::vector<Element> elements;
+  std::size_t end = 0;  ///< offset of the body
+};
+
+/// Throws Error(Fault::scene).
+Header readHeader(const std::string& file, std::string_view bytes);
+
+/// Where the numbers of a property go: `to`, `to + step`, ...; nowhere if null.
+struct Column {
+  float* to = nullptr;
+  std::size_t step = 0;
+};
+
+/// Reads the elements of a body, which must be asked for in their order.
+class Body {
+ public:
+  Body(const std::string& file, std::string_view bytes, const Header& header);
+
+  /// Throws Error(Fault::scene) if the rest of the file is too short for the element's number of rows. To be
+  /// asked before memory is taken for them.
+  void checkCount(const Element& element) const;
+
+  /// One column for each property of the element; those of lists are ignored.
+  void readColumns(const Element& element, std::span<const Column> columns);
+
+  /// Calls visit(items) for the list `property` of each row. What is no whole number, or negative, comes as
+  /// 2^32 - 1 or near it.
+  using VisitList = std::function<void(std::span<const std::uint32_t>)>;
+  void readLists(const Element& element, int property, const VisitList& visit);
+
+  void skip(const Element& element);
+
+  [[noreturn]] void fail(std::string what) const;
+
+ private:
+  double number(Type type);
+  std::size_t listLength(const Property& property);
+  void need(std::size_t bytes) const;
+  void readFixedColumns(const Element& element, std::span<const Column> columns);
+
+  const std::string& file_;
+  std::string_view bytes_;
+  Encoding encoding_;
+  std::size_t at_;
+  std::string what_;  ///< the row being read, for messages
+};
+
+}  // namespace trace::ply

@@ -1,0 +1,52 @@
+#include "formats/ray_mesh_operations.h"
+
+#include <cmath>
+#include <string>
+
+#include "formats/ray_fields.h"
+#include "geometry/mesh_repair.h"
+#include "geometry/mesh_smooth.h"
+
+namespace trace::rayfile {
+
+bool MeshOperations::read(Findings& findings, const Item& field) {
+  const std::string_view key = field.key();
+  double number = 0;
+  if (key == "crease") {
+    if (!rayfile::read(findings, key, field.value(), number)) return true;
+    if (number >= 0 && number <= 180)
+      crease = number;
+    else
+      findings.expected(field.value(), key, "an angle from 0 to 180 degrees");
+    return true;
+  }
+  if (key == "uv") {
+    uv = field.value().is(Kind::word) ? uvProjection(field.value().text()) : std::nullopt;
+    if (!uv) findings.expected(field.value(), key, "spherical, cylindrical, planar or cubic");
+    return true;
+  }
+  if (key != "subdivide") return false;
+  if (!rayfile::read(findings, key, field.value(), number)) return true;
+  if (number >= 0 && number <= 10 && number == std::floor(number))
+    subdivide = static_cast<int>(number);
+  else
+    findings.expected(field.value(), key, "a whole number from 0 to 10");
+  return true;
+}
+
+MeshData MeshOperations::apply(const MeshData& mesh, const Place& place) const {
+  const std::size_t most = kMostTriangles >> (2 * subdivide);
+  if (mesh.triangles.size() > most)
+    throw Error(Fault::limit, place,
+                "subdivide: expected a mesh that gets at most 50 million triangles, found one of " +
+                    std::to_string(mesh.triangles.size()) + " before");
+  MeshData result = subdivide > 0 ? subdivided(mesh, subdivide) : mesh;
+  if (subdivide > 0) {
+    dropDegenerate(result);
+    result.generateNormals = crease < 0;
+  }
+  if (crease >= 0) result = withCreaseNormals(result, crease * kPi / 180);
+  return uv ? withProjectedUvs(result, *uv) : result;
+}
+
+}  // namespace trace::rayfile

@@ -1,0 +1,244 @@
+// Loops over the lists of shapes, lights and fields, as the reader does: a new one needs nothing here.
+//
+// Every material stands where it is used, as a whole, since a block inherits from what is in force around it;
+// a named one is written once and then named. Meshes from files are written in full, but those of several
+// objects only once.
+#include "formats/ray_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <type_traits>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/ray_fields.h"
+
+namespace trace {
+namespace rayfile {
+namespace {
+
+class Writer {
+ public:
+  Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Object& object : scene.objects)
+      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) ++uses_[mesh->data.get()];
+  }
+
+  std::string write() {
+    out_ = "SBT-raytracer 1.0\n\n";
+    writeSettings();
+    writeCamera();
+    for (const LightSource& light : scene_.lights) writeLight(light.light);
+    for (const Object& object : scene_.objects) writeObject(object);
+    writeUnrendered();
+    return std::move(out_);
+  }
+
+ private:
+  template <class Value>
+  void field(std::string_view keyword, const Value& value) {
+    out_ += "  " + std::string(keyword) + " = " + written(value, digits_) + ";\n";
+  }
+  template <class Struct>
+  void fields(const Struct& from) {
+    forEachField<Struct>([&](const auto& f) { field(f.keyword, from.*f.member); });
+  }
+
+  // --- what is not an object ---
+
+  void writeSettings() {
+    const auto isLike = [](const Choice& choice) { return choice.option == "like"; };
+    // Else a reader could guess the dialect of 2001 from the shininess of materials.
+    if (std::none_of(scene_.choices.begin(), scene_.choices.end(), isLike))
+      out_ += "material = { };  // what shapes start from\n\n";
+    if (scene_.choices.empty()) return;
+    out_ += "settings {\n";
+    for (const Choice& choice : scene_.choices) field(choice.option, choice.value);
+    out_ += "}\n\n";
+  }
+
+  void writeCamera() {
+    out_ += "camera {\n";
+    fields(scene_.camera);
+    out_ += "}\n\n";
+  }
+
+  void writeLight(const Light& light) {
+    match(light, [&](const auto& from) {
+      out_ += std::string(from.kKeyword) + " {\n";
+      fields(from);
+    });
+    out_ += "}\n\n";
+  }
+
+  /// As found in a .ray file; the text of other formats only as a comment. Pictures of materials stand there.
+  void writeUnrendered() {
+    for (const Unrendered& node : scene_.unrendered) {
+      if (node.kind == "map") continue;
+      if (scene_.format == "ray") {
+        out_ += node.text + "\n\n";
+        continue;
+      }
+      out_ += "// not rendered: ";
+      for (char c : node.text) out_ += c == '\n' || c == '\r' ? std::string("\n// ") : std::string(1, c);
+      out_ += "\n\n";
+    }
+  }
+
+  // --- materials ---
+
+  void writeMaterial(std::uint32_t index) {
+    const Material& material = scene_.materials.at(index);
+    if (!material.name.empty()) {
+      const auto [named, fresh] = named_.try_emplace(material.name, index);
+      if (!fresh && named->second == index) {
+        out_ += written(material.name, digits_);
+        return;
+      }
+      named->second = index;
+    }
+    out_ += "{ ";
+    if (!material.name.empty()) item("name", written(material.name, digits_));
+    match(material.model, [&](const auto& model) { modelFields(material, model); });
+    out_ += "}";
+  }
+
+  void item(std::string_view keyword, const std::string& value) {
+    out_ += std::string(keyword) + " = " + value + "; ";
+  }
+
+  /// Those that differ from the defaults.
+  template <class Model>
+  void modelFields(const Material& material, const Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      const auto& value = model.*f.member;
+      const std::string* picture = pictureOf(material, f.keyword);
+      const bool differs = picture || value != Model{}.*f.member;
+      if (picture)
+        item(f.keyword, "map(" + written(*picture, digits_) + ", " + written(value, digits_) + ")");
+      else if (differs || isSaidAnyway(material, model, f.keyword))
+        item(f.keyword, written(value, digits_));
+      if constexpr (requires { model.mirrorsSpecular; })
+        if (f.keyword == "reflective" && model.mirrorsSpecular && differs) item(f.keyword, "specular");
+    });
+  }
+
+  /// `specular` without `reflective` after it says that the surface mirrors with it.
+  template <class Model>
+  static bool isSaidAnyway(const Material& material, const Model& model, std::string_view keyword) {
+    if constexpr (requires { model.mirrorsSpecular; }) {
+      if (keyword == "specular") return model.mirrorsSpecular;
+      const bool saidSpecular = !isBlack(model.specular) || pictureOf(material, "specular");
+      if (keyword == "reflective") return !model.mirrorsSpecular && saidSpecular;
+    }
+    return false;
+  }
+
+  static const std::string* pictureOf(const Material& material, std::string_view field) {
+    for (const FieldMap& map : material.maps)
+      if (map.field == field) return &map.file;
+    return nullptr;
+  }
+
+  // --- objects ---
+
+  void writeObject(const Object& object) {
+    const Affine& m = object.worldFromObject;
+    const bool moved = m != Affine{};
+    if (moved) {
+      out_ += "transform(";
+      for (int i = 0; i < 3; ++i) writeRow(m.row[i], m.offset[i]);
+      out_ += "(0, 0, 0, 1),\n";
+    }
+    match(object.shape, Overloaded{[&](const Mesh& mesh) { writeMesh(object, *mesh.data); },
+                                   [&](const auto& shape) {
+                                     out_ += std::string(shape.kKeyword) + " {\n";
+                                     writeName(object);
+                                     fields(shape);
+                                     writeOwnMaterial(object);
+                                   }});
+    out_ += moved ? "})\n\n" : "}\n\n";
+  }
+
+  void writeRow(const Vec3& row, Real last) {
+    out_ += "(" + written(row.x, digits_) + ", " + written(row.y, digits_) + ", " + written(row.z, digits_) +
+            ", " + written(last, digits_) + "), ";
+  }
+
+  void writeName(const Object& object) {
+    if (!object.name.empty()) field("name", object.name);
+  }
+
+  void writeOwnMaterial(const Object& object) {
+    out_ += "  material = ";
+    writeMaterial(object.material);
+    out_ += ";\n";
+  }
+
+  /// The materials of points stand before that of the mesh, which they would inherit from.
+  void writeMesh(const Object& object, const MeshData& mesh) {
+    out_ += std::string(Mesh::kKeyword) + " {\n";
+    writeName(object);
+    if (uses_.at(&mesh) > 1) {
+      const auto [number, fresh] = shared_.try_emplace(&mesh, shared_.size());
+      out_ += "  shared = " + std::to_string(number->second) + ";\n";
+      if (!fresh) return writeOwnMaterial(object);
+    }
+    list("points", mesh.points, [&](const Vec3f& p) { tuple(std::array{p.x, p.y, p.z}); });
+    if (!mesh.normals.empty())
+      list("normals", mesh.normals, [&](const Vec3f& n) { tuple(std::array{n.x, n.y, n.z}); });
+    if (!mesh.uvs.empty())
+      list("texture_uv", mesh.uvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
+    if (!mesh.materials.empty())
+      list("materials", mesh.materials, [&](std::uint32_t material) { writeMaterial(material); });
+    writeOwnMaterial(object);
+    if (mesh.generateNormals) out_ += "  gennormals;\n";
+    list("faces", mesh.triangles, [&](const Triangle& t) { tuple(t); });
+  }
+
+  /// Wraps lines, so that an editor can show them.
+  template <class Items, class Write>
+  void list(std::string_view keyword, const Items& items, Write&& write) {
+    constexpr std::size_t kLine = 100;
+    out_ += "  " + std::string(keyword) + " = (\n    ";
+    std::size_t lineStart = out_.size();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const bool full = out_.size() - lineStart > kLine;
+      if (i > 0) out_ += full ? ",\n    " : ", ";
+      if (full) lineStart = out_.size();
+      write(items[i]);
+    }
+    out_ += ");\n";
+  }
+
+  template <class Numbers>
+  void tuple(const Numbers& numbers) {
+    out_ += '(';
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      if constexpr (std::is_integral_v<typename Numbers::value_type>)
+        out_ += std::to_string(numbers[i]);
+      else
+        appendNumber(out_, numbers[i], digits_);
+    }
+    out_ += ')';
+  }
+
+  const Scene& scene_;
+  int digits_;
+  std::string out_;
+  std::map<const MeshData*, std::size_t> uses_,
+      shared_;                                  ///< how many objects have a mesh; its number in the file
+  std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
+};
+
+}  // namespace
+}  // namespace rayfile
+
+std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages&) {
+  return {{file, rayfile::Writer(scene, options.digits).write()}};
+}
+
+}  // namespace trace

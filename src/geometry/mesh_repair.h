@@ -1,0 +1,24 @@
+// What readers of meshes do to make them ones that can be traced.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "geometry/mesh.h"
+
+namespace trace {
+
+/// Appends the triangles of a polygon, whose corners are indices into mesh.points: a fan if that is right,
+/// else ears cut off one by one, so that a polygon with dents keeps its shape. Linear in the corners.
+/// Precondition: every corner < mesh.points.size().
+void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners);
+
+/// Removes triangles without area; returns how many.
+std::size_t dropDegenerate(MeshData& mesh);
+
+/// A normal of length 0 becomes the mean of the unit normals of the faces around its point. (Where normals
+/// are generated they are added to it anyway.) Returns how many.
+std::size_t repairNormals(MeshData& mesh);
+
+}  // namespace trace

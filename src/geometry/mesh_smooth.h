@@ -1,0 +1,21 @@
+// Smoother meshes: normals that follow a crease angle, and Loop's subdivision.
+#pragma once
+
+#include <cstddef>
+
+#include "geometry/mesh.h"
+
+namespace trace {
+
+/// The mesh with normals at its points that are smooth across edges whose faces turn by less than `angle`
+/// (radians), and sharp at others, where points are doubled. Faces count by their angle at the point
+/// (Thuermer and Wuethrich 1998). Points at equal places are one. Normals of the mesh are replaced. Linear.
+MeshData withCreaseNormals(const MeshData& mesh, Real angle);
+
+/// Each triangle in four, `levels` times, and the points moved toward a smooth surface (Loop 1987, with
+/// Warren's weights; borders become cubic B-splines). Normals are left out; uv are mixed, and a new point
+/// takes the material of one end of its edge.
+/// Precondition: 4^levels times the triangles fits into 32 bits.
+MeshData subdivided(const MeshData& mesh, int levels);
+
+}  // namespace trace

@@ -1,0 +1,88 @@
+// Meshes written as PLY and OBJ read back as they were, in world space.
+#include "formats/mesh_writers.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/file.h"
+#include "mesh_helpers.h"
+
+namespace trace {
+namespace {
+
+const std::string kScene = R"(SBT-raytracer 1.0
+sphere { }
+material = { diffuse = (1, 0, 0); }
+translate(1, 0, 0, scale(-2, 1, 1, mesh { name = part; points = ((0,0,0), (1,0,0), (0,1,0.1)); faces = ((0, 1, 2));
+  normals = ((0,0,1), (0,0,1), (0.6,0,0.8)); texture_uv = ((0,0), (1,0), (0,0.25)); }))
+)";
+
+Scene scene(const std::string& text) {
+  Messages messages;
+  return readScene("in.ray", text, messages);
+}
+
+Scene throughPly(const Scene& from, bool ascii) {
+  Messages messages;
+  const auto files = writePly(from, "out.ply", {.ascii = ascii}, messages);
+  return readScene("out.ply", files.at(0).bytes, messages);
+}
+
+TEST(MeshWriters, PlyHasTheMeshInTheWorld) {
+  for (const bool ascii : {false, true}) {
+    const Scene back = throughPly(scene(kScene), ascii);
+    const MeshData& mesh = meshOf(back);
+    EXPECT_EQ(mesh.points, (std::vector<Vec3f>{{1, 0, 0}, {-1, 0, 0}, {1, 1, 0.1f}}));
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 2, 1}})) << "mirrored";
+    EXPECT_EQ(mesh.uvs.at(2).y, 0.25);
+    EXPECT_LT(mesh.normals.at(2).x, 0);
+    EXPECT_TRUE(mesh.materials.empty());
+  }
+}
+
+TEST(MeshWriters, PlyHasColoursOfSeveralMaterials) {
+  const Scene back = throughPly(
+      scene(kScene + "mesh { points = ((0,0,5), (1,0,5), (0,1,5)); faces = ((0,1,2)); material = { "
+                     "diffuse = (0, 1, 0.2); } }"),
+      false);
+  const MeshData& mesh = meshOf(back);
+  ASSERT_EQ(mesh.materials.size(), 6u);
+  EXPECT_EQ(std::get<Phong>(back.materials.at(mesh.materials[5]).model).diffuse, Color(0, 1, 0.2));
+  EXPECT_EQ(mesh.normals.size(), 6u) << "flat ones for the mesh without";
+  EXPECT_TRUE(mesh.uvs.empty()) << "not all meshes have them";
+}
+
+TEST(MeshWriters, WarnOfShapesThatAreNoMeshes) {
+  Messages messages;
+  writeObj(scene(kScene), "out.obj", {}, messages);
+  ASSERT_EQ(messages.all().size(), 1u);
+  EXPECT_EQ(messages.all()[0].what, "left out, as they are no meshes: 1 sphere");
+  EXPECT_THROW(writePly(scene("SBT-raytracer 1.0 sphere { }"), "out.ply", {}, messages), Error);
+}
+
+TEST(MeshWriters, ObjKeepsObjectsAndMaterials) {
+  Messages messages;
+  const Scene from = readScene(TRACE_SOURCE "/tests/corpus/obj/rooms.obj", messages);
+  const std::string folder = testing::TempDir() + "trace_obj_writer";
+  std::filesystem::create_directories(folder);
+  for (const NamedBytes& file : writeObj(from, folder + "/out.obj", {}, messages))
+    writeFile(file.file, file.bytes);
+  const Scene back = readScene(folder + "/out.obj", messages);
+  std::filesystem::remove_all(folder);
+  for (const Message& warning : messages.all()) ADD_FAILURE() << toString(warning);
+  ASSERT_EQ(back.objects.size(), from.objects.size());
+  for (std::size_t i = 0; i < from.objects.size(); ++i) {
+    EXPECT_EQ(back.objects[i].name, from.objects[i].name);
+    EXPECT_EQ(meshOf(back, i), meshOf(from, i));
+    EXPECT_EQ(back.materials.at(back.objects[i].material).name,
+              from.materials.at(from.objects[i].material).name);
+    EXPECT_NEAR(phongOf(back, i).diffuse.r, phongOf(from, i).diffuse.r, 1e-6);
+    EXPECT_NEAR(phongOf(back, i).transmissive.g, phongOf(from, i).transmissive.g, 1e-6);
+    EXPECT_EQ(phongOf(back, i).index, phongOf(from, i).index);
+  }
+}
+
+}  // namespace
+}  // namespace trace

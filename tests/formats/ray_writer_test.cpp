@@ -1,0 +1,199 @@
+// Scenes written as .ray files read back as equal scenes, and look the same bit for bit.
+#include "formats/ray_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "mesh_helpers.h"
+#include "support/shapes.h"
+#include "support/shared.h"
+
+namespace trace {
+namespace {
+
+std::string written(const Scene& scene, const WriteOptions& options = {}) {
+  Messages messages;
+  return writeRay(scene, "out.ray", options, messages).at(0).bytes;
+}
+
+Scene again(const std::string& text) {
+  Messages messages;
+  return readScene("out.ray", text, messages);
+}
+
+/// What a file says, without where it says it: materials stand with their objects.
+std::vector<std::string> unrenderedOf(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const Unrendered& node : scene.unrendered)
+    if (node.kind != "map") all.push_back(node.kind + ": " + node.text);
+  return all;
+}
+
+/// The mesh with the materials of its points out of the way, and these.
+std::pair<MeshData, std::vector<Material>> unfolded(const Scene& scene, const MeshData& mesh) {
+  std::pair<MeshData, std::vector<Material>> result{mesh, {}};
+  for (std::uint32_t& material : result.first.materials) {
+    result.second.push_back(scene.materials.at(material));
+    material = 0;
+  }
+  return result;
+}
+
+void expectEqual(const Scene& a, const Scene& b, const std::string& name) {
+  EXPECT_EQ(a.camera, b.camera) << name;
+  ASSERT_EQ(a.lights.size(), b.lights.size()) << name;
+  for (std::size_t i = 0; i < a.lights.size(); ++i) EXPECT_EQ(a.lights[i].light, b.lights[i].light) << name;
+  ASSERT_EQ(a.choices.size(), b.choices.size()) << name;
+  for (std::size_t i = 0; i < a.choices.size(); ++i) {
+    EXPECT_EQ(a.choices[i].option, b.choices[i].option) << name;
+    EXPECT_EQ(a.choices[i].value, b.choices[i].value) << name;
+  }
+  ASSERT_EQ(a.objects.size(), b.objects.size()) << name;
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    const Object &x = a.objects[i], &y = b.objects[i];
+    EXPECT_EQ(x.name, y.name) << name;
+    EXPECT_EQ(x.worldFromObject, y.worldFromObject) << name << " object " << i;
+    EXPECT_EQ(a.materials.at(x.material), b.materials.at(y.material)) << name << " object " << i;
+    ASSERT_EQ(x.shape.index(), y.shape.index()) << name << " object " << i;
+    const auto* mesh = std::get_if<Mesh>(&x.shape);
+    if (mesh)
+      EXPECT_EQ(unfolded(a, *mesh->data), unfolded(b, *std::get<Mesh>(y.shape).data))
+          << name << " object " << i;
+    else
+      EXPECT_EQ(x.shape, y.shape) << name << " object " << i;
+  }
+  EXPECT_EQ(unrenderedOf(a), unrenderedOf(b)) << name;
+}
+
+void expectRoundTrip(const Scene& scene, const std::string& name) {
+  const std::string text = written(scene);
+  const Scene back = again(text);
+  expectEqual(scene, back, name);
+  EXPECT_EQ(written(back), text) << name;
+}
+
+TEST(RayWriter, EveryExampleRoundTrips) {
+  const auto files = test::filesUnder(TRACE_SOURCE "/scenes", ".ray");
+  ASSERT_GE(files.size(), 10u);
+  for (const std::string& file : files) {
+    Messages messages;
+    expectRoundTrip(readScene(file, messages), file);
+  }
+}
+
+TEST(RayWriter, EverySceneOfTheCoursesRoundTrips) {
+  TRACE_NEEDS_SHARED("scenes/uw");
+  std::size_t scenes = 0;
+  for (const std::string& file : test::filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray")) {
+    Messages messages;
+    Scene scene;
+    try {
+      scene = readScene(file, messages);
+    } catch (const Error&) {
+      continue;  // a broken one: ray_corpus_test.cpp has them
+    }
+    expectRoundTrip(scene, file);
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 190u);
+}
+
+TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
+  Scene scene;
+  scene.format = "ray";
+  scene.camera.position = {0.1, -1e-300, 1.0 / 3};
+  scene.materials.push_back({"", Phong{}, {}});
+  test::Random random(5);
+  for (const Shape& shape : test::analyticShapes())
+    scene.objects.push_back({"shape", shape, random.affine(3), 0, {}});
+  forEachType<Light>([&]<class L>(L*) {
+    L light;
+    double value = 0.1;
+    forEachField<L>([&](const auto& f) {
+      auto& member = light.*f.member;
+      if constexpr (requires { member.x; })
+        member = {value, 2 * value, 1 / value};
+      else if constexpr (requires { member.r; })
+        member = {value, value / 3, 0};
+      else if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, double>)
+        member = value;
+      value += 0.7;
+    });
+    scene.lights.push_back({light, {}});
+  });
+  forEachField<Phong>([&](const auto& f) {
+    Phong phong;
+    auto& member = phong.*f.member;
+    if constexpr (requires { member.r; })
+      member = {0.1, 0.2, 1.0 / 7};
+    else
+      member = 0.3;
+    scene.materials.push_back({std::string(f.keyword), phong, {}});
+    scene.objects.push_back({"", Sphere{}, {}, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
+  });
+  expectRoundTrip(scene, "every field");
+}
+
+TEST(RayWriter, KeepsHowASurfaceMirrors) {
+  for (const bool mirrorsSpecular : {false, true})
+    for (const double specular : {0.0, 0.5})
+      for (const double reflective : {0.0, 0.25})
+        for (const bool picture : {false, true}) {
+          Phong phong;
+          phong.specular = Color(specular), phong.reflective = Color(reflective);
+          phong.mirrorsSpecular = mirrorsSpecular;
+          Scene scene;
+          scene.format = "ray";
+          scene.materials.push_back({"", phong, {}});
+          if (picture) scene.materials[0].maps = {{"specular", "a b.png"}};
+          scene.objects.push_back({"", Sphere{}, {}, 0, {}});
+          expectRoundTrip(scene, written(scene));
+        }
+}
+
+TEST(RayWriter, WritesASharedMeshOnce) {
+  const Scene scene = again(R"(SBT-raytracer 1.0
+polymesh { shared = ball; points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0,1,2)); name = first; }
+translate(1, 2, 3, mesh { shared = ball; material = { diffuse = (1, 0, 0); } }))");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(&meshOf(scene, 0), &meshOf(scene, 1));
+  expectRoundTrip(scene, "shared");
+  const Scene back = again(written(scene));
+  EXPECT_EQ(&meshOf(back, 0), &meshOf(back, 1));
+  EXPECT_EQ(errorsOf("mesh { shared = 7; }"),
+            "2:8: expected the name of a mesh before, found 7 [a mesh is shared by shared = NAME beside its "
+            "points]");
+}
+
+TEST(RayWriter, NamesWithOddLettersLoseThem) {
+  Scene scene = again("SBT-raytracer 1.0 sphere { name = x; }");
+  scene.objects[0].name = "say \"hi\"\n// }";
+  scene.materials[0].name = "a b";
+  const Scene back = again(written(scene));
+  EXPECT_EQ(back.objects.at(0).name, "say 'hi' // }");
+  EXPECT_EQ(back.materials.at(0).name, "a b");
+}
+
+TEST(RayWriter, WritesFewerDigitsIfAsked) {
+  const Scene scene = again("SBT-raytracer 1.0 camera { position = (0.123456789, 2, 1e-9); }");
+  EXPECT_NE(written(scene, {.digits = 3}).find("position = (0.123, 2, 1e-09);"), std::string::npos);
+  EXPECT_NE(written(scene).find("position = (0.123456789, 2, 1e-09);"), std::string::npos);
+}
+
+TEST(RayWriter, RefusesNumbersThatTheFormatDoesNotHave) {
+  Scene scene;
+  scene.camera.position.x = kInfinity;
+  EXPECT_THROW(written(scene), Error);
+}
+
+TEST(RayWriter, KeepsTextOfOtherFormatsAsComments) {
+  Scene scene = again("SBT-raytracer 1.0 sphere { }");
+  scene.format = "other";
+  scene.unrendered.push_back({"Fog", {}, "Fog {\n  strange ( }"});
+  EXPECT_EQ(again(written(scene)).objects.size(), 1u);
+}
+
+}  // namespace
+}  // namespace trace
