@@ -28,7 +28,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
         keepNearest({met.hit.t, object, met.triangle, met.hit});
       statistics.nodes.owner = NodeCount::kTop;
     } else {
-      crossingsOfShape(object, ray, statistics, keepNearest);
+      crossingsOfShape(object, ray, best->t, statistics, keepNearest);
     }
     return false;
   };
@@ -42,13 +42,15 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
   Ray moved;
   const Ray& ray = instance.objectRay(worldRay, moved);
-  SurfacePoint s = match(
-      instance.shape, Overloaded{[&](const Mesh&) {
-                                   return trace::surface(instance.mesh->data(), found.part, found.triangle);
-                                 },
-                                 [&](const auto& shape) {
-                                   return shape.surface(ray, {found.t, static_cast<int>(found.part)});
-                                 }});
+  SurfacePoint s =
+      match(instance.shape,
+            Overloaded{[&](const Mesh&) {
+                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
+                                               found.triangle);
+                       },
+                       [&](const auto& shape) {
+                         return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
+                       }});
 
   // Rounding on the way to the world, and on the way back when the next ray is brought to this object.
   const Vec3 p = s.point;
@@ -137,7 +139,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
     World::Instance instance;
-    instance.shape = object.shape;
+    instance.shape = prepare(object.shape);
     instance.worldFromObject = object.worldFromObject;
     instance.moved = object.worldFromObject != Affine{};
     instance.material = object.material;
@@ -166,7 +168,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
                          if (world.materials_.at(m).transmits()) instance.opaque = false;
                        box = bounds(tree->data());
                      },
-                     [&](const auto& shape) { box = shape.bounds(); }});
+                     [&](const auto& shape) { box = formOf(shape).bounds(); }});
     if (invertible(object.worldFromObject)) instance.bounds = object.worldFromObject * box;
     boxes.push_back(instance.bounds);
     world.bounds_.extend(instance.bounds);

@@ -29,18 +29,18 @@ TEST(RayFormat, ReadsEveryShapeOfTheList) {
   });
 }
 
+// A value other than the default, and how a file says it.
+std::string other(bool& value) { return value = !value, value ? "true" : "false"; }
+std::string other(Real& value) { return value = 3.5, "3.5"; }
+std::string other(Vec3& value) { return value = {1, -2, 3.5}, "(1, -2, 3.5)"; }
+
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
   forEachType<Shape>([]<class S>(S*) {
-    forEachField<S>([]<class F>(const F& field) {
-      using Value = std::remove_cvref_t<decltype(S{}.*field.member)>;
-      const bool flag = std::is_same_v<Value, bool>;
-      const std::string text =
-          std::string(S::kKeyword) + "{" + std::string(field.keyword) + (flag ? "=false" : "=3.5") + "}";
+    forEachField<S>([](const auto& field) {
       S expected;
-      if constexpr (std::is_same_v<Value, bool>)
-        expected.*field.member = false;
-      else if constexpr (std::is_same_v<Value, Real>)
-        expected.*field.member = 3.5;
+      const std::string value = other(expected.*field.member);
+      const std::string text =
+          std::string(S::kKeyword) + "{" + std::string(field.keyword) + "=" + value + "}";
       EXPECT_EQ(onlyShape<S>(text), expected) << text;
     });
   });

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/match.h"
-#include "geometry/shape.h"
+#include "geometry/traced.h"
 #include "support/random.h"
 
 namespace trace::test {
@@ -49,27 +49,35 @@ inline void addNeedles(MeshData& mesh, Random& random, double scale = 1, const V
   }
 }
 
-/// The default instance of each analytic shape, and one with each field changed: flags flipped, numbers
-/// scaled.
+// Other values for a field: flags flipped, numbers and vectors scaled.
+inline std::vector<bool> variations(bool value) { return {!value}; }
+inline std::vector<Real> variations(Real value) {
+  return {value == 0 ? 0.25 : value * 0.25, value == 0 ? 0.75 : value * 0.75};
+}
+inline std::vector<Vec3> variations(const Vec3& value) {
+  return {Vec3{value.x * 0.5 + 0.125, value.y * 0.75, value.z * 0.875}};
+}
+
+/// The default instance of the shape, and one with each field changed.
+template <class S>
+std::vector<S> samplesOf() {
+  std::vector<S> samples{S{}};
+  forEachField<S>([&](const auto& field) {
+    S changed;
+    for (const auto& value : variations(changed.*field.member)) {
+      changed.*field.member = value;
+      samples.push_back(changed);
+    }
+  });
+  return samples;
+}
+
+/// Those of all analytic shapes.
 inline std::vector<Shape> analyticShapes() {
   std::vector<Shape> shapes;
   forEachType<Shape>([&]<class S>(S*) {
-    if constexpr (!std::is_same_v<S, Mesh>) {
-      shapes.push_back(S{});
-      forEachField<S>([&](const auto& field) {
-        S changed;
-        auto& value = changed.*field.member;
-        if constexpr (std::is_same_v<std::remove_reference_t<decltype(value)>, bool>) {
-          value = !value;
-          shapes.push_back(changed);
-        } else {
-          for (double factor : {0.25, 3.0}) {
-            value = value == 0 ? factor : value * factor;
-            shapes.push_back(changed);
-          }
-        }
-      });
-    }
+    if constexpr (!std::is_same_v<S, Mesh>)
+      for (const S& sample : samplesOf<S>()) shapes.push_back(sample);
   });
   return shapes;
 }
@@ -78,27 +86,31 @@ inline std::string nameOf(const Shape& shape) {
   return std::string(match(shape, [](const auto& s) { return s.kKeyword; }));
 }
 
-inline std::vector<Crossing> crossingsOf(const Shape& shape, const Ray& ray) {
+inline std::vector<Crossing> crossingsOf(const TracedShape& shape, const Ray& ray) {
   std::vector<Crossing> found;
-  match(shape,
-        Overloaded{[](const Mesh&) {},
-                   [&](const auto& s) { s.crossings(ray, [&](const Crossing& c) { found.push_back(c); }); }});
+  const Range everywhere{-kInfinity, kInfinity};
+  match(shape, Overloaded{[](const Mesh&) {},
+                          [&](const auto& s) {
+                            visitCrossings(formOf(s), ray, everywhere,
+                                           [&](const Crossing& c) { found.push_back(c); });
+                          }});
   std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
   return found;
 }
 
-inline SurfacePoint surfaceOf(const Shape& shape, const Ray& ray, const Crossing& crossing) {
+inline SurfacePoint surfaceOf(const TracedShape& shape, const Ray& ray, const Crossing& crossing) {
   return match(shape, Overloaded{[](const Mesh&) { return SurfacePoint{}; },
-                                 [&](const auto& s) { return s.surface(ray, crossing); }});
+                                 [&](const auto& s) { return formOf(s).surface(ray, crossing); }});
 }
 
-inline Box3 boundsOf(const Shape& shape) {
+inline Box3 boundsOf(const TracedShape& shape) {
   return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); },
-                                 [](const auto& s) { return s.bounds(); }});
+                                 [](const auto& s) { return formOf(s).bounds(); }});
 }
 
-inline bool isSolid(const Shape& shape) {
-  return match(shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return s.solid(); }});
+inline bool isSolid(const TracedShape& shape) {
+  return match(
+      shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return formOf(s).solid(); }});
 }
 
 }  // namespace trace::test
