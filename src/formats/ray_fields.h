@@ -34,7 +34,8 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   forEachField<Struct>([&](const auto& f) {
     if (f.keyword != key) return;
     found = true;
-    read(findings, f.keyword, field.value(), target.*f.member);
+    if constexpr (!requires { (target.*f.member).list(); })  // objects are read as objects
+      read(findings, f.keyword, field.value(), target.*f.member);
   });
   return found;
 }
@@ -58,7 +59,7 @@ void checkRange(Findings& findings, const Struct& target, const Item& field) {
       check(f, value.x), check(f, value.y), check(f, value.z);
     else if constexpr (requires { value.r; })
       check(f, value.r), check(f, value.g), check(f, value.b);
-    else if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(value)>, bool>)
+    else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
       check(f, value);
   });
 }

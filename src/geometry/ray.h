@@ -30,7 +30,7 @@ class VisitCrossing {
  public:
   template <class Visit>
   VisitCrossing(Visit& visit)  // NOLINT(google-explicit-constructor)
-      : context_(&visit),
+      : context_(const_cast<void*>(static_cast<const void*>(&visit))),
         call_([](void* context, const Crossing& c) { (*static_cast<Visit*>(context))(c); }) {}
   void operator()(const Crossing& crossing) const { call_(context_, crossing); }
 

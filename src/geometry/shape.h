@@ -20,6 +20,7 @@
 #include <variant>
 
 #include "geometry/cone.h"
+#include "geometry/csg.h"
 #include "geometry/cube.h"
 #include "geometry/disk.h"
 #include "geometry/mesh.h"
@@ -33,6 +34,7 @@
 namespace trace {
 
 using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid,
-                           EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Mesh>;
+                           EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Union,
+                           Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

@@ -38,9 +38,6 @@ template <class Variant>
 struct TracedOf;
 template <class... S>
 struct TracedOf<std::variant<S...>> {
-  static_assert(((std::is_same_v<S, Mesh> ||
-                  Traceable<std::remove_cvref_t<decltype(formOf(prepare(std::declval<S>())))>>)&&...),
-                "a shape lacks something of what shape.h asks for");
   using type = std::variant<decltype(prepare(std::declval<S>()))...>;
 };
 }  // namespace detail

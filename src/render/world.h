@@ -12,8 +12,8 @@
 
 #include "accel/bvh.h"
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "geometry/mesh_tree.h"
-#include "geometry/traced.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/light.h"

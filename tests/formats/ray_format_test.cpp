@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "ray_helpers.h"
 
 namespace trace {
@@ -33,6 +34,8 @@ TEST(RayFormat, ReadsEveryShapeOfTheList) {
 std::string other(bool& value) { return value = !value, value ? "true" : "false"; }
 std::string other(Real& value) { return value = 3.5, "3.5"; }
 std::string other(Vec3& value) { return value = {1, -2, 3.5}, "(1, -2, 3.5)"; }
+
+std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {}, 0}}), "{ sphere { } }"; }
 
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
   forEachType<Shape>([]<class S>(S*) {

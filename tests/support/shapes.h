@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/match.h"
-#include "geometry/traced.h"
+#include "geometry/csg_tree.h"
 #include "support/random.h"
 
 namespace trace::test {
@@ -58,12 +58,28 @@ inline std::vector<Vec3> variations(const Vec3& value) {
   return {Vec3{value.x * 0.5 + 0.125, value.y * 0.75, value.z * 0.875}};
 }
 
-/// The default instance of the shape, and one with each field changed.
+inline std::vector<Operands> variations(const Operands&) { return {}; }
+
+/// Something to see of the shape: its default, where that is not empty.
+template <class S>
+S typical() {
+  S shape;
+  if constexpr (std::is_same_v<S, Clip>)
+    shape.objects = Operands({{"", Sphere{}, {}, 0}, {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0}});
+  else if constexpr (requires { shape.objects; })
+    shape.objects =
+        Operands({{"", Sphere{}, {}, 0},
+                  {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0},
+                  {"", Cylinder{}, Affine::translation({0, 0, -0.4}) * Affine::scaling({0.5, 0.5, 1}), 0}});
+  return shape;
+}
+
+/// The typical shape, and one with each field changed.
 template <class S>
 std::vector<S> samplesOf() {
-  std::vector<S> samples{S{}};
+  std::vector<S> samples{typical<S>()};
   forEachField<S>([&](const auto& field) {
-    S changed;
+    S changed = typical<S>();
     for (const auto& value : variations(changed.*field.member)) {
       changed.*field.member = value;
       samples.push_back(changed);
@@ -112,5 +128,20 @@ inline bool isSolid(const TracedShape& shape) {
   return match(
       shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return formOf(s).solid(); }});
 }
+
+/// Shapes that have to be worked out first, for single rays.
+template <class S>
+requires requires(const S s) { s.prepared(); }
+std::vector<Crossing> crossingsOf(const S& shape, const Ray& ray) {
+  return crossingsOf(prepare(Shape(shape)), ray);
+}
+template <class S>
+requires requires(const S s) { s.prepared(); }
+SurfacePoint surfaceOf(const S& shape, const Ray& ray, const Crossing& crossing) {
+  return surfaceOf(prepare(Shape(shape)), ray, crossing);
+}
+template <class S>
+requires requires(const S s) { s.prepared(); }
+bool isSolid(const S& shape) { return isSolid(prepare(Shape(shape))); }
 
 }  // namespace trace::test
