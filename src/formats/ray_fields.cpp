@@ -57,6 +57,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
 std::string_view canonical(std::string_view word) {
   if (word == "colour") return "color";
   if (word == "trimesh") return "polymesh";
+  if (word == "subtraction") return "difference";
   if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
   return word;
 }

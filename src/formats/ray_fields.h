@@ -1,10 +1,15 @@
 // Values of .ray files read into the members of scene structs, by the structs' own lists of fields.
 #pragma once
 
+#include <array>
+#include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/field.h"
+#include "base/text.h"
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
 #include "math/color.h"
@@ -19,6 +24,50 @@ bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to
 bool read(Findings& findings, std::string_view name, const Item& value, Color& to);
 /// A word, or a number as written.
 bool read(Findings& findings, std::string_view name, const Item& value, std::string& to);
+
+/// One of an enum's names, which names(Enum) lists.
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool read(Findings& findings, std::string_view name, const Item& value, Enum& to) {
+  const auto all = names(Enum{});
+  std::string list;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (value.is(Kind::word) && value.text() == all[i]) return to = static_cast<Enum>(i), true;
+    list += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
+  }
+  return findings.expected(value, name, list, value.is(Kind::word) ? didYouMean(value.text(), all) : ""),
+         false;
+}
+
+/// What an element of a list looks like.
+template <std::size_t N>
+std::string form(const std::array<Real, N>&) {
+  std::string numbers = "(a";
+  for (std::size_t i = 1; i < N; ++i) numbers += std::string(", ") + static_cast<char>('a' + i);
+  return numbers + ")";
+}
+template <class Element>
+std::string form(const std::vector<Element>&) {
+  return "(" + form(Element{}) + ", " + form(Element{}) + ", ...)";
+}
+
+template <std::size_t N>
+bool read(Findings& findings, std::string_view name, const Item& value, std::array<Real, N>& to) {
+  if (numbers(value, to.data(), static_cast<int>(N))) return true;
+  return findings.expected(value, name, form(to)), false;
+}
+/// A list in brackets, of tuples of numbers or of lists.
+template <class Element>
+bool read(Findings& findings, std::string_view name, const Item& value, std::vector<Element>& to) {
+  if (!value.is(Kind::tuple)) return findings.expected(value, name, "a list " + form(to)), false;
+  std::vector<Element> list;
+  for (const Item item : value) {
+    list.emplace_back();
+    if (!read(findings, name, item, list.back())) return false;
+  }
+  to = std::move(list);
+  return true;
+}
 
 /// Exactly `count` numbers in a tuple; no report.
 bool numbers(const Item& tuple, Real* to, int count);

@@ -342,7 +342,10 @@ class Reader {
 
   template <class S>
   void shape(const Item& call, Affine worldFromObject) {
-    const std::optional<Item> block = blockOf(call);
+    // Solids of solids are also written as union(a, b).
+    const bool list = requires { S{}.objects; }
+    &&call.value().is(Kind::tuple);
+    const std::optional<Item> block = list ? call.value() : blockOf(call);
     if (!block) return;
     if constexpr (std::is_same_v<S, Mesh>)
       mesh(call, *block, worldFromObject);

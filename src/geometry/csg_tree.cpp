@@ -1,10 +1,8 @@
 #include "geometry/csg_tree.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/error.h"
-#include "geometry/span.h"
 
 namespace trace {
 
@@ -48,25 +46,6 @@ struct CsgTree::Event {
   }
 };
 
-/// A list that needs no memory from the heap while it is short.
-class CsgTree::Events {
- public:
-  void add(const Event& event) {
-    if (count_ == few_.size()) many_.assign(few_.begin(), few_.end());
-    if (count_ >= few_.size())
-      many_.push_back(event);
-    else
-      few_[count_] = event;
-    ++count_;
-  }
-  std::span<Event> all() { return {many_.empty() ? few_.data() : many_.data(), count_}; }
-
- private:
-  std::array<Event, 16> few_;
-  std::vector<Event> many_;
-  std::size_t count_ = 0;
-};
-
 /// How many of the operands the line is inside of, and whether that is inside of the whole.
 class CsgTree::State {
  public:
@@ -108,15 +87,7 @@ CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands) :
   partCount_ = mostParts * count;
   bounds_ = boundsOfWhole();
   near_ = std::ldexp(maxComponent(bounds_.size()), -20);
-  constexpr std::size_t kFew = 4;  // are not worth a hierarchy
-  for (std::uint32_t i = 0; i < boxes.size(); ++i)
-    if (operands_.size() <= kFew || !isFinite(boxes[i].low) || !isFinite(boxes[i].high)) {
-      eachAlone_.push_back(i);
-      boxes[i] = {};
-    } else {
-      reach_.extend(boxes[i]);
-    }
-  bvh_ = Bvh(boxes);
+  tree_ = LineTree(std::move(boxes));
 }
 
 Box3 CsgTree::boundsOfWhole() const {
@@ -133,9 +104,9 @@ Box3 CsgTree::boundsOfWhole() const {
   return box;
 }
 
-void CsgTree::gather(const Ray& ray, Events& events) const {
-  const auto meet = [&](std::uint32_t number) {
-    const std::size_t before = events.all().size();
+void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
+  tree_.query(ray, [&](std::uint32_t number) {
+    const std::size_t before = events.size();
     const auto add = [&](const Crossing& c) {
       const auto count = static_cast<std::int64_t>(operands_.size());
       events.add({{c.t, c.part * count + number}, number, false});
@@ -146,18 +117,7 @@ void CsgTree::gather(const Ray& ray, Events& events) const {
     std::sort(own.begin(), own.end());
     for (std::size_t i = 0; i + 1 < own.size(); i += 2) own[i].entering = true;
     if (own.size() % 2 != 0) own.back().crossing.t = kInfinity;
-    return false;
-  };
-  for (const std::uint32_t i : eachAlone_) {
-    const Box3& box = operands_[i].bounds();
-    if (!isFinite(box.low) || !isFinite(box.high) || !spanIn(roomy(box), ray).empty()) meet(i);
-  }
-  // The hierarchy looks ahead only: it is asked from a place before everything.
-  const Span span = reach_.empty() ? Span{1, 0} : spanIn(roomy(reach_), ray);
-  if (span.empty()) return;
-  const Real back = std::min(span.from, 0.0) - 0.5 * (span.to - span.from);
-  std::uint64_t visited = 0;
-  bvh_.query(ray.at(back), ray.direction, kInfinity, false, visited, meet);
+  });
 }
 
 /// Do the crossings lie nearer together than their errors reach?
@@ -172,7 +132,7 @@ bool CsgTree::coincide(const Ray& ray, const Event& a, const Event& b) const {
 }
 
 void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
-  Events list;
+  SmallList<Event, 16> list;
   gather(ray, list);
   const std::span<Event> events = list.all();
   std::sort(events.begin(), events.end());

@@ -13,8 +13,9 @@
 #include <span>
 #include <string>
 
-#include "accel/bvh.h"
+#include "base/small_list.h"
 #include "geometry/csg.h"
+#include "geometry/line_tree.h"
 #include "geometry/placed.h"
 
 namespace trace {
@@ -48,10 +49,9 @@ class CsgTree {
 
  private:
   struct Event;
-  class Events;
   class State;
 
-  void gather(const Ray& ray, Events& events) const;
+  void gather(const Ray& ray, SmallList<Event, 16>& events) const;
   bool coincide(const Ray& ray, const Event& a, const Event& b) const;
   SurfacePoint operandSurface(const Ray& ray, const Crossing& crossing) const;
   Box3 boundsOfWhole() const;
@@ -62,9 +62,7 @@ class CsgTree {
   Box3 bounds_;
   Real near_ = 0;  ///< crossings farther apart never coincide
   std::int64_t partCount_ = 1;
-  Bvh bvh_;                               ///< over the bounded operands, if there are many
-  Box3 reach_;                            ///< of the bounded operands
-  std::vector<std::uint32_t> eachAlone_;  ///< operands that are not in the hierarchy
+  LineTree tree_;  ///< over the operands
 };
 
 }  // namespace trace

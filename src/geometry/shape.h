@@ -23,10 +23,14 @@
 #include "geometry/csg.h"
 #include "geometry/cube.h"
 #include "geometry/disk.h"
+#include "geometry/lathe.h"
 #include "geometry/mesh.h"
+#include "geometry/metaballs.h"
+#include "geometry/prism.h"
 #include "geometry/quadric.h"
 #include "geometry/rounded_box.h"
 #include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
 #include "geometry/square.h"
 #include "geometry/superellipsoid.h"
 #include "geometry/torus.h"
@@ -34,7 +38,7 @@
 namespace trace {
 
 using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid,
-                           EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Union,
-                           Intersection, Difference, Clip, Mesh>;
+                           EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Lathe,
+                           Prism, SphereSweep, Metaballs, Union, Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

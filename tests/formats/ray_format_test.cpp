@@ -35,6 +35,19 @@ std::string other(bool& value) { return value = !value, value ? "true" : "false"
 std::string other(Real& value) { return value = 3.5, "3.5"; }
 std::string other(Vec3& value) { return value = {1, -2, 3.5}, "(1, -2, 3.5)"; }
 
+template <class Enum>
+requires std::is_enum_v<Enum> std::string other(Enum& value) {
+  return value = static_cast<Enum>(2), std::string(names(value)[2]);
+}
+std::string other(std::vector<std::array<Real, 2>>& v) { return v = {{1, 2}, {3, -4}}, "((1, 2), (3, -4))"; }
+std::string other(std::vector<std::array<Real, 4>>& v) { return v = {{1, 2, 3, 4}}, "((1, 2, 3, 4))"; }
+std::string other(std::vector<std::array<Real, 5>>& v) { return v = {{1, 2, 3, 4, 5}}, "((1, 2, 3, 4, 5))"; }
+std::string other(std::vector<std::array<Real, 8>>& v) {
+  return v = {{1, 2, 3, 4, 5, 6, 7, 8}}, "((1, 2, 3, 4, 5, 6, 7, 8))";
+}
+std::string other(std::vector<Prism::Outline>& v) {
+  return v = {{{1, 2}, {3, 4}}, {}}, "(((1, 2), (3, 4)), ())";
+}
 std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {}, 0}}), "{ sphere { } }"; }
 
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
@@ -401,13 +414,13 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
       "spot_light { position = (0, 0, 1); }\nspot_light { }\n"
-      "translate(1, 2, 3, torus { a = 1; })\nsubtraction(sphere{}, box{})\n"
+      "translate(1, 2, 3, height_field { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(warningsOf(text),
             "2:1: \"spot_light\" is not rendered yet (2 times, first here)\n"
-            "4:20: \"torus\" is not rendered yet\n"
-            "5:1: \"subtraction\" is not rendered yet\n"
+            "4:20: \"height_field\" is not rendered yet\n"
+            "5:1: \"csg\" is not rendered yet\n"
             "6:23: \"bump_mapping\" is not rendered yet\n"
             "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
@@ -415,7 +428,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
   EXPECT_EQ(loaded.scene.unrendered[0].text, "spot_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
-            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\ntorus { a = 1; })");
+            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nheight_field { a = 1; })");
   EXPECT_EQ(loaded.scene.objects.size(), 1u);
   EXPECT_EQ(phongOf(loaded.scene, 0).diffuse, Color(1));
 }

@@ -129,6 +129,17 @@ TEST(Shapes, VolumeByParallelProjection) {
       volume(RoundedBox{}, 500),
       inner * inner * inner + 6 * inner * inner * r + 3 * kPi * inner * r * r + 4 * kPi / 3 * r * r * r,
       2e-4);
+  const double third = 1.0 / 3;  // Pappus: a triangle with its centroid 4/3 from the axis
+  EXPECT_NEAR(volume(Lathe{{{1, 0}, {1.5, 0}, {1.5, 0.5}, {1, 0}}, Spline::linear}, 500),
+              2 * kPi * (1 + third) * 0.125, 5e-4);
+  EXPECT_NEAR(volume(Lathe{{{1, 0}, {0, 1}}, Spline::linear}, 500), kPi / 3, 5e-4);
+  const Prism::Outline square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
+      hole{{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}};
+  EXPECT_NEAR(volume(Prism{square, {hole}, Spline::linear, 2, 1}, 400), (4 - 1) * 2, 1e-9);
+  EXPECT_NEAR(volume(Prism{square, {hole}, Spline::linear, 2, 0}, 400), (4 - 1) * 2 * third, 5e-4);
+  EXPECT_NEAR(volume(SphereSweep{{{0, 0, 0, 1}, {0, 0, 2, 1}}, Spline::linear}, 500), 2 * kPi + 4 * kPi / 3,
+              1e-3);
+  EXPECT_NEAR(volume(Metaballs{0.25, {{0, 0, 0, 1, 1}}, {}}, 500), 4 * kPi / 3 * std::pow(0.5, 1.5), 2e-4);
   EXPECT_NEAR(volume(Superellipsoid{.east = 1, .north = 1}, 500), 4.18879, 2e-4);
   EXPECT_NEAR(volume(Superellipsoid{.east = 2, .north = 2}, 500), 4.0 / 3, 2e-4);
   EXPECT_NEAR(volume(Superellipsoid{.east = 1, .north = 2}, 500), 2 * kPi / 3, 1e-3);

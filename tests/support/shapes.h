@@ -58,6 +58,22 @@ inline std::vector<Vec3> variations(const Vec3& value) {
   return {Vec3{value.x * 0.5 + 0.125, value.y * 0.75, value.z * 0.875}};
 }
 
+/// Every name of an enum.
+template <class Enum>
+requires std::is_enum_v<Enum> std::vector<Enum> variations(Enum) {
+  std::vector<Enum> all;
+  for (std::size_t i = 0; i < names(Enum{}).size(); ++i) all.push_back(static_cast<Enum>(i));
+  return all;
+}
+/// Lists of tuples: squeezed.
+template <std::size_t N>
+std::vector<std::vector<std::array<Real, N>>> variations(std::vector<std::array<Real, N>> list) {
+  for (auto& tuple : list) tuple[0] *= 0.75;
+  return {list};
+}
+inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Prism::Outline>&) {
+  return {{{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.2, 0.3}}}};
+}
 inline std::vector<Operands> variations(const Operands&) { return {}; }
 
 /// Something to see of the shape: its default, where that is not empty.
