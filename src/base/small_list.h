@@ -23,7 +23,7 @@ class SmallList {
   std::span<T> all() { return {count_ > kFew ? many_.data() : few_.data(), count_}; }
 
  private:
-  std::array<T, kFew> few_;
+  std::array<T, kFew> few_;  // not set before it is used
   std::vector<T> many_;
   std::size_t count_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "formats/ray_fields.h"
 
+#include <cmath>
 #include <string>
 
 #include "base/text.h"
@@ -19,6 +20,15 @@ bool numbers(const Item& tuple, Real* to, int count) {
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to) {
   if (!value.is(Kind::number)) return findings.expected(value, name, "a number"), false;
   to = value.number();
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, int& to) {
+  constexpr double kMost = 1e9;
+  if (!value.is(Kind::number) || value.number() != std::floor(value.number()) ||
+      std::abs(value.number()) > kMost)
+    return findings.expected(value, name, "a whole number"), false;
+  to = static_cast<int>(value.number());
   return true;
 }
 

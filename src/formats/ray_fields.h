@@ -19,6 +19,7 @@ namespace trace::rayfile {
 
 /// Each reads one value of the field `name`; reports what else was found and returns false.
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to);
+bool read(Findings& findings, std::string_view name, const Item& value, int& to);
 bool read(Findings& findings, std::string_view name, const Item& value, bool& to);
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to);
 bool read(Findings& findings, std::string_view name, const Item& value, Color& to);
@@ -108,7 +109,8 @@ void checkRange(Findings& findings, const Struct& target, const Item& field) {
       check(f, value.x), check(f, value.y), check(f, value.z);
     else if constexpr (requires { value.r; })
       check(f, value.r), check(f, value.g), check(f, value.b);
-    else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
+    else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real> ||
+                       std::is_same_v<std::remove_cvref_t<decltype(value)>, int>)
       check(f, value);
   });
 }

@@ -377,6 +377,13 @@ class Reader {
       }
     }
     if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
+    if constexpr (requires { shape.prepared(); }) {
+      try {
+        shape.prepared();
+      } catch (const Error& error) {
+        return findings_.error(call, error.messages().front().what, error.messages().front().hint);
+      }
+    }
     const std::string_view reason = repair(shape, worldFromObject);
     if (!reason.empty()) return findings_.warn(call, std::string(reason));
     for (const Item item : block)

@@ -23,7 +23,10 @@
 #include "geometry/csg.h"
 #include "geometry/cube.h"
 #include "geometry/disk.h"
+#include "geometry/isosurface.h"
+#include "geometry/julia.h"
 #include "geometry/lathe.h"
+#include "geometry/menger.h"
 #include "geometry/mesh.h"
 #include "geometry/metaballs.h"
 #include "geometry/prism.h"
@@ -37,8 +40,9 @@
 
 namespace trace {
 
-using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid,
-                           EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Lathe,
-                           Prism, SphereSweep, Metaballs, Union, Intersection, Difference, Clip, Mesh>;
+using Shape =
+    std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid, EllipticCone,
+                 Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Lathe, Prism, SphereSweep,
+                 Metaballs, Isosurface, Menger, Julia, Union, Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

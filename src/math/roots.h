@@ -87,7 +87,7 @@ inline constexpr std::size_t kMostDegree = 12;
 
 /// Ascending numbers, and room for the ends of an interval around the roots of a polynomial.
 struct Nodes {
-  std::array<Real, kMostDegree + 3> at{};
+  std::array<Real, kMostDegree + 3> at;  // not set before it is used: this is met for every ray
   std::size_t count = 0;
 
   void add(Real t) { at[count++] = t; }
@@ -95,28 +95,44 @@ struct Nodes {
 };
 
 /// a, the places in (a, b) where the polynomial changes sign, and b. Between the places where the derivative
-/// changes sign a polynomial is monotone: so from degree 1 upward (Yuksel, High-Performance Polynomial Root
+/// changes sign a polynomial is monotone: so from degree 2 upward (Yuksel, High-Performance Polynomial Root
 /// Finding for Graphics, 2022). The degree is at most kMostDegree; leading coefficients may be zero.
 inline Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b) {
-  std::array<std::array<Real, kMostDegree + 1>, kMostDegree + 1> derivative{};
   const std::size_t degree = coefficients.size() - 1;
+  Nodes nodes;
+  nodes.add(a);
+  if (degree == 0) return nodes.add(b), nodes;
+
+  Real derivative[kMostDegree + 1][kMostDegree + 1];
   for (std::size_t i = 0; i <= degree; ++i) derivative[degree][i] = coefficients[i];
-  for (std::size_t n = degree; n-- > 0;)
+  for (std::size_t n = degree; n-- > 1;)
     for (std::size_t i = 0; i <= n; ++i)
       derivative[n][i] = static_cast<Real>(i + 1) * derivative[n + 1][i + 1];
 
-  Nodes nodes;
-  nodes.add(a), nodes.add(b);
-  for (std::size_t n = 1; n <= degree; ++n) {
-    const std::span<const Real> p(derivative[n].data(), n + 1);
+  const auto addInside = [&](Real t) {
+    if (a < t && t < b) nodes.add(t);
+  };
+  std::size_t solved = degree < 2 ? degree : 2;
+  const Real* p = derivative[solved];
+  if (solved == 1 || p[2] == 0) {
+    addInside(-p[0] / p[1]);
+  } else {
+    const Real half = 0.5 * p[1];
+    const Roots2 roots = solveQuadratic(p[2], half, p[0], half * half - p[2] * p[0]);
+    if (roots.count && roots.t0 < roots.t1) addInside(roots.t0), addInside(roots.t1);
+  }
+  nodes.add(b);
+
+  while (solved++ < degree) {
+    const std::span<const Real> q(derivative[solved], solved + 1);
     Nodes finer;
     finer.add(a);
-    bool negative = evaluate(p, a).value < 0;
+    bool negative = evaluate(q, a).value < 0;
     for (std::size_t i = 0; i + 1 < nodes.count; ++i) {
-      const bool negativeAfter = evaluate(p, nodes.at[i + 1]).value < 0;
+      const bool negativeAfter = evaluate(q, nodes.at[i + 1]).value < 0;
       if (negative != negativeAfter)
         finer.add(
-            rootBetween([&](Real t) { return evaluate(p, t); }, nodes.at[i], nodes.at[i + 1], negative));
+            rootBetween([&](Real t) { return evaluate(q, t); }, nodes.at[i], nodes.at[i + 1], negative));
       negative = negativeAfter;
     }
     finer.add(b);
@@ -127,10 +143,10 @@ inline Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b) {
 
 /// a, the places in (a, b) where the polynomial's derivative changes sign, and b: nodes for signChanges().
 inline Nodes extremaWithEnds(std::span<const Real> coefficients, Real a, Real b) {
-  std::array<Real, kMostDegree> derivative{};
+  Real derivative[kMostDegree];
   for (std::size_t i = 1; i < coefficients.size(); ++i)
     derivative[i - 1] = static_cast<Real>(i) * coefficients[i];
-  return rootsWithEnds({derivative.data(), coefficients.size() - 1}, a, b);
+  return rootsWithEnds({derivative, coefficients.size() - 1}, a, b);
 }
 
 }  // namespace trace

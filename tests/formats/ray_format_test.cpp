@@ -39,6 +39,9 @@ template <class Enum>
 requires std::is_enum_v<Enum> std::string other(Enum& value) {
   return value = static_cast<Enum>(2), std::string(names(value)[2]);
 }
+std::string other(int& value) { return value = 2, "2"; }
+std::string other(std::string& value) { return value = "x^2 - y", "\"x^2 - y\""; }
+std::string other(std::array<Real, 4>& v) { return v = {1, 0.5, -0.5, 0}, "(1, 0.5, -0.5, 0)"; }
 std::string other(std::vector<std::array<Real, 2>>& v) { return v = {{1, 2}, {3, -4}}, "((1, 2), (3, -4))"; }
 std::string other(std::vector<std::array<Real, 4>>& v) { return v = {{1, 2, 3, 4}}, "((1, 2, 3, 4))"; }
 std::string other(std::vector<std::array<Real, 5>>& v) { return v = {{1, 2, 3, 4, 5}}, "((1, 2, 3, 4, 5))"; }
@@ -60,6 +63,39 @@ TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
       EXPECT_EQ(onlyShape<S>(text), expected) << text;
     });
   });
+}
+
+TEST(RayFormat, ReadsSolidsOfSolids) {
+  const char* text =
+      "difference { material = { diffuse = (1, 0, 0) }\n box { }\n { sphere { } translate(1, 0, 0, sphere { "
+      "material = { diffuse = (0, 1, 0) } }) } }";
+  const Loaded loaded = load(text);
+  const Operands objects = onlyShape<Difference>(text).objects;
+  ASSERT_EQ(objects.list().size(), 2u);
+  const auto& group = std::get<Union>(objects.list()[1].shape).objects.list();
+  ASSERT_EQ(group.size(), 2u);
+  const auto color = [&](const Operand& o) {
+    return std::get<Phong>(loaded.scene.materials.at(o.material).model).diffuse;
+  };
+  EXPECT_EQ(color(objects.list()[0]), Color(1, 0, 0));
+  EXPECT_EQ(color(group[1]), Color(0, 1, 0));
+  EXPECT_EQ(group[1].wholeFromOperand * (Vec3{}), Vec3(1, 0, 0));
+  EXPECT_EQ(onlyShape<Union>("union(sphere{}, box{})").objects.list().size(), 2u);
+  EXPECT_EQ(onlyShape<Difference>("subtraction(sphere{}, box{})").objects.list().size(), 2u);
+  EXPECT_EQ(errorsOf("union { square { } }"),
+            "2:9: expected a solid, found square {...} [an open object can only be the first in a clip { }]");
+  EXPECT_EQ(warningsOf("union { }"), "2:1: union without objects is empty");
+}
+
+TEST(RayFormat, SaysWhatIsWrongWithListsNamesAndFormulas) {
+  EXPECT_EQ(
+      errorsOf("lathe { spline = bezir; }"),
+      "2:18: spline: expected linear, bezier, bspline or catmull, found bezir [did you mean \"bezier\"?]");
+  EXPECT_EQ(errorsOf("lathe { profile = ((1, 2), (3, 4, 5)); }"),
+            "2:28: profile: expected (a, b), found (3, 4, 5)");
+  EXPECT_EQ(errorsOf("menger { levels = 1.5; }"), "2:19: levels: expected a whole number, found 1.5");
+  EXPECT_EQ(errorsOf("isosurface { formula = \"x +\"; }"),
+            "2:1: formula: expected a number, x, y, z, a function or \"(\" at character 4, found the end");
 }
 
 TEST(RayFormat, KeepsNamesPlacesAndOrder) {

@@ -58,6 +58,13 @@ inline std::vector<Vec3> variations(const Vec3& value) {
   return {Vec3{value.x * 0.5 + 0.125, value.y * 0.75, value.z * 0.875}};
 }
 
+inline std::vector<int> variations(int value) { return {value / 2, value + 1}; }
+inline std::vector<std::string> variations(const std::string&) {
+  return {"z - 0.3 * sin(4 * x) * cos(3 * y)"};
+}
+inline std::vector<std::array<Real, 4>> variations(const std::array<Real, 4>& v) {
+  return {{v[0] * 0.75, v[1] * 0.75, v[2] + 0.125, v[3]}};
+}
 /// Every name of an enum.
 template <class Enum>
 requires std::is_enum_v<Enum> std::vector<Enum> variations(Enum) {
