@@ -139,8 +139,8 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
   std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(count));
   const auto insideAtEnd = [&](Real t, bool exact, bool bottom) {
     if (!exact) return distance(t).value < 0;
-    const Real r = bottom ? arc.r0 : arc.r1;
-    return square(t) < r * r;
+    const Real radius = bottom ? arc.r0 : arc.r1;
+    return square(t) < radius * radius;
   };
   bool inside = insideAtEnd(begin, beginIsEnd, bottomFirst);
   Real last = begin;

@@ -83,14 +83,14 @@ TEST(RayFormat, ReadsSolidsOfSolids) {
   EXPECT_EQ(onlyShape<Union>("union(sphere{}, box{})").objects.list().size(), 2u);
   EXPECT_EQ(onlyShape<Difference>("subtraction(sphere{}, box{})").objects.list().size(), 2u);
   EXPECT_EQ(errorsOf("union { square { } }"),
-            "2:9: expected a solid, found square {...} [an open object can only be the first in a clip { }]");
+            "2:9: expected a solid, found square { } [an open object can only be the first in a clip { }]");
   EXPECT_EQ(warningsOf("union { }"), "2:1: union without objects is empty");
 }
 
 TEST(RayFormat, SaysWhatIsWrongWithListsNamesAndFormulas) {
-  EXPECT_EQ(
-      errorsOf("lathe { spline = bezir; }"),
-      "2:18: spline: expected linear, bezier, bspline or catmull, found bezir [did you mean \"bezier\"?]");
+  EXPECT_EQ(errorsOf("lathe { spline = bezir; }"),
+            "2:18: spline: expected linear, bezier, bspline or catmull, found \"bezir\" [did you mean "
+            "\"bezier\"?]");
   EXPECT_EQ(errorsOf("lathe { profile = ((1, 2), (3, 4, 5)); }"),
             "2:28: profile: expected (a, b), found (3, 4, 5)");
   EXPECT_EQ(errorsOf("menger { levels = 1.5; }"), "2:19: levels: expected a whole number, found 1.5");
