@@ -23,6 +23,15 @@ bool read(Findings& findings, std::string_view name, const Item& value, Real& to
   return true;
 }
 
+bool read(Findings& findings, std::string_view name, const Item& value, int& to) {
+  constexpr double kMost = 1e9;
+  if (!value.is(Kind::number) || value.number() != std::floor(value.number()) ||
+      std::abs(value.number()) > kMost)
+    return findings.expected(value, name, "a whole number"), false;
+  to = static_cast<int>(value.number());
+  return true;
+}
+
 bool read(Findings& findings, std::string_view name, const Item& value, bool& to) {
   const bool yes = value.is(Kind::word) && value.text() == "true";
   if (!yes && !(value.is(Kind::word) && value.text() == "false"))
@@ -80,6 +89,7 @@ std::string written(const std::string& value, int) {
 std::string_view canonical(std::string_view word) {
   if (word == "colour") return "color";
   if (word == "trimesh" || word == "mesh") return "polymesh";
+  if (word == "subtraction") return "difference";
   if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
   return word;
 }

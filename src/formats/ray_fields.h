@@ -1,10 +1,15 @@
 // Values of .ray files read into the members of scene structs, by the structs' own lists of fields.
 #pragma once
 
+#include <array>
+#include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/field.h"
+#include "base/text.h"
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
 #include "math/color.h"
@@ -14,6 +19,7 @@ namespace trace::rayfile {
 
 /// Each reads one value of the field `name`; reports what else was found and returns false.
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to);
+bool read(Findings& findings, std::string_view name, const Item& value, int& to);
 bool read(Findings& findings, std::string_view name, const Item& value, bool& to);
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to);
 bool read(Findings& findings, std::string_view name, const Item& value, Color& to);
@@ -26,6 +32,70 @@ std::string written(bool value, int digits);
 std::string written(const Vec3& value, int digits);
 std::string written(const Color& value, int digits);
 std::string written(const std::string& value, int digits);
+template <class Enum>
+requires std::is_enum_v<Enum> std::string written(Enum value, int) {
+  return std::string(names(Enum{})[static_cast<std::size_t>(value)]);
+}
+template <class Sequence>
+std::string writtenList(const Sequence& values, int digits);
+template <std::size_t N>
+std::string written(const std::array<Real, N>& values, int digits) {
+  return writtenList(values, digits);
+}
+template <class Element>
+std::string written(const std::vector<Element>& values, int digits) {
+  return writtenList(values, digits);
+}
+template <class Sequence>
+std::string writtenList(const Sequence& values, int digits) {
+  std::string text;
+  for (const auto& value : values) text += (text.empty() ? "(" : ", ") + written(value, digits);
+  return text.empty() ? "()" : text + ")";
+}
+
+/// One of an enum's names, which names(Enum) lists.
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool read(Findings& findings, std::string_view name, const Item& value, Enum& to) {
+  const auto all = names(Enum{});
+  std::string list;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (value.is(Kind::word) && value.text() == all[i]) return to = static_cast<Enum>(i), true;
+    list += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
+  }
+  return findings.expected(value, name, list, value.is(Kind::word) ? didYouMean(value.text(), all) : ""),
+         false;
+}
+
+/// What an element of a list looks like.
+template <std::size_t N>
+std::string form(const std::array<Real, N>&) {
+  std::string numbers = "(a";
+  for (std::size_t i = 1; i < N; ++i) numbers += std::string(", ") + static_cast<char>('a' + i);
+  return numbers + ")";
+}
+template <class Element>
+std::string form(const std::vector<Element>&) {
+  return "(" + form(Element{}) + ", " + form(Element{}) + ", ...)";
+}
+
+template <std::size_t N>
+bool read(Findings& findings, std::string_view name, const Item& value, std::array<Real, N>& to) {
+  if (numbers(value, to.data(), static_cast<int>(N))) return true;
+  return findings.expected(value, name, form(to)), false;
+}
+/// A list in brackets, of tuples of numbers or of lists.
+template <class Element>
+bool read(Findings& findings, std::string_view name, const Item& value, std::vector<Element>& to) {
+  if (!value.is(Kind::tuple)) return findings.expected(value, name, "a list " + form(to)), false;
+  std::vector<Element> list;
+  for (const Item item : value) {
+    list.emplace_back();
+    if (!read(findings, name, item, list.back())) return false;
+  }
+  to = std::move(list);
+  return true;
+}
 
 /// Exactly `count` numbers in a tuple; no report.
 bool numbers(const Item& tuple, Real* to, int count);
@@ -41,7 +111,8 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   forEachField<Struct>([&](const auto& f) {
     if (f.keyword != key) return;
     found = true;
-    read(findings, f.keyword, field.value(), target.*f.member);
+    if constexpr (!requires { (target.*f.member).list(); })  // objects are read as objects
+      read(findings, f.keyword, field.value(), target.*f.member);
   });
   return found;
 }
@@ -65,7 +136,8 @@ void checkRange(Findings& findings, const Struct& target, const Item& field) {
       check(f, value.x), check(f, value.y), check(f, value.z);
     else if constexpr (requires { value.r; })
       check(f, value.r), check(f, value.g), check(f, value.b);
-    else if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(value)>, bool>)
+    else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real> ||
+                       std::is_same_v<std::remove_cvref_t<decltype(value)>, int>)
       check(f, value);
   });
 }

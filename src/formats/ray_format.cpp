@@ -25,6 +25,7 @@
 #include "formats/ray_mesh.h"
 #include "formats/ray_mesh_file.h"
 #include "formats/ray_syntax.h"
+#include "geometry/csg_tree.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -343,7 +344,10 @@ class Reader {
 
   template <class S>
   void shape(const Item& call, Affine worldFromObject) {
-    const std::optional<Item> block = blockOf(call);
+    // Solids of solids are also written as union(a, b).
+    const bool list = requires { S{}.objects; }
+    &&call.value().is(Kind::tuple);
+    const std::optional<Item> block = list ? call.value() : blockOf(call);
     if (!block) return;
     if constexpr (std::is_same_v<S, Mesh>)
       mesh(call, *block, worldFromObject);
@@ -367,7 +371,9 @@ class Reader {
     S shape;
     std::string name;
     Material material = materials_.current;
+    constexpr bool kOfObjects = requires { shape.objects; };
     for (const Item item : block) {
+      if (kOfObjects && (isObject(item) || isListOfObjects(item))) continue;
       if (!isField(item, call.key())) continue;
       if (item.key() == Phong::kKeyword) {
         if (item.is(Kind::call)) findings_.sureSignOf2001(item);
@@ -378,11 +384,61 @@ class Reader {
         findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
       }
     }
+    if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
+    if constexpr (requires { shape.prepared(); }) {
+      try {
+        shape.prepared();
+      } catch (const Error& error) {
+        return findings_.error(call, error.messages().front().what, error.messages().front().hint);
+      }
+    }
     const std::string_view reason = repair(shape, worldFromObject);
     if (!reason.empty()) return findings_.warn(call, std::string(reason));
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// Not a field of the block it stands in.
+  bool isObject(const Item& item) {
+    if (item.is(Kind::block) || findTransform(item)) return true;
+    return item.is(Kind::call) && withKeyword<Shape>(canonical(item.key()), [](auto*) {});
+  }
+  static bool isListOfObjects(const Item& item) {
+    return item.is(Kind::entry) && item.key() == "objects" && item.value().is(Kind::block);
+  }
+
+  /// The objects of a block, which may stand in objects = { } as well. They have the material of the whole if
+  /// they do not say another.
+  Operands operands(const Item& call, const Item& block, const Material& material, bool clips) {
+    const Material outside = std::exchange(materials_.current, material);
+    std::vector<Operand> operands;
+    const auto readAll = [&](const Item& items) {
+      for (const Item item : items)
+        if (isObject(item)) operand(item, clips && operands.empty(), operands);
+    };
+    readAll(block);
+    for (const Item item : block)
+      if (isListOfObjects(item)) readAll(item.value());
+    materials_.current = outside;
+    if (operands.empty()) findings_.warn(call, std::string(call.key()) + " without objects is empty");
+    return Operands(std::move(operands));
+  }
+
+  /// A group is one operand: the union of its objects.
+  void operand(const Item& item, bool mayBeOpen, std::vector<Operand>& operands) {
+    std::vector<Object> found = std::exchange(scene_.objects, {});
+    object(item, {});
+    found.swap(scene_.objects);
+    std::vector<Operand> parts;
+    for (Object& o : found) {
+      if (!mayBeOpen && !Placed(o.shape, {}).solid())
+        findings_.error(item, "expected a solid, found " + describe(item),
+                        "an open object can only be the first in a clip { }");
+      parts.push_back({std::move(o.name), std::move(o.shape), o.worldFromObject, o.material});
+    }
+    if (parts.size() > 1) parts = {{{}, Union{Operands(std::move(parts))}, {}, {}}};
+    for (Operand& part : parts) operands.push_back(std::move(part));
   }
 
   void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,

@@ -13,6 +13,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray_fields.h"
+#include "geometry/csg_tree.h"
 
 namespace trace {
 namespace rayfile {
@@ -21,8 +22,7 @@ namespace {
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
-    for (const Object& object : scene.objects)
-      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) ++uses_[mesh->data.get()];
+    for (const Object& object : scene.objects) count(object.shape);
   }
 
   std::string write() {
@@ -43,6 +43,22 @@ class Writer {
   template <class Struct>
   void fields(const Struct& from) {
     forEachField<Struct>([&](const auto& f) { field(f.keyword, from.*f.member); });
+  }
+  /// They stand in the block, after the material, which they would inherit.
+  void field(std::string_view, const Operands&) {}
+
+  /// The objects that the shape is made of; none for most.
+  template <class Visit>
+  static void forEachOperand(const Shape& shape, Visit&& visit) {
+    match(shape, [&](const auto& whole) {
+      if constexpr (requires { whole.objects.list(); })
+        for (const Operand& operand : whole.objects.list()) visit(operand);
+    });
+  }
+
+  void count(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) ++uses_[mesh->data.get()];
+    forEachOperand(shape, [&](const Operand& operand) { count(operand.shape); });
   }
 
   // --- what is not an object ---
@@ -158,6 +174,13 @@ class Writer {
                                      fields(shape);
                                      writeOwnMaterial(object);
                                    }});
+    forEachOperand(object.shape, [&](const Operand& operand) {
+      writeObject({.name = operand.name,
+                   .shape = operand.shape,
+                   .worldFromObject = operand.wholeFromOperand,
+                   .material = operand.material,
+                   .place = {}});
+    });
     out_ += moved ? "})\n\n" : "}\n\n";
   }
 

@@ -1,6 +1,8 @@
 // Rays, and what a shape tells of a place on its surface.
 #pragma once
 
+#include <cstdint>
+
 #include "math/vec.h"
 
 namespace trace {
@@ -14,7 +16,27 @@ struct Ray {
 /// Where the line of a ray passes through a surface.
 struct Crossing {
   Real t = 0;
-  int part = 0;  ///< which face, cap or triangle of the shape; the shape's own numbering
+  std::int64_t part = 0;  ///< which face, cap or triangle of the shape; the shape's own numbering
+};
+
+/// The crossings that a query still wants: those at from < t <= to, which may shrink while they are visited.
+struct Range {
+  Real from;
+  const Real& to;
+};
+
+/// Anything that takes a Crossing, behind a plain call: for shapes that are traced in a .cpp.
+class VisitCrossing {
+ public:
+  template <class Visit>
+  VisitCrossing(Visit& visit)  // NOLINT(google-explicit-constructor)
+      : context_(const_cast<void*>(static_cast<const void*>(&visit))),
+        call_([](void* context, const Crossing& c) { (*static_cast<Visit*>(context))(c); }) {}
+  void operator()(const Crossing& crossing) const { call_(context_, crossing); }
+
+ private:
+  void* context_;
+  void (*call_)(void*, const Crossing&);
 };
 
 /// A place on a surface, in the space of the ray that found it.

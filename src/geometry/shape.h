@@ -7,33 +7,42 @@
 //   crossings(ray, f)   f(Crossing) for every place, in any order and at any t, where the ray's line goes
 //                       through the surface; for solids, entries and exits come in pairs
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
+//
+// A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
+//   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
+// compile() asks for it once. What is costly to find everywhere may take the wanted part of the line:
+//   crossings(ray, range, f)   as above, but only those in the Range need be visited; nearest first
 #pragma once
 
 #include <concepts>
+#include <memory>
 #include <string_view>
 #include <variant>
 
 #include "geometry/cone.h"
+#include "geometry/csg.h"
 #include "geometry/cube.h"
+#include "geometry/disk.h"
+#include "geometry/isosurface.h"
+#include "geometry/julia.h"
+#include "geometry/lathe.h"
+#include "geometry/menger.h"
 #include "geometry/mesh.h"
+#include "geometry/metaballs.h"
+#include "geometry/prism.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
 #include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
 #include "geometry/square.h"
+#include "geometry/superellipsoid.h"
+#include "geometry/torus.h"
 
 namespace trace {
 
-using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Mesh>;
-
-template <class S>
-concept AnalyticShape = requires(const S s, const Ray ray, const Crossing crossing) {
-  { S::kKeyword } -> std::convertible_to<std::string_view>;
-  { S::kHelp } -> std::convertible_to<std::string_view>;
-  S::fields();
-  { s.solid() } -> std::same_as<bool>;
-  { s.bounds() } -> std::same_as<Box3>;
-  s.crossings(ray, [](const Crossing&) {});
-  { s.surface(ray, crossing) } -> std::same_as<SurfacePoint>;
-};
-static_assert(AnalyticShape<Sphere> && AnalyticShape<Cube> && AnalyticShape<Square> &&
-              AnalyticShape<Cylinder> && AnalyticShape<Cone>);
+using Shape =
+    std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid, EllipticCone,
+                 Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Lathe, Prism, SphereSweep,
+                 Metaballs, Isosurface, Menger, Julia, Union, Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

@@ -10,19 +10,19 @@
 
 namespace trace {
 
-Range finiteRange(const Picture& picture) {
+ValueRange finiteRange(const Picture& picture) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Range range{kInfinity, -kInfinity};
+  ValueRange range{kInfinity, -kInfinity};
   for (const Color& c : picture.pixels)
     for (double channel : {c.r, c.g, c.b}) {
       if (!std::isfinite(channel)) continue;
       range.low = std::min(range.low, channel);
       range.high = std::max(range.high, channel);
     }
-  return range.low <= range.high ? range : Range{};
+  return range.low <= range.high ? range : ValueRange{};
 }
 
-Picture stretched(Picture picture, const Range& range) {
+Picture stretched(Picture picture, const ValueRange& range) {
   const double extent = range.high - range.low;
   if (!(extent > 0)) return picture;
   const auto stretch = [&](double c) { return (c - range.low) / extent; };
@@ -32,7 +32,7 @@ Picture stretched(Picture picture, const Range& range) {
 
 Picture toned(Picture picture, Tone tone) {
   if (tone == Tone::clamp) return picture;
-  const Range range = finiteRange(picture);
+  const ValueRange range = finiteRange(picture);
   return stretched(std::move(picture), range);
 }
 

@@ -24,15 +24,15 @@ struct Bytes {
   bool operator==(const Bytes&) const = default;
 };
 
-struct Range {
+struct ValueRange {
   double low = 0, high = 0;
-  bool operator==(const Range&) const = default;
+  bool operator==(const ValueRange&) const = default;
 };
 /// Of the finite values of all channels; {0, 0} if there are none.
-Range finiteRange(const Picture& picture);
+ValueRange finiteRange(const Picture& picture);
 
 /// (c - low) / (high - low) for every channel; the picture itself if the range is empty.
-Picture stretched(Picture picture, const Range& range);
+Picture stretched(Picture picture, const ValueRange& range);
 
 /// The picture whose levels are to be taken: itself (clamp), or stretched by its own finiteRange().
 Picture toned(Picture picture, Tone tone);

@@ -1,6 +1,14 @@
-// Roots of polynomials.
+// Roots of functions of one variable: quadratics in closed form, polynomials of any degree by isolation, and
+// the bracketed Newton iteration that ends every search.
+//
+// Everything here decides by signs. A root is where a function goes from negative to not negative or back, so
+// that along a line roots alternate between entries and exits, whatever rounding does; a double root without
+// a change of sign is none. There are no tolerances: a search ends where the numbers do.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "math/vec.h"
@@ -21,6 +29,124 @@ inline Roots2 solveQuadratic(Real a, Real b, Real c, Real quarterDiscriminant) {
   Real t1 = q == 0 ? t0 : c / q;
   if (t1 < t0) std::swap(t0, t1);
   return {2, t0, t1};
+}
+
+/// A function's value at a place, and its derivative there.
+struct Jet {
+  Real value = 0, slope = 0;
+};
+
+/// Where f changes sign in [a, b]: f(t) returns a Jet, and is negative at one end only, which is a if
+/// `negativeAtA`. Newton's steps while they stay in the bracket and shrink, else halving.
+template <class F>
+Real rootBetween(F&& f, Real a, Real b, bool negativeAtA) {
+  constexpr int kMost = 200;  // halving alone needs fewer for any two numbers of like size
+  Real t = a + 0.5 * (b - a), lastStep = b - a;
+  for (int i = 0; i < kMost && a < t && t < b; ++i) {
+    const Jet at = f(t);
+    ((at.value < 0) == negativeAtA ? a : b) = t;
+    Real next = t - at.value / at.slope;
+    if (!(next >= a && next <= b && std::abs(next - t) < 0.5 * lastStep)) next = a + 0.5 * (b - a);
+    lastStep = std::abs(next - t);
+    if (next == t) break;
+    t = next;
+  }
+  return t;
+}
+
+/// Calls visit(root, negativeBefore) for each change of sign of f between neighbours of the ascending
+/// `nodes`, in order; f must be monotone, or at least change sign once at most, between neighbours. 0 counts
+/// as a node where it lies between: on which side of a surface a ray starts is decided at its very origin.
+template <class F, class Visit>
+void signChanges(std::span<const Real> nodes, F&& f, Visit&& visit) {
+  if (nodes.empty()) return;
+  Real a = nodes[0];
+  bool negative = f(a).value < 0;
+  const auto advance = [&](Real b) {
+    const bool negativeAtB = f(b).value < 0;
+    if (negative != negativeAtB) visit(rootBetween(f, a, b, negative), negative);
+    a = b, negative = negativeAtB;
+  };
+  for (const Real node : nodes.subspan(1)) {
+    if (a < 0 && node > 0) advance(0);
+    if (node > a) advance(node);
+  }
+}
+
+/// The polynomial with `coefficients`, that of t^0 first.
+inline Jet evaluate(std::span<const Real> coefficients, Real t) {
+  Jet at;
+  for (std::size_t i = coefficients.size(); i-- > 0;) {
+    at.slope = at.slope * t + at.value;
+    at.value = at.value * t + coefficients[i];
+  }
+  return at;
+}
+
+inline constexpr std::size_t kMostDegree = 12;
+
+/// Ascending numbers, and room for the ends of an interval around the roots of a polynomial.
+struct Nodes {
+  std::array<Real, kMostDegree + 3> at;  // not set before it is used: this is met for every ray
+  std::size_t count = 0;
+
+  void add(Real t) { at[count++] = t; }
+  operator std::span<const Real>() const { return {at.data(), count}; }
+};
+
+/// a, the places in (a, b) where the polynomial changes sign, and b. Between the places where the derivative
+/// changes sign a polynomial is monotone: so from degree 2 upward (Yuksel, High-Performance Polynomial Root
+/// Finding for Graphics, 2022). The degree is at most kMostDegree; leading coefficients may be zero.
+inline Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b) {
+  const std::size_t degree = coefficients.size() - 1;
+  Nodes nodes;
+  nodes.add(a);
+  if (degree == 0) return nodes.add(b), nodes;
+
+  Real derivative[kMostDegree + 1][kMostDegree + 1];
+  for (std::size_t i = 0; i <= degree; ++i) derivative[degree][i] = coefficients[i];
+  for (std::size_t n = degree; n-- > 1;)
+    for (std::size_t i = 0; i <= n; ++i)
+      derivative[n][i] = static_cast<Real>(i + 1) * derivative[n + 1][i + 1];
+
+  const auto addInside = [&](Real t) {
+    if (a < t && t < b) nodes.add(t);
+  };
+  std::size_t solved = degree < 2 ? degree : 2;
+  const Real* p = derivative[solved];
+  if (solved == 1 || p[2] == 0) {
+    addInside(-p[0] / p[1]);
+  } else {
+    const Real half = 0.5 * p[1];
+    const Roots2 roots = solveQuadratic(p[2], half, p[0], half * half - p[2] * p[0]);
+    if (roots.count && roots.t0 < roots.t1) addInside(roots.t0), addInside(roots.t1);
+  }
+  nodes.add(b);
+
+  while (solved++ < degree) {
+    const std::span<const Real> q(derivative[solved], solved + 1);
+    Nodes finer;
+    finer.add(a);
+    bool negative = evaluate(q, a).value < 0;
+    for (std::size_t i = 0; i + 1 < nodes.count; ++i) {
+      const bool negativeAfter = evaluate(q, nodes.at[i + 1]).value < 0;
+      if (negative != negativeAfter)
+        finer.add(
+            rootBetween([&](Real t) { return evaluate(q, t); }, nodes.at[i], nodes.at[i + 1], negative));
+      negative = negativeAfter;
+    }
+    finer.add(b);
+    nodes = finer;
+  }
+  return nodes;
+}
+
+/// a, the places in (a, b) where the polynomial's derivative changes sign, and b: nodes for signChanges().
+inline Nodes extremaWithEnds(std::span<const Real> coefficients, Real a, Real b) {
+  Real derivative[kMostDegree];
+  for (std::size_t i = 1; i < coefficients.size(); ++i)
+    derivative[i - 1] = static_cast<Real>(i) * coefficients[i];
+  return rootsWithEnds({derivative, coefficients.size() - 1}, a, b);
 }
 
 }  // namespace trace

@@ -32,7 +32,7 @@ Color depthValue(const Hit& hit, const Ray& ray, const Tracer& tracer) {
 
 Picture depthShown(const Picture& values, const Settings& settings) {
   const bool given = settings.passFar > settings.passNear;
-  const Range range = given ? Range{settings.passNear, settings.passFar} : finiteRange(values);
+  const ValueRange range = given ? ValueRange{settings.passNear, settings.passFar} : finiteRange(values);
   const double extent = range.high - range.low;
   const auto grey = [&](const Color& c) {
     if (!std::isfinite(c.r)) return Color(1);

@@ -28,7 +28,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
         keepNearest({met.hit.t, object, met.triangle, met.hit});
       statistics.nodes.owner = NodeCount::kTop;
     } else {
-      crossingsOfShape(object, ray, statistics, keepNearest);
+      crossingsOfShape(object, ray, best->t, statistics, keepNearest);
     }
     return false;
   };
@@ -39,26 +39,19 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
-  const Affine &toWorld = instance.worldFromObject, &toObject = instance.objectFromWorld;
   Ray moved;
   const Ray& ray = instance.objectRay(worldRay, moved);
-  SurfacePoint s = match(
-      instance.shape, Overloaded{[&](const Mesh&) {
-                                   return trace::surface(instance.mesh->data(), found.part, found.triangle);
-                                 },
-                                 [&](const auto& shape) {
-                                   return shape.surface(ray, {found.t, static_cast<int>(found.part)});
-                                 }});
+  const SurfacePoint s =
+      match(instance.shape,
+            Overloaded{[&](const Mesh&) {
+                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
+                                               found.triangle);
+                       },
+                       [&](const auto& shape) {
+                         return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
+                       }});
 
-  // Rounding on the way to the world, and on the way back when the next ray is brought to this object.
-  const Vec3 p = s.point;
-  const Vec3 worldSize = absLinear(toWorld, abs(p)) + abs(toWorld.offset);
-  const Vec3 back = (absLinear(toObject, worldSize) + abs(toObject.offset)) * gammaError(8);
-  s.error = (worldSize * gammaError(4) + absLinear(toWorld, s.error + back)) * (1 + gammaError(8));
-  s.point = toWorld * p;
-  s.normal = normalize(transposed(toObject, s.normal));
-  s.shading = normalize(transposed(toObject, s.shading));
-  return s;
+  return transformed(s, instance.worldFromObject, instance.objectFromWorld);
 }
 
 Phong World::material(const Found& found) const {
@@ -71,7 +64,12 @@ Phong World::material(const Found& found) const {
     };
     return mix(at(0), at(1), at(2), found.triangle.b);
   }
-  return materials_[instance.material];
+  return match(instance.shape, [&](const auto& shape) -> Phong {
+    if constexpr (requires { formOf(shape).material(std::int64_t{}); })
+      return materials_[formOf(shape).material(static_cast<std::int64_t>(found.part))];
+    else
+      return materials_[instance.material];
+  });
 }
 
 std::size_t World::triangleCount() const {
@@ -137,7 +135,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
     World::Instance instance;
-    instance.shape = object.shape;
+    try {
+      instance.shape = prepare(object.shape);
+    } catch (const Error& error) {
+      throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
+    }
     instance.worldFromObject = object.worldFromObject;
     instance.moved = object.worldFromObject != Affine{};
     instance.material = object.material;
@@ -166,7 +168,15 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
                          if (world.materials_.at(m).transmits()) instance.opaque = false;
                        box = bounds(tree->data());
                      },
-                     [&](const auto& shape) { box = shape.bounds(); }});
+                     [&](const auto& shape) {
+                       box = formOf(shape).bounds();
+                       if constexpr (requires { formOf(shape).material(std::int64_t{}); }) {
+                         std::vector<std::uint32_t> materials;
+                         formOf(shape).addMaterials(materials);
+                         for (std::uint32_t m : materials)
+                           if (world.materials_.at(m).transmits()) instance.opaque = false;
+                       }
+                     }});
     if (invertible(object.worldFromObject)) instance.bounds = object.worldFromObject * box;
     boxes.push_back(instance.bounds);
     world.bounds_.extend(instance.bounds);

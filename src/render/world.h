@@ -12,8 +12,8 @@
 
 #include "accel/bvh.h"
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "geometry/mesh_tree.h"
-#include "geometry/shape.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/light.h"
@@ -25,7 +25,7 @@ namespace trace {
 struct Found {
   Real t = kInfinity;
   std::uint32_t object = 0;  ///< index into World::objects(), which is that of Scene::objects
-  std::uint32_t part = 0;    ///< of an analytic shape: the crossing's part; of a mesh: the triangle
+  std::uint64_t part = 0;    ///< of an analytic shape: the crossing's part; of a mesh: the triangle
   TriangleHit triangle;      ///< of a mesh
 
   /// Nearer first; at the same distance the earlier object, then the earlier part.
@@ -78,7 +78,7 @@ class World {
   friend World compile(const Scene&, const Settings&, Messages&);
 
   struct Instance {
-    Shape shape;
+    TracedShape shape;
     Affine worldFromObject, objectFromWorld;
     bool moved = false;  ///< the transform is not the identity
     Box3 bounds;
@@ -94,9 +94,10 @@ class World {
     }
   };
 
-  /// Calls visit(Found) for every crossing of an analytic shape; the ray is in its space.
+  /// Calls visit(Found) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during the
+  /// calls, and for others; the ray is in its space.
   template <class Visit>
-  void crossingsOfShape(std::uint32_t object, const Ray& ray, Statistics& statistics,
+  void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
 
   std::vector<Instance> objects_;
@@ -115,14 +116,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages);
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void World::crossingsOfShape(std::uint32_t object, const Ray& ray, Statistics& statistics,
+void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                              const Visit& visit) const {
-  const Shape& shape = objects_[object].shape;
+  const TracedShape& shape = objects_[object].shape;
   ++statistics.tests[shape.index()];
   match(shape, Overloaded{[](const Mesh&) {},
-                          [&](const auto& s) {
-                            s.crossings(ray, [&](const Crossing& crossing) {
-                              visit(Found{crossing.t, object, static_cast<std::uint32_t>(crossing.part), {}});
+                          [&](const auto& form) {
+                            visitCrossings(formOf(form), ray, Range{0, tMost}, [&](const Crossing& crossing) {
+                              visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
                             });
                           }});
 }
@@ -135,10 +136,12 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
     Ray moved;
     const Ray& ray = instance.objectRay(worldRay, moved);
     bool ended = false;
+    Real wanted = tMost;
     const auto report = [&](const Found& found) {
       if (ended || !(found.t > 0 && found.t < tMost)) return;
       ++statistics.hits[instance.shape.index()];
       ended = visit(found);
+      if (ended) wanted = -kInfinity;
     };
     if (const MeshTree* mesh = instance.mesh.get()) {
       statistics.nodes.owner = object;
@@ -151,7 +154,7 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
                       {statistics.nodes, statistics.tests[instance.shape.index()]});
       statistics.nodes.owner = NodeCount::kTop;
     } else {
-      crossingsOfShape(object, ray, statistics, report);
+      crossingsOfShape(object, ray, wanted, statistics, report);
     }
     return ended;
   });

@@ -65,8 +65,8 @@ TEST_F(OutputTest, ExrHoldsRawValuesAndWords) {
 
 TEST_F(OutputTest, PngHoldsWhatIsShown) {
   render({{"passes", "depth", {}}, {"pass-format", "png", {}}}, "a.bmp");
-  const Range range = finiteRange(readPicture(folder_ + "/a.depth.png"));
-  EXPECT_EQ(range, (Range{0, 1}));
+  const ValueRange range = finiteRange(readPicture(folder_ + "/a.depth.png"));
+  EXPECT_EQ(range, (ValueRange{0, 1}));
 }
 
 TEST_F(OutputTest, ToneIsForLevelsOnly) {

@@ -1,4 +1,4 @@
-// docs/ray-format.md is written by hand; what it lists must be what the lists of the program say.
+// docs/ray-format.md and docs/shapes.md are written by hand; what they list must be what the lists of the program say.
 #include <gtest/gtest.h>
 
 #include "base/file.h"
@@ -22,7 +22,7 @@ void expectDocumented(const std::string& text) {
 }
 
 TEST(Docs, NameEveryNodeAndField) {
-  const std::string text = page("ray-format.md");
+  const std::string text = page("ray-format.md") + page("shapes.md");
   forEachType<Shape>([&]<class S>(S*) { expectDocumented<S>(text); });
   forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
   forEachType<MaterialModel>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });

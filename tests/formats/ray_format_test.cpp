@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "ray_helpers.h"
 
 namespace trace {
@@ -29,21 +30,72 @@ TEST(RayFormat, ReadsEveryShapeOfTheList) {
   });
 }
 
+// A value other than the default, and how a file says it.
+std::string other(bool& value) { return value = !value, value ? "true" : "false"; }
+std::string other(Real& value) { return value = 3.5, "3.5"; }
+std::string other(Vec3& value) { return value = {1, -2, 3.5}, "(1, -2, 3.5)"; }
+
+template <class Enum>
+requires std::is_enum_v<Enum> std::string other(Enum& value) {
+  return value = static_cast<Enum>(2), std::string(names(value)[2]);
+}
+std::string other(int& value) { return value = 2, "2"; }
+std::string other(std::string& value) { return value = "x^2 - y", "\"x^2 - y\""; }
+std::string other(std::array<Real, 4>& v) { return v = {1, 0.5, -0.5, 0}, "(1, 0.5, -0.5, 0)"; }
+std::string other(std::vector<std::array<Real, 2>>& v) { return v = {{1, 2}, {3, -4}}, "((1, 2), (3, -4))"; }
+std::string other(std::vector<std::array<Real, 4>>& v) { return v = {{1, 2, 3, 4}}, "((1, 2, 3, 4))"; }
+std::string other(std::vector<std::array<Real, 5>>& v) { return v = {{1, 2, 3, 4, 5}}, "((1, 2, 3, 4, 5))"; }
+std::string other(std::vector<std::array<Real, 8>>& v) {
+  return v = {{1, 2, 3, 4, 5, 6, 7, 8}}, "((1, 2, 3, 4, 5, 6, 7, 8))";
+}
+std::string other(std::vector<Prism::Outline>& v) {
+  return v = {{{1, 2}, {3, 4}}, {}}, "(((1, 2), (3, 4)), ())";
+}
+std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {}, 0}}), "{ sphere { } }"; }
+
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
   forEachType<Shape>([]<class S>(S*) {
-    forEachField<S>([]<class F>(const F& field) {
-      using Value = std::remove_cvref_t<decltype(S{}.*field.member)>;
-      const bool flag = std::is_same_v<Value, bool>;
-      const std::string text =
-          std::string(S::kKeyword) + "{" + std::string(field.keyword) + (flag ? "=false" : "=3.5") + "}";
+    forEachField<S>([](const auto& field) {
       S expected;
-      if constexpr (std::is_same_v<Value, bool>)
-        expected.*field.member = false;
-      else if constexpr (std::is_same_v<Value, Real>)
-        expected.*field.member = 3.5;
+      const std::string value = other(expected.*field.member);
+      const std::string text =
+          std::string(S::kKeyword) + "{" + std::string(field.keyword) + "=" + value + "}";
       EXPECT_EQ(onlyShape<S>(text), expected) << text;
     });
   });
+}
+
+TEST(RayFormat, ReadsSolidsOfSolids) {
+  const char* text =
+      "difference { material = { diffuse = (1, 0, 0) }\n box { }\n { sphere { } translate(1, 0, 0, sphere { "
+      "material = { diffuse = (0, 1, 0) } }) } }";
+  const Loaded loaded = load(text);
+  const Operands objects = onlyShape<Difference>(text).objects;
+  ASSERT_EQ(objects.list().size(), 2u);
+  const auto& group = std::get<Union>(objects.list()[1].shape).objects.list();
+  ASSERT_EQ(group.size(), 2u);
+  const auto color = [&](const Operand& o) {
+    return std::get<Phong>(loaded.scene.materials.at(o.material).model).diffuse;
+  };
+  EXPECT_EQ(color(objects.list()[0]), Color(1, 0, 0));
+  EXPECT_EQ(color(group[1]), Color(0, 1, 0));
+  EXPECT_EQ(group[1].wholeFromOperand * (Vec3{}), Vec3(1, 0, 0));
+  EXPECT_EQ(onlyShape<Union>("union(sphere{}, box{})").objects.list().size(), 2u);
+  EXPECT_EQ(onlyShape<Difference>("subtraction(sphere{}, box{})").objects.list().size(), 2u);
+  EXPECT_EQ(errorsOf("union { square { } }"),
+            "2:9: expected a solid, found square { } [an open object can only be the first in a clip { }]");
+  EXPECT_EQ(warningsOf("union { }"), "2:1: union without objects is empty");
+}
+
+TEST(RayFormat, SaysWhatIsWrongWithListsNamesAndFormulas) {
+  EXPECT_EQ(errorsOf("lathe { spline = bezir; }"),
+            "2:18: spline: expected linear, bezier, bspline or catmull, found \"bezir\" [did you mean "
+            "\"bezier\"?]");
+  EXPECT_EQ(errorsOf("lathe { profile = ((1, 2), (3, 4, 5)); }"),
+            "2:28: profile: expected (a, b), found (3, 4, 5)");
+  EXPECT_EQ(errorsOf("menger { levels = 1.5; }"), "2:19: levels: expected a whole number, found 1.5");
+  EXPECT_EQ(errorsOf("isosurface { formula = \"x +\"; }"),
+            "2:1: formula: expected a number, x, y, z, a function or \"(\" at character 4, found the end");
 }
 
 TEST(RayFormat, KeepsNamesPlacesAndOrder) {
@@ -398,13 +450,13 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
       "spot_light { position = (0, 0, 1); }\nspot_light { }\n"
-      "translate(1, 2, 3, torus { a = 1; })\nsubtraction(sphere{}, box{})\n"
+      "translate(1, 2, 3, height_field { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(warningsOf(text),
             "2:1: \"spot_light\" is not rendered yet (2 times, first here)\n"
-            "4:20: \"torus\" is not rendered yet\n"
-            "5:1: \"subtraction\" is not rendered yet\n"
+            "4:20: \"height_field\" is not rendered yet\n"
+            "5:1: \"csg\" is not rendered yet\n"
             "6:23: \"bump_mapping\" is not rendered yet\n"
             "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
@@ -412,7 +464,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
   EXPECT_EQ(loaded.scene.unrendered[0].text, "spot_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
-            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\ntorus { a = 1; })");
+            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nheight_field { a = 1; })");
   EXPECT_EQ(loaded.scene.objects.size(), 1u);
   EXPECT_EQ(phongOf(loaded.scene, 0).diffuse, Color(1));
 }

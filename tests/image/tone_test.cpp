@@ -52,7 +52,7 @@ TEST(Tone, StretchMapsTheLeastToZeroAndTheLargestToOne) {
   Picture picture(2, 1);
   picture.at(0, 0) = {2, 4, 6};
   picture.at(1, 0) = {-2, 0, 3};
-  EXPECT_EQ(finiteRange(picture), (Range{-2, 6}));
+  EXPECT_EQ(finiteRange(picture), (ValueRange{-2, 6}));
   EXPECT_EQ(toned(picture, Tone::clamp), picture);
   const Picture stretched = toned(picture, Tone::stretch);
   EXPECT_EQ(stretched.at(0, 0), Color(0.5, 0.75, 1));
@@ -64,7 +64,7 @@ TEST(Tone, StretchPassesOverWhatIsNotFinite) {
   Picture picture(2, 1);
   picture.at(0, 0) = {kInfinity, 1, std::numeric_limits<double>::quiet_NaN()};
   picture.at(1, 0) = {3, -kInfinity, 2};
-  EXPECT_EQ(finiteRange(picture), (Range{1, 3}));
+  EXPECT_EQ(finiteRange(picture), (ValueRange{1, 3}));
   EXPECT_EQ(toBytes(toned(picture, Tone::stretch), Rounding::truncate),
             (Bytes{2, 1, {255, 0, 0, 255, 0, 127}}));
 }
@@ -74,7 +74,7 @@ TEST(Tone, StretchLeavesAPictureOfOneValue) {
   for (Color& c : picture.pixels) c = Color(0.25);
   EXPECT_EQ(toned(picture, Tone::stretch), picture);
   EXPECT_EQ(toned(Picture(), Tone::stretch), Picture());
-  EXPECT_EQ(finiteRange(Picture()), Range{});
+  EXPECT_EQ(finiteRange(Picture()), ValueRange{});
 }
 
 TEST(Tone, EmptyPicture) {

@@ -160,7 +160,7 @@ TEST(Passes, AreShownFromZeroToOne) {
   for (const PassRow& row : passRows()) settings.passes.add(row.pass);
   const std::vector<Picture> all = layers(scene, settings);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Range range = finiteRange(passRows()[i].shown(all[i], settings));
+    const ValueRange range = finiteRange(passRows()[i].shown(all[i], settings));
     EXPECT_GE(range.low, 0) << passRows()[i].name;
     EXPECT_LE(range.high, 1) << passRows()[i].name;
     EXPECT_GT(range.high - range.low, 0.1) << passRows()[i].name;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/match.h"
-#include "geometry/shape.h"
+#include "geometry/csg_tree.h"
 #include "support/random.h"
 
 namespace trace::test {
@@ -49,27 +49,74 @@ inline void addNeedles(MeshData& mesh, Random& random, double scale = 1, const V
   }
 }
 
-/// The default instance of each analytic shape, and one with each field changed: flags flipped, numbers
-/// scaled.
+// Other values for a field: flags flipped, numbers and vectors scaled.
+inline std::vector<bool> variations(bool value) { return {!value}; }
+inline std::vector<Real> variations(Real value) {
+  return {value == 0 ? 0.25 : value * 0.25, value == 0 ? 0.75 : value * 0.75};
+}
+inline std::vector<Vec3> variations(const Vec3& value) {
+  return {Vec3{value.x * 0.5 + 0.125, value.y * 0.75, value.z * 0.875}};
+}
+
+inline std::vector<int> variations(int value) { return {value / 2, value + 1}; }
+inline std::vector<std::string> variations(const std::string&) {
+  return {"z - 0.3 * sin(4 * x) * cos(3 * y)"};
+}
+inline std::vector<std::array<Real, 4>> variations(const std::array<Real, 4>& v) {
+  return {{v[0] * 0.75, v[1] * 0.75, v[2] + 0.125, v[3]}};
+}
+/// Every name of an enum.
+template <class Enum>
+requires std::is_enum_v<Enum> std::vector<Enum> variations(Enum) {
+  std::vector<Enum> all;
+  for (std::size_t i = 0; i < names(Enum{}).size(); ++i) all.push_back(static_cast<Enum>(i));
+  return all;
+}
+/// Lists of tuples: squeezed.
+template <std::size_t N>
+std::vector<std::vector<std::array<Real, N>>> variations(std::vector<std::array<Real, N>> list) {
+  for (auto& tuple : list) tuple[0] *= 0.75;
+  return {list};
+}
+inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Prism::Outline>&) {
+  return {{{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.2, 0.3}}}};
+}
+inline std::vector<Operands> variations(const Operands&) { return {}; }
+
+/// Something to see of the shape: its default, where that is not empty.
+template <class S>
+S typical() {
+  S shape;
+  if constexpr (std::is_same_v<S, Clip>)
+    shape.objects = Operands({{"", Sphere{}, {}, 0}, {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0}});
+  else if constexpr (requires { shape.objects; })
+    shape.objects =
+        Operands({{"", Sphere{}, {}, 0},
+                  {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0},
+                  {"", Cylinder{}, Affine::translation({0, 0, -0.4}) * Affine::scaling({0.5, 0.5, 1}), 0}});
+  return shape;
+}
+
+/// The typical shape, and one with each field changed.
+template <class S>
+std::vector<S> samplesOf() {
+  std::vector<S> samples{typical<S>()};
+  forEachField<S>([&](const auto& field) {
+    S changed = typical<S>();
+    for (const auto& value : variations(changed.*field.member)) {
+      changed.*field.member = value;
+      samples.push_back(changed);
+    }
+  });
+  return samples;
+}
+
+/// Those of all analytic shapes.
 inline std::vector<Shape> analyticShapes() {
   std::vector<Shape> shapes;
   forEachType<Shape>([&]<class S>(S*) {
-    if constexpr (!std::is_same_v<S, Mesh>) {
-      shapes.push_back(S{});
-      forEachField<S>([&](const auto& field) {
-        S changed;
-        auto& value = changed.*field.member;
-        if constexpr (std::is_same_v<std::remove_reference_t<decltype(value)>, bool>) {
-          value = !value;
-          shapes.push_back(changed);
-        } else {
-          for (double factor : {0.25, 3.0}) {
-            value = value == 0 ? factor : value * factor;
-            shapes.push_back(changed);
-          }
-        }
-      });
-    }
+    if constexpr (!std::is_same_v<S, Mesh>)
+      for (const S& sample : samplesOf<S>()) shapes.push_back(sample);
   });
   return shapes;
 }
@@ -78,27 +125,46 @@ inline std::string nameOf(const Shape& shape) {
   return std::string(match(shape, [](const auto& s) { return s.kKeyword; }));
 }
 
-inline std::vector<Crossing> crossingsOf(const Shape& shape, const Ray& ray) {
+inline std::vector<Crossing> crossingsOf(const TracedShape& shape, const Ray& ray) {
   std::vector<Crossing> found;
-  match(shape,
-        Overloaded{[](const Mesh&) {},
-                   [&](const auto& s) { s.crossings(ray, [&](const Crossing& c) { found.push_back(c); }); }});
+  const Range everywhere{-kInfinity, kInfinity};
+  match(shape, Overloaded{[](const Mesh&) {},
+                          [&](const auto& s) {
+                            visitCrossings(formOf(s), ray, everywhere,
+                                           [&](const Crossing& c) { found.push_back(c); });
+                          }});
   std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
   return found;
 }
 
-inline SurfacePoint surfaceOf(const Shape& shape, const Ray& ray, const Crossing& crossing) {
+inline SurfacePoint surfaceOf(const TracedShape& shape, const Ray& ray, const Crossing& crossing) {
   return match(shape, Overloaded{[](const Mesh&) { return SurfacePoint{}; },
-                                 [&](const auto& s) { return s.surface(ray, crossing); }});
+                                 [&](const auto& s) { return formOf(s).surface(ray, crossing); }});
 }
 
-inline Box3 boundsOf(const Shape& shape) {
+inline Box3 boundsOf(const TracedShape& shape) {
   return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); },
-                                 [](const auto& s) { return s.bounds(); }});
+                                 [](const auto& s) { return formOf(s).bounds(); }});
 }
 
-inline bool isSolid(const Shape& shape) {
-  return match(shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return s.solid(); }});
+inline bool isSolid(const TracedShape& shape) {
+  return match(
+      shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return formOf(s).solid(); }});
 }
+
+/// Shapes that have to be worked out first, for single rays.
+template <class S>
+requires requires(const S s) { s.prepared(); }
+std::vector<Crossing> crossingsOf(const S& shape, const Ray& ray) {
+  return crossingsOf(prepare(Shape(shape)), ray);
+}
+template <class S>
+requires requires(const S s) { s.prepared(); }
+SurfacePoint surfaceOf(const S& shape, const Ray& ray, const Crossing& crossing) {
+  return surfaceOf(prepare(Shape(shape)), ray, crossing);
+}
+template <class S>
+requires requires(const S s) { s.prepared(); }
+bool isSolid(const S& shape) { return isSolid(prepare(Shape(shape))); }
 
 }  // namespace trace::test

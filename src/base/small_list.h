@@ -1,0 +1,31 @@
+// A list that takes no memory from the heap while it is short.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace trace {
+
+template <class T, std::size_t kFew>
+class SmallList {
+ public:
+  void add(const T& item) {
+    if (count_ == kFew) many_.assign(few_.begin(), few_.end());
+    if (count_ >= kFew)
+      many_.push_back(item);
+    else
+      few_[count_] = item;
+    ++count_;
+  }
+  std::size_t size() const { return count_; }
+  std::span<T> all() { return {count_ > kFew ? many_.data() : few_.data(), count_}; }
+
+ private:
+  std::array<T, kFew> few_;  // not set before it is used
+  std::vector<T> many_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace trace

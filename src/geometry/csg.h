@@ -1,0 +1,78 @@
+// Constructive solid geometry: solids made of solids (Roth, Ray Casting for Modeling Solids, 1982). What rays
+// meet of them is csg_tree.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/field.h"
+
+namespace trace {
+
+struct Operand;
+class CsgTree;
+
+/// The objects that a shape is made of, behind a shared const handle: copying a scene does not copy them.
+class Operands {
+ public:
+  Operands() = default;
+  explicit Operands(std::vector<Operand> operands);
+
+  const std::vector<Operand>& list() const;  ///< Operand is complete with csg_tree.h
+  bool operator==(const Operands& other) const;
+
+ private:
+  std::shared_ptr<const std::vector<Operand>> list_;
+};
+
+struct Union {
+  static constexpr std::string_view kKeyword = "union";
+  static constexpr std::string_view kHelp = "solids as one: what is inside any of them";
+  Operands objects;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"objects", &Union::objects, "", 0, 0, "solids; they stand in the block one after another"}};
+  }
+  bool operator==(const Union&) const = default;
+  std::shared_ptr<const CsgTree> prepared() const;
+};
+
+struct Intersection {
+  static constexpr std::string_view kKeyword = "intersection";
+  static constexpr std::string_view kHelp = "what is inside all of the solids";
+  Operands objects;
+  static constexpr auto fields() {
+    return std::tuple{Field{"objects", &Intersection::objects, "", 0, 0,
+                            "solids; they stand in the block one after another"}};
+  }
+  bool operator==(const Intersection&) const = default;
+  std::shared_ptr<const CsgTree> prepared() const;
+};
+
+struct Difference {
+  static constexpr std::string_view kKeyword = "difference";
+  static constexpr std::string_view kHelp = "what is inside the first solid but in none of the others";
+  Operands objects;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"objects", &Difference::objects, "", 0, 0, "the solid, then what is cut out of it"}};
+  }
+  bool operator==(const Difference&) const = default;
+  std::shared_ptr<const CsgTree> prepared() const;
+};
+
+struct Clip {
+  static constexpr std::string_view kKeyword = "clip";
+  static constexpr std::string_view kHelp =
+      "the part of the first object's surface inside all other solids; the cut stays open";
+  Operands objects;
+  static constexpr auto fields() {
+    return std::tuple{Field{"objects", &Clip::objects, "", 0, 0, "the object, solid or not, then solids"}};
+  }
+  bool operator==(const Clip&) const = default;
+  std::shared_ptr<const CsgTree> prepared() const;
+};
+
+}  // namespace trace

@@ -1,0 +1,98 @@
+#include "geometry/placed.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/csg_tree.h"
+
+namespace trace {
+
+// Here, where every form is complete.
+static_assert([] {
+  bool all = true;
+  forEachType<TracedShape>([&]<class T>(T*) {
+    if constexpr (!std::is_same_v<T, Mesh>)
+      all = all && Traceable<std::remove_cvref_t<decltype(formOf(std::declval<T>()))>>;
+  });
+  return all;
+}());
+
+namespace {
+
+/// The line of the ray in both directions from its origin. A triangle that the mesh's hierarchy holds in
+/// parts is met once.
+void meshCrossings(const MeshTree& mesh, const Ray& ray, const VisitCrossing& visit) {
+  NodeCount nodes;
+  std::uint64_t triangles = 0;
+  for (const Real side : {1.0, -1.0}) {
+    std::vector<Crossing> met;
+    const auto add = [&](const MeshHit& m) { return met.push_back({side * m.hit.t, m.triangle}), false; };
+    mesh.crossings({ray.origin, ray.direction * side}, kInfinity, add, {nodes, triangles});
+    std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.part < b.part; });
+    for (std::size_t i = 0; i < met.size(); ++i)
+      if (i == 0 || met[i].part != met[i - 1].part) visit(met[i]);
+  }
+}
+
+SurfacePoint meshSurface(const MeshTree& mesh, const Ray& ray, const Crossing& crossing) {
+  const auto triangle = static_cast<std::uint32_t>(crossing.part);
+  const Real side = crossing.t < 0 ? -1 : 1;
+  TriangleHit hit;
+  locate({ray.origin, ray.direction * side}, corners(mesh.data(), triangle), kInfinity, hit);
+  return surface(mesh.data(), triangle, hit);
+}
+
+}  // namespace
+
+Placed::Placed(const Shape& shape, const Affine& outFromIn)
+    : shape_(prepare(shape)),
+      outFromIn_(outFromIn),
+      inFromOut_(inverse(outFromIn)),
+      moved_(outFromIn != Affine{}) {
+  const Box3 box =
+      match(shape_, Overloaded{[&](const Mesh& mesh) {
+                                 auto data = mesh.data;
+                                 if (data->generateNormals)
+                                   data = std::make_shared<const MeshData>(withGeneratedNormals(*data, true));
+                                 mesh_ = std::make_shared<const MeshTree>(data, false);
+                                 return trace::bounds(*data);
+                               },
+                               [](const auto& form) { return formOf(form).bounds(); }});
+  bounds_ = outFromIn * box;
+}
+
+bool Placed::solid() const {
+  return match(shape_, Overloaded{[](const Mesh&) { return true; },
+                                  [](const auto& form) { return formOf(form).solid(); }});
+}
+
+std::int64_t Placed::partCount() const {
+  return match(shape_, Overloaded{[&](const Mesh&) {
+                                    return static_cast<std::int64_t>(mesh_->data().triangles.size());
+                                  },
+                                  [](const auto& form) {
+                                    if constexpr (requires { formOf(form).partCount(); })
+                                      return formOf(form).partCount();
+                                    else
+                                      return std::int64_t{1} << 24;
+                                  }});
+}
+
+void Placed::crossings(const Ray& ray, VisitCrossing visit) const {
+  const Ray in = inner(ray);
+  match(shape_, Overloaded{[&](const Mesh&) { meshCrossings(*mesh_, in, visit); },
+                           [&](const auto& form) {
+                             const Real everywhere = kInfinity;
+                             visitCrossings(formOf(form), in, Range{-kInfinity, everywhere}, visit);
+                           }});
+}
+
+SurfacePoint Placed::surface(const Ray& ray, const Crossing& crossing) const {
+  const Ray in = inner(ray);
+  const SurfacePoint s =
+      match(shape_, Overloaded{[&](const Mesh&) { return meshSurface(*mesh_, in, crossing); },
+                               [&](const auto& form) { return formOf(form).surface(in, crossing); }});
+  return transformed(s, outFromIn_, inFromOut_);
+}
+
+}  // namespace trace

@@ -1,0 +1,79 @@
+// Plane curves of lines and cubics: profiles of lathes, outlines of prisms, paths of sweeps. A file gives
+// points; how they are joined is the Spline.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "math/vec.h"
+
+namespace trace {
+
+/// How points become a curve.
+enum class Spline {
+  linear,   ///< straight from point to point
+  bezier,   ///< cubic Bezier arcs: end, two handles, end, two handles, end ...
+  bspline,  ///< uniform cubic B-spline: near the points, twice differentiable; begins near the second point
+  catmull,  ///< Catmull-Rom: through the points but the first and last
+};
+constexpr std::array<std::string_view, 4> names(Spline) { return {"linear", "bezier", "bspline", "catmull"}; }
+
+/// A cubic in u from 0 to 1 for each of N coordinates: coefficients of 1, u, u^2, u^3.
+template <int N>
+struct Cubic {
+  std::array<std::array<Real, 4>, N> c{};
+
+  Real at(int axis, Real u) const {
+    const auto& k = c[static_cast<std::size_t>(axis)];
+    return k[0] + u * (k[1] + u * (k[2] + u * k[3]));
+  }
+  Real slope(int axis, Real u) const {
+    const auto& k = c[static_cast<std::size_t>(axis)];
+    return k[1] + u * (2 * k[2] + u * 3 * k[3]);
+  }
+};
+
+/// The arcs of a curve through (or near) the points; fewer points than an arc needs give none. A curve whose
+/// arcs share an end has exactly the same numbers there: `ends` are the points between arcs, one more than
+/// arcs, and each arc runs from ends[i] to ends[i + 1].
+template <int N>
+struct Arcs {
+  std::vector<Cubic<N>> arcs;
+  std::vector<std::array<Real, N>> ends;
+};
+
+template <int N>
+Arcs<N> arcsOf(Spline spline, const std::vector<std::array<Real, N>>& points) {
+  Arcs<N> curve;
+  const std::size_t n = points.size();
+  const std::size_t step = spline == Spline::bezier ? 3 : 1, reach = spline == Spline::linear ? 2 : 4;
+  for (std::size_t i = 0; i + reach <= n; i += step) {
+    Cubic<N> arc;
+    for (std::size_t axis = 0; axis < N; ++axis) {
+      const Real a = points[i][axis], b = points[i + 1][axis];
+      const Real c = reach == 4 ? points[i + 2][axis] : 0, d = reach == 4 ? points[i + 3][axis] : 0;
+      switch (spline) {
+        case Spline::linear: arc.c[axis] = {a, b - a, 0, 0}; break;
+        case Spline::bezier: arc.c[axis] = {a, 3 * (b - a), 3 * (a - 2 * b + c), d - a + 3 * (b - c)}; break;
+        case Spline::bspline:
+          arc.c[axis] = {(a + 4 * b + c) / 6, (c - a) / 2, (a - 2 * b + c) / 2, (d - a + 3 * (b - c)) / 6};
+          break;
+        case Spline::catmull:
+          arc.c[axis] = {b, (c - a) / 2, (2 * a - 5 * b + 4 * c - d) / 2, (d - a + 3 * (b - c)) / 2};
+          break;
+      }
+    }
+    if (curve.ends.empty()) {
+      curve.ends.emplace_back();
+      for (int axis = 0; axis < N; ++axis)
+        curve.ends.back()[static_cast<std::size_t>(axis)] = arc.c[static_cast<std::size_t>(axis)][0];
+    }
+    curve.ends.emplace_back();
+    for (int axis = 0; axis < N; ++axis) curve.ends.back()[static_cast<std::size_t>(axis)] = arc.at(axis, 1);
+    curve.arcs.push_back(arc);
+  }
+  return curve;
+}
+
+}  // namespace trace

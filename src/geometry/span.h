@@ -1,0 +1,72 @@
+// Stretches of a ray's line, and where it runs through a convex body.
+#pragma once
+
+#include "geometry/ray.h"
+#include "math/box.h"
+#include "math/roots.h"
+
+namespace trace {
+
+/// from <= t <= to; empty if not from < to.
+struct Span {
+  Real from = -kInfinity, to = kInfinity;
+  bool empty() const { return !(from < to); }
+};
+
+/// Enlarged by far more than rounding: a surface that touches the box stays clear of its faces.
+inline Box3 roomy(const Box3& box) {
+  const Real size = maxComponent(max(abs(box.low), abs(box.high)));
+  const Vec3 room = Vec3{1, 1, 1} * (std::ldexp(1.0, -40) * size);
+  return {box.low - room, box.high + room};
+}
+
+/// Where the line of the ray is in the box, up to rounding.
+inline Span spanIn(const Box3& box, const Ray& ray) {
+  Span span;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real o = ray.origin[axis], d = ray.direction[axis];
+    if (d == 0) {
+      if (o < box.low[axis] || o > box.high[axis]) return {1, 0};
+      continue;
+    }
+    const Real a = (box.low[axis] - o) / d, b = (box.high[axis] - o) / d;
+    span.from = max(span.from, min(a, b));
+    span.to = min(span.to, max(a, b));
+  }
+  return span;
+}
+
+/// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1. f is not negative
+/// at the ends of the span. Newton's steps from outside never pass a root of a convex function.
+template <class F, class Visit>
+void convexCrossings(Span span, F&& f, Visit&& visit) {
+  bool inside = false;
+  if (span.from < 0 && span.to > 0) {  // the side of the origin is decided at the origin
+    const Jet at = f(0.0);
+    inside = at.value < 0;
+    if (!inside) (at.slope < 0 ? span.from : span.to) = 0;
+  }
+  const auto approach = [&](Real t, Real end) {
+    constexpr int kMost = 200;
+    const Real forward = end > t ? 1 : -1;
+    for (int i = 0; i < kMost; ++i) {
+      const Jet at = f(t);
+      if (at.value <= 0) break;
+      if (!(at.slope * forward < 0)) return kInfinity;  // past the lowest place: a miss
+      const Real next = t - at.value / at.slope;
+      if ((next - t) * forward <= 0) break;
+      if ((end - next) * forward < 0) return kInfinity;
+      t = next;
+    }
+    return t;
+  };
+  Real in = approach(span.from, span.to);
+  if (inside) in = min(in, 0);
+  if (in == kInfinity) return;
+  Real out = approach(span.to, in);
+  if (inside) out = out == kInfinity ? 0 : max(out, 0);
+  if (out == kInfinity || out < in) return;
+  visit(in, 0), visit(out, 1);
+}
+
+}  // namespace trace

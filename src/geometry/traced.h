@@ -1,0 +1,67 @@
+// What rays meet in place of a shape: the shape itself, or what its prepared() makes of it once.
+#pragma once
+
+#include <utility>
+
+#include "base/match.h"
+#include "geometry/shape.h"
+
+namespace trace {
+
+template <class T>
+concept Traceable = requires(const T& t, const Ray ray, const Crossing crossing) {
+  { t.solid() } -> std::same_as<bool>;
+  { t.bounds() } -> std::same_as<Box3>;
+  { t.surface(ray, crossing) } -> std::same_as<SurfacePoint>;
+};
+
+/// A form may be held by a shared handle.
+template <class T>
+const T& formOf(const T& form) {
+  return form;
+}
+template <class T>
+const T& formOf(const std::shared_ptr<const T>& form) {
+  return *form;
+}
+
+template <class S>
+auto prepare(const S& shape) {
+  if constexpr (requires { shape.prepared(); })
+    return shape.prepared();
+  else
+    return shape;
+}
+
+namespace detail {
+template <class Variant>
+struct TracedOf;
+template <class... S>
+struct TracedOf<std::variant<S...>> {
+  using type = std::variant<decltype(prepare(std::declval<S>()))...>;
+};
+}  // namespace detail
+
+/// Alternative i is what alternative i of Shape is traced as. A Mesh stays what it is: whoever traces it
+/// keeps its MeshTree.
+using TracedShape = detail::TracedOf<Shape>::type;
+
+inline TracedShape prepare(const Shape& shape) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    TracedShape traced;
+    ((shape.index() == I ? void(traced.emplace<I>(prepare(*std::get_if<I>(&shape)))) : void()), ...);
+    return traced;
+  }
+  (std::make_index_sequence<std::variant_size_v<Shape>>{});
+}
+
+/// Calls visit(Crossing) for the crossings of the form in the range; of other crossings some may come too.
+template <class Form, class Visit>
+void visitCrossings(const Form& form, const Ray& ray, const Range& range, Visit&& visit) {
+  if constexpr (requires { form.crossings(ray, range, visit); })
+    form.crossings(ray, range, visit);
+  else
+    form.crossings(ray, visit);
+}
+
+}  // namespace trace
