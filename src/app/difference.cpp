@@ -14,19 +14,19 @@ namespace {
 
 constexpr std::array kMetrics{
     Metric{"max", "largest difference of a channel", "", false,
-           [](const Difference& d) { return d.numbers.maxDifference; }},
+           [](const PictureDifference& d) { return d.numbers.maxDifference; }},
     Metric{"mean", "mean of the differences of all channels", "", false,
-           [](const Difference& d) { return d.numbers.mean; }},
+           [](const PictureDifference& d) { return d.numbers.mean; }},
     Metric{"rmse", "root of the mean of their squares", "", false,
-           [](const Difference& d) { return d.numbers.rmse; }},
+           [](const PictureDifference& d) { return d.numbers.rmse; }},
     Metric{"psnr", "peak signal to noise ratio", "dB", true,
-           [](const Difference& d) { return d.numbers.psnr; }},
+           [](const PictureDifference& d) { return d.numbers.psnr; }},
     Metric{"flip", "mean FLIP error, what an eye sees: 0 nothing, 1 the most", "of 1", false,
-           [](const Difference& d) { return d.flip; }},
+           [](const PictureDifference& d) { return d.flip; }},
     Metric{"beyond", "values that differ by more than the tolerance", "%", false,
-           [](const Difference& d) { return 100 * d.numbers.fractionBeyond; }},
+           [](const PictureDifference& d) { return 100 * d.numbers.fractionBeyond; }},
     Metric{"pixels", "pixels with such a value", "%", false,
-           [](const Difference& d) { return 100 * d.numbers.pixelFractionBeyond; }},
+           [](const PictureDifference& d) { return 100 * d.numbers.pixelFractionBeyond; }},
 };
 
 }  // namespace
@@ -36,8 +36,8 @@ LoadedPicture loadPicture(const std::string& path) {
   return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright};
 }
 
-Difference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options) {
-  Difference d;
+PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options) {
+  PictureDifference d;
   d.reference = std::move(reference);
   d.test = std::move(test);
   d.levels = d.reference.levels && d.test.levels;
@@ -71,7 +71,7 @@ const Metric& findMetric(std::string_view name) {
               didYouMean(name, names));
 }
 
-bool Limit::met(const Difference& difference) const {
+bool Limit::met(const PictureDifference& difference) const {
   const double found = metric->value(difference);
   return metric->higherIsBetter ? found >= value : found <= value;
 }
@@ -87,7 +87,7 @@ Limit parseLimit(std::string_view text) {
   return {&metric, parsed->value};
 }
 
-bool within(const Difference& difference, std::span<const Limit> limits) {
+bool within(const PictureDifference& difference, std::span<const Limit> limits) {
   if (!difference.numbers.sameSize) return false;
   if (limits.empty()) return difference.numbers.valuesBeyond == 0;
   for (const Limit& limit : limits)

@@ -21,7 +21,7 @@ struct LoadedPicture {
 LoadedPicture loadPicture(const std::string& path);
 
 /// Numbers are in levels, 0 to 255, when both pictures have 8 bits a channel, else in linear values.
-struct Difference {
+struct PictureDifference {
   LoadedPicture reference, test;
   bool levels = true;
   double tolerance = 0;  ///< what does not count as "beyond", in the same unit
@@ -37,7 +37,7 @@ struct DifferenceOptions {
   double tolerance = 0;
   double pixelsPerDegree;  ///< of the eye that FLIP stands for
 };
-Difference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options);
+PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options);
 
 /// A row of THE table of numbers that tell how far pictures are apart.
 struct Metric {
@@ -45,7 +45,7 @@ struct Metric {
   std::string_view help;  ///< one sentence, no full stop
   std::string_view unit;  ///< "" takes that of the pictures
   bool higherIsBetter;
-  double (*value)(const Difference&);
+  double (*value)(const PictureDifference&);
 };
 std::span<const Metric> metrics();
 /// Throws Error(Fault::usage).
@@ -55,12 +55,12 @@ const Metric& findMetric(std::string_view name);
 struct Limit {
   const Metric* metric;
   double value;
-  bool met(const Difference& difference) const;
+  bool met(const PictureDifference& difference) const;
 };
 /// "rmse=6". Throws Error(Fault::usage).
 Limit parseLimit(std::string_view text);
 
 /// The sizes agree and every limit is met; without limits, no value is beyond the tolerance.
-bool within(const Difference& difference, std::span<const Limit> limits);
+bool within(const PictureDifference& difference, std::span<const Limit> limits);
 
 }  // namespace trace

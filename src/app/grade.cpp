@@ -66,7 +66,7 @@ std::string encoded(const char* suffix, const Picture& picture) {
   return encodePicture(pictureFormatFor(suffix), picture, Rounding::nearest);
 }
 
-void addPictures(GradedPair& pair, const Difference& d, double magnify) {
+void addPictures(GradedPair& pair, const PictureDifference& d, double magnify) {
   pair.referencePicture = encoded(".png", d.reference.picture);
   if (pair.verdict == Verdict::identical) return;
   pair.testPicture = encoded(".png", d.test.picture);
@@ -84,7 +84,7 @@ void compareInto(GradedPair& pair, const GradeTask& task) {
   if (pair.file.empty()) return;
   const std::string test = (fs::path(task.folder) / pair.file).string();
   const std::string reference = (fs::path(task.reference) / pair.name).string();
-  const Difference d = difference(
+  const PictureDifference d = difference(
       loadPicture(reference), task.renderScenes ? rendered(test, task) : loadPicture(test), task.difference);
   pair.unit = d.unit();
   pair.width = d.reference.picture.width, pair.height = d.reference.picture.height;

@@ -46,7 +46,7 @@ std::string colorText(const Color& c, bool levels) {
   return "(" + text(c.r) + " " + text(c.g) + " " + text(c.b) + ")";
 }
 
-std::string diffText(const Difference& d, const Arguments& arguments) {
+std::string diffText(const PictureDifference& d, const Arguments& arguments) {
   const std::string &a = arguments.files[0], &b = arguments.files[1];
   if (!d.numbers.sameSize)
     return a + " (" + sizeText(d.reference.picture) + ") and " + b + " (" + sizeText(d.test.picture) +
@@ -73,7 +73,7 @@ std::string diffText(const Difference& d, const Arguments& arguments) {
   return text;
 }
 
-std::string diffJson(const Difference& d, const Arguments& arguments) {
+std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
   using nlohmann::ordered_json;
   ordered_json json;
   json["reference"] = arguments.files[0];
@@ -96,7 +96,7 @@ std::string diffJson(const Difference& d, const Arguments& arguments) {
 }
 
 /// The metrics asked for by --print, on one line.
-std::string printed(const Difference& d, const Arguments& arguments) {
+std::string printed(const PictureDifference& d, const Arguments& arguments) {
   std::string text;
   for (const Metric* metric : arguments.printed) text += (text.empty() ? "" : " ") + toText(metric->value(d));
   return text + "\n";
@@ -107,8 +107,8 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
-  const Difference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
-                                  {arguments.tolerance, arguments.pixelsPerDegree});
+  const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
+                                         {arguments.tolerance, arguments.pixelsPerDegree});
   printResult(chosenFormat(arguments, "diff", kFormats) == "json" ? diffJson(d, arguments)
               : arguments.printed.empty()                         ? diffText(d, arguments)
                                                                   : printed(d, arguments));

@@ -13,7 +13,7 @@ std::string numberText(double value) {
   return text;
 }
 
-std::string metricText(const Metric& metric, const Difference& difference) {
+std::string metricText(const Metric& metric, const PictureDifference& difference) {
   const std::string_view unit = metric.unit.empty() ? difference.unit() : metric.unit;
   return numberText(metric.value(difference)) + " " + std::string(unit);
 }
@@ -23,7 +23,7 @@ std::string limitText(const Limit& limit) {
          toText(limit.value);
 }
 
-void addMetrics(nlohmann::ordered_json& json, const Difference& difference) {
+void addMetrics(nlohmann::ordered_json& json, const PictureDifference& difference) {
   for (const Metric& metric : metrics()) {
     const double value = metric.value(difference);
     json[std::string(metric.name)] = nullptr;

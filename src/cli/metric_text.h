@@ -12,12 +12,12 @@ namespace trace::cli {
 std::string numberText(double value);
 
 /// "0.21 levels", "62.3 dB".
-std::string metricText(const Metric& metric, const Difference& difference);
+std::string metricText(const Metric& metric, const PictureDifference& difference);
 
 /// "rmse <= 6", "psnr >= 30".
 std::string limitText(const Limit& limit);
 
 /// Each metric as a key; null where it is infinite.
-void addMetrics(nlohmann::ordered_json& json, const Difference& difference);
+void addMetrics(nlohmann::ordered_json& json, const PictureDifference& difference);
 
 }  // namespace trace::cli

@@ -6,6 +6,7 @@
 
 #include "base/match.h"
 #include "geometry/mesh_repair.h"
+#include "geometry/traced.h"
 
 namespace trace {
 namespace {
@@ -104,8 +105,9 @@ Box3 bounds(const Scene& scene) {
   Box3 box;
   for (const Object& object : scene.objects)
     box.extend(object.worldFromObject *
-               match(object.shape, Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
-                                              [](const auto& shape) { return shape.bounds(); }}));
+               match(object.shape,
+                     Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
+                                [](const auto& shape) { return Box3(formOf(prepare(shape)).bounds()); }}));
   return box;
 }
 

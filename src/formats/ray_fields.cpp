@@ -74,6 +74,8 @@ std::string written(Real value, int digits) {
 
 std::string written(bool value, int) { return value ? "true" : "false"; }
 
+std::string written(int value, int) { return std::to_string(value); }
+
 std::string written(const Vec3& v, int digits) {
   return "(" + written(v.x, digits) + ", " + written(v.y, digits) + ", " + written(v.z, digits) + ")";
 }

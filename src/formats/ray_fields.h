@@ -29,6 +29,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
 /// What read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
 std::string written(bool value, int digits);
+std::string written(int value, int digits);
 std::string written(const Vec3& value, int digits);
 std::string written(const Color& value, int digits);
 std::string written(const std::string& value, int digits);

@@ -21,9 +21,9 @@ LoadedPicture grey(double value, int width = 2, int height = 1) {
   return loaded;
 }
 
-TEST(Difference, IsInLevelsUnlessAPictureHoldsMore) {
+TEST(PictureDifference, IsInLevelsUnlessAPictureHoldsMore) {
   LoadedPicture a = grey(0), b = grey(2 / 255.0);
-  Difference d = difference(a, b, kUsual);
+  PictureDifference d = difference(a, b, kUsual);
   EXPECT_TRUE(d.levels);
   EXPECT_EQ(d.numbers.maxDifference, 2);
   b.levels = false;
@@ -32,8 +32,8 @@ TEST(Difference, IsInLevelsUnlessAPictureHoldsMore) {
   EXPECT_EQ(d.numbers.maxDifference, 2 / 255.0);
 }
 
-TEST(Difference, OfPicturesOfTwoSizesIsTheWorst) {
-  const Difference d = difference(grey(0), grey(0, 1, 2), kUsual);
+TEST(PictureDifference, OfPicturesOfTwoSizesIsTheWorst) {
+  const PictureDifference d = difference(grey(0), grey(0, 1, 2), kUsual);
   EXPECT_FALSE(d.numbers.sameSize);
   EXPECT_FALSE(within(d, {}));
   const std::vector<Limit> generous{parseLimit("max=1e300")};
@@ -41,7 +41,7 @@ TEST(Difference, OfPicturesOfTwoSizesIsTheWorst) {
   EXPECT_EQ(d.flip, 1);
 }
 
-TEST(Difference, FilesTellWhetherTheyHoldLevels) {
+TEST(PictureDifference, FilesTellWhetherTheyHoldLevels) {
   const std::string path = testing::TempDir() + "/trace_difference";
   for (const char* suffix : {".png", ".bmp", ".exr", ".hdr"}) {
     writePicture(path + suffix, grey(0.5).picture);
@@ -52,7 +52,7 @@ TEST(Difference, FilesTellWhetherTheyHoldLevels) {
 
 TEST(Metrics, HaveNamesOfTheirOwnAndGrowWorse) {
   std::set<std::string_view> names;
-  const Difference near = difference(grey(0), grey(1 / 255.0), kUsual),
+  const PictureDifference near = difference(grey(0), grey(1 / 255.0), kUsual),
                    far = difference(grey(0), grey(90 / 255.0), {2, usualPixelsPerDegree()});
   for (const Metric& metric : metrics()) {
     EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
@@ -66,7 +66,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndGrowWorse) {
 }
 
 TEST(Limits, AreMetUpToTheirValue) {
-  const Difference d = difference(grey(0), grey(3 / 255.0), kUsual);
+  const PictureDifference d = difference(grey(0), grey(3 / 255.0), kUsual);
   const auto holds = [&](const char* limit) { return parseLimit(limit).met(d); };
   EXPECT_TRUE(holds("max=3"));
   EXPECT_FALSE(holds("max=2.9"));
