@@ -40,5 +40,6 @@ int lint(const Arguments& arguments, const Console& console);
 int diff(const Arguments& arguments, const Console& console);
 int grade(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
+int gui(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli
