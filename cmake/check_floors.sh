@@ -13,7 +13,7 @@ shading
 scene
 formats render
 app
-cli'
+cli studio'
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
 { grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" awk '

@@ -65,6 +65,13 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   phases_ = {watch.stop("read")};
 }
 
+void Session::open(Scene scene, const Settings& settings) {
+  strict_ = false;
+  messages_ = {}, phases_ = {};
+  scene_ = std::move(scene), settings_ = settings;
+  fingerprint_.clear();
+}
+
 void Session::build() {
   const Stopwatch watch;
   const Size picture = size();

@@ -1,4 +1,4 @@
-// A document and its render: what the command line, and later the studio, do with the floors below.
+// A scene and its render: what the command line and the studio do with the floors below.
 // No printing, no signals, no windows.
 #pragma once
 
@@ -29,6 +29,9 @@ class Session {
   /// Reads the scene and settles the settings: defaults < file < choices.
   /// Throws Error; with `strict`, warnings are errors too.
   void open(const std::string& file, std::span<const Choice> choices, bool strict = false);
+
+  /// Takes a scene that was read before, and settled settings: what the studio renders.
+  void open(Scene scene, const Settings& settings);
 
   const Scene& scene() const { return scene_; }
   const Settings& settings() const { return settings_; }

@@ -73,6 +73,8 @@ std::span<const Command> commands() {
   static constexpr std::array kTable{
       Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
               true, render},
+      Command{"gui", "[SCENE]",
+              "open the studio, a window that renders and shows the rays; ray alone does too", false, gui},
       Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
       Command{"explain", "SCENE --pixel X,Y", "why a pixel has its colour: every ray, with its numbers",
               false, explain},
@@ -90,13 +92,7 @@ std::span<const Command> commands() {
 
 int run(const std::vector<std::string>& words) {
   const Command& otherwise = commands().front();
-  if (words.empty()) {
-    const Console console;
-    console.line(LogLevel::error,
-                 "ray: the window that opens without arguments does not exist yet; name a scene.\n\n" +
-                     helpText(false));
-    return static_cast<int>(Fault::usage);
-  }
+  if (words.empty()) return run({"gui"});
   for (const Command& command : commands())
     if (command.name == words.front()) return runCommand(command, {words.begin() + 1, words.end()});
   return runCommand(otherwise, words);

@@ -41,5 +41,6 @@ int diff(const Arguments& arguments, const Console& console);
 int grade(const Arguments& arguments, const Console& console);
 int convert(const Arguments& arguments, const Console& console);
 int features(const Arguments& arguments, const Console& console);
+int gui(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

@@ -11,7 +11,8 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render info explain lint diff grade convert features help";
+constexpr std::string_view kEverywhere =
+    "render gui info explain lint diff grade convert features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -289,7 +290,7 @@ bool knows(std::string_view command, const Flag& flag) {
 }
 
 bool takesOptions(std::string_view command) {
-  constexpr std::array<std::string_view, 5> kScenes{"render", "info", "explain", "lint", "grade"};
+  constexpr std::array<std::string_view, 6> kScenes{"render", "gui", "info", "explain", "lint", "grade"};
   return std::find(kScenes.begin(), kScenes.end(), command) != kScenes.end();
 }
 

@@ -13,7 +13,6 @@ namespace {
 constexpr double kQuiet = 1;           // seconds; a shorter render needs no progress
 constexpr double kPlainInterval = 10;  // seconds
 constexpr double kJsonInterval = 0.25;
-constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
 
 double share(std::int64_t done, std::int64_t total) {
   return total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
@@ -33,19 +32,6 @@ std::string times(double elapsed, const std::optional<double>& remaining) {
 std::string seconds(double value) { return toText(std::round(value * 1000) / 1000); }
 
 }  // namespace
-
-std::optional<double> RemainingTime::update(double elapsed, double fraction) {
-  if (fraction < kLeastFraction) return {};
-  if (fraction >= 1) return 0;
-  const double steady = elapsed / fraction - elapsed;  // if the rest goes on as until now
-  if (!left_) left_ = steady, last_ = elapsed;
-  const double passed = elapsed - last_;
-  *left_ -= passed;
-  *left_ += (1 - std::exp(-kSmoothing * passed / std::max(elapsed, 1e-9))) * (steady - *left_);
-  *left_ = std::max(*left_, steady / 2);
-  last_ = elapsed;
-  return left_;
-}
 
 Progress::Progress(ProgressStyle style, int columns, Print print)
     : style_(style == ProgressStyle::automatic ? ProgressStyle::plain : style),

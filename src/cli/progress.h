@@ -7,22 +7,11 @@
 #include <optional>
 #include <string>
 
+#include "app/remaining_time.h"
+
 namespace trace::cli {
 
 enum class ProgressStyle { automatic, bar, plain, json, none };
-
-/// Seconds left, from the share done so far. Tiles differ in cost, so the estimate jumps: it is smoothed.
-class RemainingTime {
- public:
-  /// Nothing is said before this share is done.
-  static constexpr double kLeastFraction = 0.03;
-
-  std::optional<double> update(double elapsed, double fraction);
-
- private:
-  std::optional<double> left_;
-  double last_ = 0;
-};
 
 class Progress {
  public:

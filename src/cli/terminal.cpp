@@ -11,8 +11,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <string>
+#include <filesystem>
 #include <system_error>
+
+#include "base/error.h"
 
 namespace trace::cli {
 namespace {
@@ -69,6 +71,19 @@ bool colorsAreWelcome() {
 bool canRedraw() { return isScreen(STDERR_FILENO); }
 bool canColor() { return canRedraw() && colorsAreWelcome(); }
 bool canColorResult() { return isScreen(STDOUT_FILENO) && colorsAreWelcome(); }
+
+std::string ownFolder() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().string();
+}
+
+void becomeProgram(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  ::execv(arguments[0], arguments.data());
+  throw Error(Fault::io, "cannot start " + words.front() + ": " + std::strerror(errno));
+}
 
 int columns() {
   if (const char* given = std::getenv("COLUMNS"))

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace trace::cli {
 
@@ -13,6 +15,11 @@ bool canColor();
 bool canColorResult();
 /// Of the terminal, by COLUMNS or by asking it; 80 when neither tells.
 int columns();
+
+/// The folder that this program lies in; "" if the system does not tell.
+std::string ownFolder();
+/// Replaces this program by another, with its arguments. Throws Error(Fault::io) if that fails.
+[[noreturn]] void becomeProgram(const std::vector<std::string>& words);
 
 /// The most memory this process ever held, in bytes.
 std::uint64_t peakMemory();

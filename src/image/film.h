@@ -59,6 +59,8 @@ class Film {
   /// The same of a layer, blank elsewhere.
   Picture layer(std::size_t index) const { return doneOf(layers_[index].values, layers_[index].blank); }
   std::size_t layers() const { return layers_.size(); }
+  /// Puts what is done so far over a picture of the same size. From any thread.
+  void copyDone(Picture& onto) const { copyDone(picture_, onto); }
 
  private:
   struct Layer {
@@ -73,13 +75,16 @@ class Film {
   }
   Picture doneOf(const Picture& all, const Color& blank) const {
     Picture copy = filled(blank);
+    copyDone(all, copy);
+    return copy;
+  }
+  void copyDone(const Picture& all, Picture& onto) const {
     for (std::int64_t i = 0; i < tiles(); ++i) {
       if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) continue;
       const Tile t = tile(i);
       for (int y = t.y0; y < t.y1; ++y)
-        std::copy(&all.at(t.x0, y), &all.at(t.x0, y) + (t.x1 - t.x0), &copy.at(t.x0, y));
+        std::copy(&all.at(t.x0, y), &all.at(t.x0, y) + (t.x1 - t.x0), &onto.at(t.x0, y));
     }
-    return copy;
   }
 
   Picture picture_;

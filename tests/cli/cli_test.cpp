@@ -65,11 +65,17 @@ TEST_F(Cli, HelpGoesToStdout) {
   EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
 }
 
-TEST_F(Cli, AloneIsNotYetAWindow) {
-  const Run r = run({});
-  EXPECT_EQ(r.code, 2);
-  EXPECT_EQ(r.out, "");
-  EXPECT_TRUE(contains(r.err, "ray info SCENE"));
+TEST_F(Cli, AloneAndGuiAreTheStudio) {  // without a display, or without the studio: an error that says so
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{}, {"gui"}, {"gui", "white.ray", "-w", "20"}}) {
+    const Run r = run(words, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
+    EXPECT_EQ(r.code, 1) << r.err;
+    EXPECT_TRUE(
+        contains(r.err, r.err.find("was not built") == std::string::npos ? "display" : "./dev studio"));
+    EXPECT_EQ(r.out, "");
+  }
+  EXPECT_EQ(run({"gui", "white.ray", "b.ray"}).code, 2);
+  EXPECT_EQ(run({"gui", "-w", "wide"}).code, 2);
 }
 
 TEST_F(Cli, WrongUsageIs2) {

@@ -1,0 +1,104 @@
+// A scene that a person works on: what the file says, what was edited since, which options were chosen by
+// whom, and every earlier state, so that each step can be undone. The studio edits it; nothing here knows a
+// window.
+//
+// A state is a value (Edition): undo and redo move along a list of values. Reading the file again, because it
+// changed on disk, is a step like any other, so it never destroys work.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/options.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+class Document {
+ public:
+  /// Reads the scene; `commandLine` lies over the file's own choices from now on. Forgets the earlier states.
+  /// Throws Error; the document then stays what it was.
+  void open(const std::string& file, std::vector<Choice> commandLine = {});
+  bool isOpen() const { return !editions_.empty(); }
+
+  const std::string& file() const { return file_; }
+  const Scene& scene() const { return *editions_[current_].scene; }
+  std::shared_ptr<const Scene> sharedScene() const { return editions_[current_].scene; }
+  const Settings& settings() const { return settings_; }
+  const Messages& messages() const { return messages_; }  ///< warnings of the last reading
+  /// Grows with every change of scene or settings.
+  std::uint64_t revision() const { return revision_; }
+
+  /// One step. With `continues`, a step of the same name is replaced instead: dragging a slider is one step.
+  void edit(const std::string& what, Scene scene, bool continues = false);
+  /// Throws Error(Fault::usage) if the option does not take the value.
+  void choose(const std::string& option, const std::string& value, bool continues = false);
+  /// Back to what the file and the command line say.
+  void reset(const std::string& option);
+  /// Who gave the option its value: "default", "scene.ray:3:1", "command line" or "studio".
+  std::string chooser(const Option& option) const;
+  bool chosenHere(const std::string& option) const;
+
+  bool canUndo() const { return current_ > 0; }
+  bool canRedo() const { return current_ + 1 < editions_.size(); }
+  void undo();
+  void redo();
+  /// What undo() takes back, redo() makes again; "" if nothing.
+  std::string undoName() const { return canUndo() ? editions_[current_].what : ""; }
+  std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
+
+  /// The scene differs from the file.
+  bool edited() const { return isOpen() && !(scene() == *onDisk_); }
+  /// fingerprint() of what the file says (app/output.h); "" if the scene was edited.
+  std::string fileFingerprint() const { return edited() ? "" : fingerprint_; }
+  /// The file was written since it was last read. Asks the file system.
+  bool changedOnDisk() const;
+  /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
+  /// changedOnDisk() is false until the file changes once more.
+  void reload();
+  /// Some scene format can be written.
+  static bool canSave();
+  /// Writes the scene, with the options that differ from their defaults, as a .ray file, which is the
+  /// document's file from now on. Returns warnings of what was lost. Throws Error; the document then stays.
+  std::vector<Message> save(const std::string& file);
+
+ private:
+  struct Edition {
+    std::string what;  ///< that led here
+    std::shared_ptr<const Scene> scene;
+    std::vector<Choice> choices;
+  };
+  static constexpr std::size_t kMostEditions = 1000;
+
+  /// What reading a file gives.
+  struct Reading {
+    std::shared_ptr<const Scene> scene;
+    Messages messages;
+    std::string fingerprint;
+    std::filesystem::file_time_type written{};
+  };
+
+  static Reading read(const std::string& file, const std::vector<Choice>& commandLine,
+                      const std::vector<Choice>& choices);
+  void take(const Reading& reading);
+  void pushChoice(Edition edition, const std::string& option, bool continues);
+  void push(Edition edition, bool continues);
+  void settle();
+
+  std::string file_;
+  std::filesystem::file_time_type written_{};
+  std::vector<Choice> commandLine_;
+  std::vector<Edition> editions_;
+  std::size_t current_ = 0;
+  std::shared_ptr<const Scene> onDisk_;
+  std::string fingerprint_;
+  Settings settings_;
+  Messages messages_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace trace

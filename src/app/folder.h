@@ -1,0 +1,24 @@
+// What a file browser shows of a folder.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trace {
+
+struct FolderEntry {
+  std::string name;
+  bool folder = false;
+  std::uint64_t bytes = 0;  ///< of files
+  bool operator==(const FolderEntry&) const = default;
+};
+
+/// Folders first, then files that end in one of the suffixes (in any case; none given: all), each by name
+/// without regard to case. Hidden ones are left out. Throws Error(Fault::io).
+std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<std::string>& suffixes);
+
+/// The folder itself, or the nearest one above that exists; the current folder for "".
+std::string nearestFolder(const std::string& path);
+
+}  // namespace trace

@@ -1,0 +1,22 @@
+// Linear pictures made visible: with an exposure, or as their difference in false colours.
+#pragma once
+
+#include "image/picture.h"
+#include "image/tone.h"
+
+namespace trace {
+
+/// Brightened by `stops` powers of two and rounded to levels. 0 stops gives the levels of a file.
+Bytes exposed(const Picture& picture, double stops, Rounding rounding);
+
+/// |a - b| * magnify for each channel. Precondition: the same size.
+Picture differences(const Picture& a, const Picture& b, double magnify);
+
+/// The largest difference of the channels of each pixel, times `magnify`: black where there is none, then
+/// blue, green, yellow, red, and white from 1 on. Precondition: the same size.
+Picture falseColours(const Picture& a, const Picture& b, double magnify);
+
+/// The colour that falseColours() gives a value.
+Color falseColour(double value);
+
+}  // namespace trace

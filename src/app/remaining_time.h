@@ -1,0 +1,21 @@
+// How long a job will still take, from the share of it that is done.
+#pragma once
+
+#include <optional>
+
+namespace trace {
+
+/// Seconds left, from the share done so far. Tiles differ in cost, so the estimate jumps: it is smoothed.
+class RemainingTime {
+ public:
+  /// Nothing is said before this share is done.
+  static constexpr double kLeastFraction = 0.03;
+
+  std::optional<double> update(double elapsed, double fraction);
+
+ private:
+  std::optional<double> left_;
+  double last_ = 0;
+};
+
+}  // namespace trace

@@ -1,0 +1,46 @@
+// A scene as triangles, for the interactive view.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "math/box.h"
+#include "render/world.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+struct ScenePart {
+  std::uint32_t object = 0;          ///< index into Scene::objects
+  Color color;                       ///< what it looks like in white light
+  bool clear = false;                ///< lets light through
+  std::size_t first = 0, count = 0;  ///< of SceneModel::corners
+  std::array<Vec3, 8> box;  ///< of the object's own bounds, in the world: bits of the index are x, y, z
+};
+
+struct SceneModel {
+  /// Coordinates in float are (world - origin) / scale.
+  Vec3 origin;
+  Real scale = 1;
+  /// Position and normal, six floats for each corner of a triangle.
+  std::vector<float> corners;
+  std::vector<ScenePart> parts;
+
+  std::array<float, 3> local(const Vec3& world) const {
+    const Vec3 p = (world - origin) / scale;
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+};
+
+/// Of all objects; those whose transform cannot be undone are left out, as in a render.
+SceneModel modelOf(const Scene& scene);
+
+/// What the camera looks at: a box around most of the points in the middle of its picture. Empty if it sees
+/// nothing.
+Box3 seenBy(const World& world);
+
+/// Whether modelOf() would give the same model, but for colours.
+bool sameSurfaces(const Scene& a, const Scene& b);
+
+}  // namespace trace

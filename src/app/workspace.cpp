@@ -1,0 +1,175 @@
+#include "app/workspace.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/output.h"
+#include "image/codec.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+using Level = Workspace::LogEntry::Level;
+
+constexpr std::chrono::milliseconds kLookInterval(500);  // for changes on disk
+
+std::string absolute(const std::string& file) {
+  std::error_code error;
+  const fs::path path = fs::absolute(file, error);
+  return error ? file : path.lexically_normal().string();
+}
+
+}  // namespace
+
+bool differInPicture(const Settings& a, const Settings& b) {
+  Settings same = b;
+  for (const Option& option : options())
+    if (option.repeats == Repeats::nothing || option.repeats == Repeats::tone)
+      option.assign(same, option.get(a));
+  return !(a == same);
+}
+
+std::string durationWords(double seconds) {
+  char text[48];
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (seconds < 9.95)
+    std::snprintf(text, sizeof text, seconds < 1 ? "%.2f s" : "%.1f s", seconds);
+  else if (whole < 60)
+    std::snprintf(text, sizeof text, "%lld s", whole);
+  else if (whole < 3600)
+    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
+  return text;
+}
+
+void Workspace::report(const std::vector<Message>& messages) {
+  for (const Message& message : messages) {
+    const Level level = message.severity == Message::Severity::error ? Level::error : Level::warning;
+    log_.push_back({level, message.what, message.hint, message.place});
+  }
+}
+
+bool Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
+  const std::string path = absolute(file);
+  try {
+    document.open(path, std::move(commandLine));
+  } catch (const Error& error) {
+    report(error.messages());
+    return false;
+  }
+  std::erase(recent_, path);
+  recent_.insert(recent_.begin(), path);
+  recent_.resize(std::min(recent_.size(), kMostRecent));
+  note("opened " + path);
+  report(document.messages().all());
+  seen_ = document.revision();
+  startRender();
+  return true;
+}
+
+void Workspace::startRender() {
+  if (!document.isOpen()) return;
+  rendered_ = document.sharedScene(), renderedSettings_ = document.settings();
+  render.start(rendered_, renderedSettings_);
+}
+
+bool Workspace::stale() const {
+  return document.isOpen() &&
+         (rendered_ != document.sharedScene() || differInPicture(renderedSettings_, document.settings()));
+}
+
+void Workspace::update() {
+  if (document.isOpen()) {
+    reloadIfChanged();
+    if (seen_ != document.revision()) {
+      seen_ = document.revision();
+      if (automatic && stale()) startRender();
+    }
+  }
+  report(render.takeMessages());
+  noteEnd();
+}
+
+void Workspace::reloadIfChanged() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_ < kLookInterval) return;
+  looked_ = now;
+  if (!document.changedOnDisk()) return;
+  try {
+    document.reload();
+    note(document.file() + " changed on disk and was read again; undo takes that back");
+    report(document.messages().all());
+  } catch (const Error& error) {
+    report(error.messages());
+  }
+}
+
+void Workspace::noteEnd() {
+  const BackgroundRender::State state = render.state();
+  if (state.working() || state.number == reported_) return;
+  reported_ = state.number;
+  if (state.phase != BackgroundRender::Phase::finished) return;
+  const Size size = render.session()->size();
+  const RenderResult result = render.result();
+  note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +
+       durationWords(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) + " rays");
+  if (const auto bad = result.statistics.badSamples; bad > 0)
+    log_.push_back({Level::warning,
+                    std::to_string(bad) + " samples were not finite and left out of the picture",
+                    "the panel Bad samples lists them",
+                    {}});
+}
+
+bool Workspace::openReference(const std::string& file) {
+  try {
+    reference_ = readPicture(file);
+  } catch (const Error& error) {
+    report(error.messages());
+    return false;
+  }
+  referenceFile_ = absolute(file);
+  ++referenceVersion_;
+  note("comparing with " + referenceFile_);
+  return true;
+}
+
+std::string Workspace::defaultPictureFile() const {
+  return document.isOpen() ? fs::path(document.file()).replace_extension(".png").string() : "picture.png";
+}
+
+bool Workspace::saveScene(const std::string& file) {
+  try {
+    report(document.save(absolute(file)));
+  } catch (const Error& error) {
+    report(error.messages());
+    return false;
+  }
+  note("wrote " + document.file());
+  return true;
+}
+
+bool Workspace::savePicture(const std::string& file) {
+  const auto session = render.session();
+  if (!session) return false;
+  Settings settings = session->settings();  // but what comes after the film is as it is now
+  for (const Option& option : options())
+    if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
+  Metadata words = describe(session->scene(), settings);
+  if (const std::string print = document.fileFingerprint(); !stale() && !print.empty())
+    words.emplace_back("Scene", print);
+  try {
+    for (const Output& output : outputs(file, settings)) {
+      write(output, session->film(), settings, words);
+      note("wrote " + absolute(output.path));
+    }
+  } catch (const Error& error) {
+    report(error.messages());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace trace

@@ -1,0 +1,28 @@
+// Triangles that look like a shape, for drawing it in an interactive view; rendering never uses them.
+//
+// One way for every analytic shape, out of its crossings alone: dual contouring (Ju, Losasso, Schaefer and
+// Warren, SIGGRAPH 2002). A grid lies over the shape's bounds. Rays along its lines find where the surface
+// crosses them; each cell with crossings gets a point where their tangent planes meet best, so that edges
+// stay sharp; each crossing joins the points of the four cells around it. Unlike the paper's, sheets that
+// enclose nothing are welcome: it matters that an edge is crossed, not what is inside.
+#pragma once
+
+#include <vector>
+
+#include "geometry/shape.h"
+
+namespace trace {
+
+struct SurfaceCorner {
+  Vec3 point, normal;  ///< in the shape's space; normals are unit and on either side
+};
+
+/// The shape's bounds; of one without end the part within kFarthest of its origin.
+Box3 drawnBounds(const Shape& shape);
+inline constexpr Real kFarthest = 100;
+
+/// Three corners for each triangle. A mesh gives its own; other shapes are sampled on a grid of about
+/// `divisions` cells along their longest side.
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions = 24);
+
+}  // namespace trace

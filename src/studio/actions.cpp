@@ -1,0 +1,269 @@
+#include "studio/actions.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "image/codec.h"
+#include "studio/panels.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr int kEscape = KeyPress::kEscape, kEnter = KeyPress::kEnter, kF1 = KeyPress::kF1,
+              kF5 = KeyPress::kF5;
+
+bool always(const Studio&) { return true; }
+bool hasScene(const Studio& studio) { return studio.workspace.document.isOpen(); }
+bool hasPicture(const Studio& studio) { return studio.workspace.render.session() != nullptr; }
+bool hasReference(const Studio& studio) { return studio.workspace.reference().has_value(); }
+bool renders(const Studio& studio) { return const_cast<Studio&>(studio).workspace.render.state().working(); }
+
+std::vector<std::string> pictureSuffixes() {
+  std::vector<std::string> suffixes;
+  for (const PictureFormat& format : pictureFormats())
+    suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
+  return suffixes;
+}
+
+void openScene(Studio& studio) {
+  studio.dialog.open(
+      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), {".ray"},
+      [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
+}
+void openReference(Studio& studio) {
+  const std::string near = studio.workspace.referenceFile().empty() ? studio.workspace.document.file()
+                                                                    : studio.workspace.referenceFile();
+  studio.dialog.open("Open a picture to compare with", FileDialog::Purpose::read, near, pictureSuffixes(),
+                     [&studio](const std::string& file) {
+                       if (studio.workspace.openReference(file)) studio.picture.view = View::swipe;
+                     });
+}
+void savePicture(Studio& studio) {
+  studio.dialog.open("Save the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
+                     pictureSuffixes(),
+                     [&studio](const std::string& file) { studio.workspace.savePicture(file); });
+}
+void saveScene(Studio& studio) {
+  studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.document.file(), {".ray"},
+                     [&studio](const std::string& file) { studio.workspace.saveScene(file); });
+}
+void zoomText(Studio& studio, float factor) {
+  studio.userScale = std::clamp(studio.userScale * factor, 0.5f, 3.0f);
+  studio.themeChanged = true;
+}
+
+constexpr std::array kTable{
+    Action{"File", "Open scene...", 'O', true, false, "choose a scene file", openScene, always, nullptr},
+    Action{"File", "Open reference...", 'R', true, true, "choose a picture to compare with", openReference,
+           always, nullptr},
+    Action{"File", "Close reference", 0, false, false, "compare no more",
+           [](Studio& s) { s.workspace.closeReference(), s.picture.view = View::picture; }, hasReference,
+           nullptr},
+    Action{"File", "Save picture...", 'S', true, false, "write the picture to a file", savePicture,
+           hasPicture, nullptr},
+    Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to a .ray file",
+           saveScene, [](const Studio& s) { return hasScene(s) && Document::canSave(); }, nullptr},
+    Action{"File", "Quit", 'Q', true, false, "close the studio",
+           [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
+    Action{"Edit", "Undo", 'Z', true, false, "take the last change back",
+           [](Studio& s) { s.workspace.document.undo(); },
+           [](const Studio& s) { return s.workspace.document.canUndo(); }, nullptr},
+    Action{"Edit", "Redo", 'Y', true, false, "make the change again",
+           [](Studio& s) { s.workspace.document.redo(); },
+           [](const Studio& s) { return s.workspace.document.canRedo(); }, nullptr},
+    Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
+           [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
+    Action{"Render", "Stop", kEscape, false, false, "stop; what is done stays",
+           [](Studio& s) { s.workspace.render.stop(); }, renders, nullptr},
+    Action{"Render", "Render after every change", 0, false, false, "the picture follows what you do",
+           [](Studio& s) { s.workspace.automatic = !s.workspace.automatic; }, always,
+           [](const Studio& s) { return s.workspace.automatic; }},
+    Action{"View", "Fit the picture", 'F', false, false, "the whole picture",
+           [](Studio& s) { s.picture.fit = true; }, hasPicture, nullptr},
+    Action{"View", "Actual pixels", 'A', false, false, "one pixel of the picture to one of the screen",
+           [](Studio& s) { s.picture.fit = false, s.picture.zoom = 1; }, hasPicture, nullptr},
+    Action{"View", "Next comparison", 'C', false, false,
+           "picture, reference, side by side, swipe, difference", [](Studio& s) { s.picture.nextView(); },
+           hasReference, nullptr},
+    Action{"View", "Brighter", '=', false, false, "exposure half a stop up",
+           [](Studio& s) { s.picture.exposure += 0.5f; }, always, nullptr},
+    Action{"View", "Darker", '-', false, false, "exposure half a stop down",
+           [](Studio& s) { s.picture.exposure -= 0.5f; }, always, nullptr},
+    Action{"View", "Light theme", 'L', true, false, "dark letters on light, or light on dark",
+           [](Studio& s) { s.theme.light = !s.theme.light, s.themeChanged = true; }, always,
+           [](const Studio& s) { return s.theme.light; }},
+    Action{"View", "Larger text", '=', true, false, "enlarge everything",
+           [](Studio& s) { zoomText(s, 1.125f); }, always, nullptr},
+    Action{"View", "Smaller text", '-', true, false, "shrink everything",
+           [](Studio& s) { zoomText(s, 1 / 1.125f); }, always, nullptr},
+    Action{"View", "First layout", 0, false, false, "put the panels where they were at first",
+           [](Studio& s) { s.layout = {}; }, always, nullptr},
+    Action{"Help", "Keys and mouse", kF1, false, false, "this list", [](Studio& s) { s.showHelp = true; },
+           always, nullptr},
+    Action{"Help", "About", 0, false, false, "version and licence", [](Studio& s) { s.showAbout = true; },
+           always, nullptr},
+};
+
+void takeKeys(Studio& studio) {
+  const bool modal = studio.dialog.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
+  if (modal) return;
+  for (const KeyPress& press : studio.keys) {
+    if (ImGui::GetIO().WantTextInput && !press.control && !press.alt) continue;
+    for (const Action& action : kTable)
+      if (action.key == press.key && action.control == press.control && action.shift == press.shift &&
+          !press.alt && action.enabled(studio))
+        action.run(studio);
+    if (press.alt)
+      for (const Panel& panel : panels())
+        if (panel.key == press.key) studio.show(std::string(panel.name));
+  }
+}
+
+void recentMenu(Studio& studio) {
+  const auto recent = studio.workspace.recent();  // a copy: opening one changes the list
+  if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
+  for (const std::string& file : recent)
+    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
+  ImGui::EndMenu();
+}
+
+void closeOnEscape(const Studio& studio) {
+  if (studio.pressed(kEscape)) ImGui::CloseCurrentPopup();
+}
+
+void drawHelp(Studio& studio) {
+  if (studio.showHelp) ImGui::OpenPopup("Keys and mouse"), studio.showHelp = false;
+  const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
+  const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 2);
+  ImGui::SetNextWindowSize({characters(96), std::min(rows, ImGui::GetMainViewport()->Size.y * 0.9f)},
+                           ImGuiCond_Appearing);
+  bool open = true;
+  if (!ImGui::BeginPopupModal("Keys and mouse", &open)) return;
+  closeOnEscape(studio);
+  if (ImGui::BeginTable("keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    const auto line = [&](const std::string& key, const std::string& what, const std::string& help) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(studio.palette().accent, "%s", key.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", help.c_str());
+    };
+    for (const Action& action : kTable)
+      if (action.key) line(keyText(action), action.name, action.help);
+    for (const Panel& panel : panels())
+      line(std::string("Alt+") + static_cast<char>(panel.key), std::string(panel.name),
+           std::string(panel.help));
+    line("wheel", "Zoom", "in the picture at the cursor; in the 3D view");
+    line("drag", "Move", "the picture with the right or middle button");
+    line("Ctrl+click", "Type a number", "on any slider");
+    ImGui::EndTable();
+  }
+  ImGui::EndPopup();
+}
+
+void drawAbout(Studio& studio) {
+  if (studio.showAbout) ImGui::OpenPopup("About"), studio.showAbout = false;
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+  bool open = true;
+  if (!ImGui::BeginPopupModal("About", &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  closeOnEscape(studio);
+  ImGui::TextUnformatted("Trace " TRACE_VERSION ", the ray tracer you can see inside");
+  ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
+  ImGui::EndPopup();
+}
+
+void drawLeaving(Studio& studio) {
+  constexpr const char* kTitle = "The scene was edited";
+  if (studio.leaving && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::TextUnformatted("What was changed is not in a file yet.");
+  const ImVec2 size{characters(20), 0};
+  const auto close = [&] {
+    ImGui::CloseCurrentPopup();
+    return std::exchange(studio.leaving, nullptr);
+  };
+  if (Document::canSave()) {
+    if (ImGui::Button("Save as...", size)) close(), saveScene(studio);
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Discard it", size)) close()();
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", size) || studio.pressed(kEscape)) close();
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+std::span<const Action> actions() { return kTable; }
+
+std::string keyText(const Action& action) {
+  if (!action.key) return "";
+  std::string text = action.control ? "Ctrl+" : "";
+  if (action.shift) text += "Shift+";
+  switch (action.key) {
+    case kEnter: return text + "Enter";
+    case kEscape: return text + "Esc";
+    case kF1: return text + "F1";
+    case kF5: return text + "F5";
+    case '=': return text + "+";
+    default: return text + static_cast<char>(action.key);
+  }
+}
+
+void drawMenu(Studio& studio) {
+  takeKeys(studio);
+  if (!ImGui::BeginMainMenuBar()) return;
+  for (std::size_t i = 0; i < kTable.size();) {
+    const char* menu = kTable[i].menu;
+    const bool open = ImGui::BeginMenu(menu);
+    for (; i < kTable.size() && std::string_view(kTable[i].menu) == menu; ++i) {
+      const Action& action = kTable[i];
+      if (!open) continue;
+      const bool checked = action.checked && action.checked(studio);
+      if (ImGui::MenuItem(action.name, keyText(action).c_str(), checked, action.enabled(studio)))
+        action.run(studio);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", action.help);
+      if (action.key == 'O') recentMenu(studio);
+    }
+    if (!open) continue;
+    if (std::string_view(menu) == "View") {
+      ImGui::Separator();
+      for (const Panel& panel : panels()) {
+        const std::string key = std::string("Alt+") + static_cast<char>(panel.key);
+        if (ImGui::MenuItem(panel.name.data(), key.c_str())) studio.show(std::string(panel.name));
+      }
+    }
+    ImGui::EndMenu();
+  }
+  const std::string& file = studio.workspace.document.file();
+  if (!file.empty()) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string text = name + (studio.workspace.document.edited() ? " (edited)" : "");
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SameLine(ImGui::GetWindowWidth() - width - characters(2));
+    ImGui::TextDisabled("%s", text.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", file.c_str());
+  }
+  ImGui::EndMainMenuBar();
+}
+
+void drawDialogs(Studio& studio) {
+  studio.dialog.draw(studio.pressed(KeyPress::kEscape));
+  drawLeaving(studio);
+  drawHelp(studio);
+  drawAbout(studio);
+}
+
+}  // namespace trace::studio

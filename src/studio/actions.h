@@ -1,0 +1,30 @@
+// THE table of actions: menu entries with their short-cuts, from one list.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "studio/studio.h"
+
+namespace trace::studio {
+
+struct Action {
+  const char* menu;  ///< the menu it stands in
+  const char* name;
+  int key;  ///< of a KeyPress; 0 for none
+  bool control, shift;
+  const char* help;  ///< one sentence, no full stop
+  void (*run)(Studio&);
+  bool (*enabled)(const Studio&);
+  bool (*checked)(const Studio&);  ///< null where it is no switch
+};
+
+std::span<const Action> actions();
+/// "Ctrl+Shift+S", or "".
+std::string keyText(const Action& action);
+
+void drawMenu(Studio& studio);
+/// File browsers, help and about.
+void drawDialogs(Studio& studio);
+
+}  // namespace trace::studio

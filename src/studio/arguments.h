@@ -1,0 +1,25 @@
+// What ray-studio was started with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/options.h"
+
+namespace trace::studio {
+
+struct Arguments {
+  std::string scene;      ///< may be empty
+  std::string reference;  ///< --reference; may be empty
+  std::string script;     ///< --script; may be empty
+  int width = 1280, height = 800;
+  std::vector<Choice> choices;
+  bool help = false;
+};
+
+/// Throws Error(Fault::usage).
+Arguments parse(const std::vector<std::string>& words);
+
+std::string helpText();
+
+}  // namespace trace::studio

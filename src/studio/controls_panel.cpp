@@ -1,0 +1,208 @@
+// The panel Controls: THE options table as widgets. Nothing here knows a single option.
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/text.h"
+#include "scene/conventions.h"
+#include "studio/panels.h"
+
+namespace trace::studio {
+namespace {
+
+/// A slider covers ranges up to this; wider ones are dragged, for they have no useful scale.
+constexpr double kMostSlider = 10000;
+
+std::string rangeText(const Option& option) {
+  const std::string unit = option.unit.empty() ? "" : " " + std::string(option.unit);
+  switch (option.kind) {
+    case Option::Kind::boolean: return "on or off";
+    case Option::Kind::region: return "x0,y0,x1,y1 in pixels from the top left; empty for the whole picture";
+    case Option::Kind::choice: {
+      std::string text;
+      for (std::string_view choice : option.choices) text += (text.empty() ? "" : ", ") + std::string(choice);
+      return text;
+    }
+    case Option::Kind::integer:
+    case Option::Kind::real: break;
+    default: return "";
+  }
+  if (option.most == kNoLimit) return toText(option.least) + unit + " or more";
+  return toText(option.least) + " to " + toText(option.most) + unit;
+}
+
+void tooltip(const Studio& studio, const Option& option) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(characters(64));
+  ImGui::TextColored(studio.palette().accent, "--%s", option.name.data());
+  ImGui::TextUnformatted(option.help.data(), option.help.data() + option.help.size());
+  ImGui::TextDisabled("%s", rangeText(option).c_str());
+  if (option.integrators != "all")
+    ImGui::TextDisabled("concerns %s", std::string(option.integrators).c_str());
+  if (!option.source.empty()) ImGui::TextDisabled("source: %s", std::string(option.source).c_str());
+  ImGui::TextDisabled("chosen by: %s", studio.workspace.document.chooser(option).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// The text after the number: its unit, with % doubled for printf.
+std::string unitSuffix(const Option& option) {
+  std::string text;
+  for (char c : option.unit) text += c == '%' ? "%%" : std::string(1, c);
+  return text.empty() ? "" : " " + text;
+}
+
+std::optional<std::string> editInteger(const Option& option, const std::string& value) {
+  int number = std::stoi(value);
+  const int least = static_cast<int>(option.least);
+  const int most = static_cast<int>(std::min(option.most, 2147483647.0));
+  const std::string format = "%d" + unitSuffix(option);
+  const bool changed =
+      most <= kMostSlider
+          ? ImGui::SliderInt("##value", &number, least, most, format.c_str(),
+                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)
+          : ImGui::DragInt("##value", &number, std::max(1.0f, static_cast<float>(number) / 200), least, most,
+                           format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  if (!changed) return {};
+  return std::to_string(number);
+}
+
+std::optional<std::string> editReal(const Option& option, const std::string& value) {
+  double number = parseNumber(value)->value;
+  const double least = option.least, most = option.most;
+  const std::string format = "%.6g" + unitSuffix(option);
+  bool changed;
+  if (most - least <= kMostSlider) {
+    const ImGuiSliderFlags scale = most - least > 10 ? ImGuiSliderFlags_Logarithmic : 0;
+    changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &number, &least, &most, format.c_str(),
+                                  scale | ImGuiSliderFlags_AlwaysClamp);
+  } else {
+    const float speed = static_cast<float>(std::max(0.01, std::abs(number) / 100));
+    changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number, speed, &least, &most,
+                                format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (!changed) return {};
+  return toText(number);
+}
+
+std::optional<std::string> editChoice(const Option& option, const std::string& value) {
+  std::optional<std::string> chosen;
+  if (!ImGui::BeginCombo("##value", value.c_str())) return {};
+  for (std::string_view choice : option.choices)
+    if (ImGui::Selectable(std::string(choice).c_str(), choice == value)) chosen = choice;
+  ImGui::EndCombo();
+  return chosen;
+}
+
+std::optional<std::string> editRegion(const std::string& value) {
+  int corners[4] = {};
+  std::sscanf(value.c_str(), "%d,%d,%d,%d", &corners[0], &corners[1], &corners[2], &corners[3]);
+  if (!ImGui::InputInt4("##value", corners, ImGuiInputTextFlags_EnterReturnsTrue)) return {};
+  std::string text;
+  for (int corner : corners) text += (text.empty() ? "" : ",") + std::to_string(corner);
+  return text;
+}
+
+std::optional<std::string> editText(std::string value) {
+  if (!ImGui::InputText("##value", &value, ImGuiInputTextFlags_EnterReturnsTrue)) return {};
+  return value;
+}
+
+std::optional<std::string> edit(const Option& option, const std::string& value) {
+  switch (option.kind) {
+    case Option::Kind::boolean: {
+      bool on = value == "on";
+      if (!ImGui::Checkbox("##value", &on)) return {};
+      return on ? "on" : "off";
+    }
+    case Option::Kind::integer: return editInteger(option, value);
+    case Option::Kind::real: return editReal(option, value);
+    case Option::Kind::choice: return editChoice(option, value);
+    case Option::Kind::region: return editRegion(value);
+    default: return editText(value);
+  }
+}
+
+void row(Studio& studio, const Option& option, const Settings& defaults) {
+  Document& document = studio.workspace.document;
+  const std::string name(option.name), value = option.get(document.settings());
+  const bool changed = value != option.get(defaults), here = document.chosenHere(name);
+  ImGui::PushID(name.c_str());
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  if (changed)
+    ImGui::TextColored(studio.palette().changed, "%s", name.c_str());
+  else
+    ImGui::TextUnformatted(name.c_str());
+  if (ImGui::IsItemHovered()) tooltip(studio, option);
+  ImGui::TableNextColumn();
+  const float resetWidth = ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(-resetWidth - ImGui::GetStyle().ItemInnerSpacing.x);
+  const std::optional<std::string> given = edit(option, value);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(studio, option);
+  const unsigned id = ImGui::GetID("edit");
+  bool reset = false;
+  if (here) {
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - resetWidth);
+    reset = ImGui::Button("x", {resetWidth, 0});
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file and the command line say");
+  }
+  ImGui::PopID();
+  if (reset) return document.reset(name);
+  if (!given || *given == value) return;
+  const bool continues = studio.editedItem == id;  // one step for each time the widget is held
+  studio.editedItem = id;
+  try {
+    document.choose(name, *given, continues);
+  } catch (const Error& error) {
+    studio.workspace.report(error.messages());
+  }
+}
+
+}  // namespace
+
+void drawControls(Studio& studio) {
+  if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");
+  static char filter[64] = "";
+  static bool onlyChanged = false;
+  ImGui::SetNextItemWidth(-characters(20));
+  ImGui::InputTextWithHint("##filter", "find an option", filter, sizeof filter);
+  ImGui::SameLine();
+  ImGui::Checkbox("changed", &onlyChanged);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("only options that differ from their defaults");
+
+  const Settings defaults;
+  const auto wanted = [&](const Option& option) {
+    const bool changed = option.get(studio.workspace.document.settings()) != option.get(defaults);
+    const bool found = option.name.find(filter) != std::string_view::npos ||
+                       option.help.find(filter) != std::string_view::npos;
+    return found && (changed || !onlyChanged);
+  };
+  ImGui::BeginChild("options");
+  std::string_view group;
+  bool shown = false, table = false;
+  for (const Option& option : options()) {
+    if (!wanted(option)) continue;
+    if (option.group != group) {
+      if (table) ImGui::EndTable();
+      table = false;
+      group = option.group;
+      shown = ImGui::CollapsingHeader(std::string(group).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      if (shown) {
+        table = ImGui::BeginTable(std::string(group).c_str(), 2, ImGuiTableFlags_SizingStretchProp);
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.42f);
+        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58f);
+      }
+    }
+    if (table) row(studio, option, defaults);
+  }
+  if (table) ImGui::EndTable();
+  ImGui::EndChild();
+}
+
+}  // namespace trace::studio

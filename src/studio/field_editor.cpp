@@ -1,0 +1,94 @@
+#include "studio/field_editor.h"
+
+#include <imgui_stdlib.h>
+
+#include "studio/theme.h"
+
+namespace trace::studio {
+namespace {
+
+const char* kFormat = "%.4g";
+
+/// Drags by a hundredth of what it is; typed numbers are clamped too.
+bool drag(const FieldFacts& facts, double* values, int count) {
+  double largest = 0;
+  for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
+  const bool share = facts.least == 0 && facts.most == 1;
+  const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
+  // Dear ImGui takes no infinite bounds.
+  const double least = std::max(facts.least, -1e300), most = std::min(facts.most, 1e300);
+  const std::string format = kFormat + (facts.unit.empty() ? "" : " " + std::string(facts.unit));
+  ImGui::SetNextItemWidth(-1);
+  return ImGui::DragScalarN("##value", ImGuiDataType_Double, values, count, speed, &least, &most,
+                            format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+}
+
+}  // namespace
+
+bool editValue(const FieldFacts& facts, Real& value) { return drag(facts, &value, 1); }
+
+bool editValue(const FieldFacts& facts, int& value) {
+  double number = value;
+  if (!drag(facts, &number, 1)) return false;
+  value = static_cast<int>(std::lround(number));
+  return true;
+}
+
+bool editValue(const FieldFacts&, bool& value) { return ImGui::Checkbox("##value", &value); }
+
+bool editValue(const FieldFacts& facts, Vec3& value) {
+  double numbers[3] = {value.x, value.y, value.z};
+  if (!drag(facts, numbers, 3)) return false;
+  value = {numbers[0], numbers[1], numbers[2]};
+  return true;
+}
+
+bool editValue(const FieldFacts& facts, Color& value) {
+  float numbers[3] = {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b)};
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::ColorEdit3("##value", numbers, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
+    return false;
+  const auto within = [&](float x) { return std::clamp(static_cast<double>(x), facts.least, facts.most); };
+  value = {within(numbers[0]), within(numbers[1]), within(numbers[2])};
+  return true;
+}
+
+bool editValue(const FieldFacts&, std::string& value) {
+  ImGui::SetNextItemWidth(-1);
+  return ImGui::InputText("##value", &value);
+}
+
+bool beginFields(const char* id) {
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.34f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.66f);
+  return true;
+}
+
+void endFields() { ImGui::EndTable(); }
+
+void fieldName(std::string_view name, std::string_view help, const std::string& range) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  if (ImGui::IsItemHovered()) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(characters(60));
+    ImGui::TextUnformatted(name.data(), name.data() + name.size());
+    ImGui::TextUnformatted(help.data(), help.data() + help.size());
+    if (!range.empty()) ImGui::TextDisabled("%s", range.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  ImGui::TableNextColumn();
+}
+
+std::string rangeText(const FieldFacts& facts) {
+  const std::string unit = facts.unit.empty() ? "" : " " + std::string(facts.unit);
+  if (facts.least == -kNoLimit && facts.most == kNoLimit) return "any" + unit;
+  if (facts.most == kNoLimit) return toText(facts.least) + unit + " or more";
+  return toText(facts.least) + " to " + toText(facts.most) + unit;
+}
+
+}  // namespace trace::studio

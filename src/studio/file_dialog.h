@@ -1,0 +1,35 @@
+// A browser for files to open and to save.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/folder.h"
+
+namespace trace::studio {
+
+class FileDialog {
+ public:
+  enum class Purpose { read, write };
+
+  /// Starts at the file `at`, or in its folder. `chosen` is called with the file.
+  void open(const std::string& title, Purpose purpose, const std::string& at,
+            std::vector<std::string> suffixes, std::function<void(const std::string&)> chosen);
+  bool isOpen() const { return open_; }
+  void draw(bool escape);
+
+ private:
+  void enter(const std::string& folder);
+  void choose(const std::string& name);
+  void drawEntries();
+
+  bool open_ = false, appearing_ = false, overwrite_ = false;
+  Purpose purpose_ = Purpose::read;
+  std::string title_, folder_, name_, problem_;
+  std::vector<std::string> suffixes_;
+  std::vector<FolderEntry> entries_;
+  std::function<void(const std::string&)> chosen_;
+};
+
+}  // namespace trace::studio

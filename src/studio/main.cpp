@@ -1,0 +1,105 @@
+// ray-studio: the window of Trace. The logic is in app/Workspace; panels and actions are tables.
+#include <imgui.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "image/codec.h"
+#include "studio/actions.h"
+#include "studio/arguments.h"
+#include "studio/script.h"
+#include "studio/studio.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between frames when nothing, or a render, goes on
+
+const char* variable(const char* name) { return std::getenv(name); }
+
+bool isPicture(const std::string& file) {
+  try {
+    pictureFormatFor(file);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void frame(Studio& studio) {
+  if (studio.themeChanged) {
+    studio.theme.scale = studio.window.contentScale() * studio.userScale;
+    apply(studio.theme);
+    studio.window.fontsChanged();
+    studio.themeChanged = false;
+  }
+  const bool busy = studio.workspace.render.state().working();
+  studio.window.beginFrame(busy ? kBusy : kIdle);
+  for (const std::string& file : studio.window.takeDropped()) {
+    if (!isPicture(file))
+      studio.leave([&studio, file] { studio.workspace.open(file); });
+    else if (studio.workspace.openReference(file))
+      studio.picture.view = View::swipe;
+  }
+  studio.keys = studio.window.takeKeys();
+  studio.workspace.update();
+  drawStudio(studio);
+  studio.window.endFrame();
+}
+
+int run(const Arguments& arguments) {
+  std::optional<Script> script;
+  if (!arguments.script.empty()) script.emplace(arguments.script);
+  const std::string folder = script ? "" : configFolder(variable);
+  const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
+  Window window("Trace", arguments.width, arguments.height);
+  Studio studio(window);
+  studio.configFolder = folder;
+  ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
+  if (!folder.empty()) {
+    restore(studio);
+    const double width = studio.preferences.number("width", 0),
+                 height = studio.preferences.number("height", 0);
+    if (width >= 320 && height >= 240) window.setSize(static_cast<int>(width), static_cast<int>(height));
+  }
+  if (!arguments.scene.empty() && !studio.workspace.open(arguments.scene, arguments.choices))
+    studio.show("Log");
+  if (!arguments.reference.empty() && studio.workspace.openReference(arguments.reference))
+    studio.picture.view = View::swipe;
+
+  std::string title;
+  while (!studio.quit) {
+    frame(studio);
+    if (window.closing()) {
+      window.keepOpen();
+      studio.leave([&] { studio.quit = true; });
+    }
+    if (script && !script->step(studio)) break;
+    const std::string& file = studio.workspace.document.file();
+    const std::string now =
+        file.empty() ? "Trace" : std::filesystem::path(file).filename().string() + " - Trace";
+    if (now != title) window.setTitle(title = now);
+  }
+  remember(studio);
+  return 0;
+}
+
+}  // namespace
+}  // namespace trace::studio
+
+int main(int argc, char** argv) {
+  using namespace trace;
+  try {
+    const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
+    if (arguments.help) return std::fputs(studio::helpText().c_str(), stdout), 0;
+    return studio::run(arguments);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.fault());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ray-studio: error: %s\n", error.what());
+    return static_cast<int>(Fault::io);
+  }
+}

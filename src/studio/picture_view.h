@@ -1,0 +1,41 @@
+// How the picture is looked at: zoom, exposure, comparison; and its textures.
+#pragma once
+
+#include <cstdint>
+
+#include "image/picture.h"
+#include "studio/texture.h"
+
+namespace trace::studio {
+
+enum class View { picture, reference, sideBySide, swipe, difference, falseColour };
+inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by side",
+                                             "Swipe",   "Difference", "False colour"};
+
+struct PictureView {
+  View view = View::picture;
+  bool fit = true;
+  float zoom = 1;                       ///< screen pixels per pixel of the picture
+  double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
+  float exposure = 0;                   ///< stops
+  float swipe = 0.5f;                   ///< share that shows the picture
+  float magnify = 8;                    ///< of the difference
+  bool hasPixel = false;                ///< a pixel was clicked
+  int pixelX = 0, pixelY = 0;
+
+  // What the textures show.
+  Texture pictureTexture, referenceTexture, differenceTexture;
+  Picture shown;  ///< linear colours of pictureTexture
+  std::uint64_t shownVersion = ~std::uint64_t{0}, referenceVersion = ~std::uint64_t{0};
+  double refreshed = 0, refreshCost = 0;  ///< seconds
+  // How the textures were made.
+  float exposed = 0;
+  Tone tone = Tone::clamp;
+  Rounding rounding = Rounding::truncate;
+  View differenceView = View::picture;
+  float differenceMagnify = 0;
+
+  void nextView() { view = static_cast<View>((static_cast<int>(view) + 1) % 6); }
+};
+
+}  // namespace trace::studio

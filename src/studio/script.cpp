@@ -1,0 +1,154 @@
+#include "studio/script.h"
+
+#include <array>
+#include <sstream>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "image/codec.h"
+#include "studio/actions.h"
+#include "studio/panels.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr int kSettle = 3;  // frames until a change shows everywhere
+
+int whole(const std::string& word) {
+  const auto number = parseNumber(word);
+  if (!number || number->length != word.size() || number->value != static_cast<int>(number->value))
+    throw Error(Fault::usage, "expected a whole number, found \"" + word + "\"");
+  return static_cast<int>(number->value);
+}
+
+void must(bool done, Studio& studio) {
+  if (!done) throw Error(Fault::io, studio.workspace.log().back().text);
+}
+
+/// `run` returns false to be called again after the next frame.
+struct Command {
+  const char* name;
+  const char* arguments;
+  std::size_t least, most;  // number of arguments
+  const char* help;
+  bool (*run)(Studio&, const std::vector<std::string>&);
+};
+
+constexpr std::array kTable{
+    Command{
+        "open", "FILE", 1, 1, "open a scene",
+        [](Studio& s, const std::vector<std::string>& a) { return must(s.workspace.open(a[0]), s), true; }},
+    Command{"reference", "FILE", 1, 1, "compare with a picture",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return must(s.workspace.openReference(a[0]), s), true;
+            }},
+    Command{"set", "OPTION VALUE", 2, 2, "choose an option",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return s.workspace.document.choose(a[0], a[1]), true;
+            }},
+    Command{"wait", "", 0, 0, "until the picture is finished",
+            [](Studio& s, const std::vector<std::string>&) {
+              const auto state = s.workspace.render.state();
+              if (state.phase == BackgroundRender::Phase::failed) must(false, s);
+              return !state.working() && !s.workspace.stale();
+            }},
+    Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
+            [](Studio& s, const std::vector<std::string>& a) {
+              std::string name;
+              for (const std::string& word : a) name += (name.empty() ? "" : " ") + word;
+              for (const Action& action : actions())
+                if (name == action.name) return action.run(s), true;
+              throw Error(Fault::usage, "no menu has an entry \"" + name + "\"");
+            }},
+    Command{"panel", "NAME...", 1, 3, "bring a panel to the front",
+            [](Studio& s, const std::vector<std::string>& a) {
+              std::string name;
+              for (const std::string& word : a) name += (name.empty() ? "" : " ") + word;
+              for (const Panel& panel : panels())
+                if (name == panel.name) return s.show(name), true;
+              throw Error(Fault::usage, "no panel is called \"" + name + "\"");
+            }},
+    Command{"view", "NUMBER", 1, 1,
+            "0 picture, 1 reference, 2 side by side, 3 swipe, 4 difference, 5 false colour",
+            [](Studio& s, const std::vector<std::string>& a) {
+              s.picture.view = static_cast<View>(std::clamp(whole(a[0]), 0, 5));
+              return true;
+            }},
+    Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
+            [](Studio& s, const std::vector<std::string>& a) {
+              s.picture.hasPixel = true, s.picture.pixelX = whole(a[0]), s.picture.pixelY = whole(a[1]);
+              return true;
+            }},
+    Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
+            [](Studio& s, const std::vector<std::string>&) { return s.rays.pinAsked = true; }},
+    Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
+            [](Studio& s, const std::vector<std::string>& a) {
+              if (!s.rays.traced || whole(a[0]) < 0 ||
+                  whole(a[0]) >= static_cast<int>(s.rays.traced->tree().nodes.size()))
+                throw Error(Fault::usage, "the pixel has no ray " + a[0]);
+              s.rays.selected = whole(a[0]);
+              return true;
+            }},
+    Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
+            [](Studio& s, const std::vector<std::string>&) { return showBoxes(s.rays), true; }},
+    Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
+            [](Studio& s, const std::vector<std::string>& a) { return s.raysTab = a[0], true; }},
+    Command{"save", "FILE", 1, 1, "write the picture",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return must(s.workspace.savePicture(a[0]), s), true;
+            }},
+    Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return must(s.workspace.saveScene(a[0]), s), true;
+            }},
+    Command{"screenshot", "FILE", 1, 1, "write what the window shows",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return writePicture(a[0], fromBytes(s.window.screenshot())), true;
+            }},
+};
+
+}  // namespace
+
+Script::Script(const std::string& file) {
+  std::istringstream text(readFile(file));
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    Line next{{file, number, 1, line}, {}};
+    for (std::string word; words >> word;) next.words.push_back(word);
+    if (!next.words.empty()) lines_.push_back(std::move(next));
+  }
+}
+
+bool Script::step(Studio& studio) {
+  if (framesToWait_ > 0) return --framesToWait_, true;
+  if (next_ == lines_.size()) return false;
+  const Line& line = lines_[next_];
+  try {
+    for (const Command& command : kTable) {
+      if (line.words[0] != command.name) continue;
+      const std::vector<std::string> rest(line.words.begin() + 1, line.words.end());
+      if (rest.size() < command.least || rest.size() > command.most)
+        throw Error(Fault::usage, std::string("expected ") + command.name + " " + command.arguments);
+      if (command.run(studio, rest)) ++next_, framesToWait_ = kSettle;
+      return true;
+    }
+    throw Error(Fault::usage, "unknown command \"" + line.words[0] + "\"");
+  } catch (const Error& error) {
+    Message message = error.messages().front();
+    message.place = line.place;
+    throw Error(error.fault(), {message});
+  }
+}
+
+std::string scriptHelp() {
+  std::string text;
+  for (const Command& command : kTable) {
+    std::string left = std::string("  ") + command.name + " " + command.arguments;
+    left.resize(std::max<std::size_t>(left.size() + 2, 28), ' ');
+    text += left + command.help + "\n";
+  }
+  return text;
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,32 @@
+// Drives the studio from a file, one command a line: for tests and for the pictures of the manual.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studio/studio.h"
+
+namespace trace::studio {
+
+class Script {
+ public:
+  /// Throws Error with file and line.
+  explicit Script(const std::string& file);
+
+  /// Called after each frame: does the next command, or waits for what the last one began. False at the end.
+  /// Throws Error with file and line if a command fails.
+  bool step(Studio& studio);
+
+ private:
+  struct Line {
+    Place place;
+    std::vector<std::string> words;
+  };
+  std::vector<Line> lines_;
+  std::size_t next_ = 0;
+  int framesToWait_ = 0;
+};
+
+std::string scriptHelp();
+
+}  // namespace trace::studio

@@ -1,0 +1,76 @@
+// All that the panels share: the workspace (app/workspace.h has the logic), what is selected, how things are
+// looked at. Panels and actions are rows of tables (panels.cpp, actions.cpp).
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "app/preferences.h"
+#include "app/workspace.h"
+#include "studio/file_dialog.h"
+#include "studio/picture_view.h"
+#include "studio/rays_view.h"
+#include "studio/theme.h"
+#include "studio/window.h"
+
+namespace trace::studio {
+
+enum class Dock { left, centre, right, bottom, hidden };
+
+/// Where the panels are. Kept in the preferences.
+struct Layout {
+  float left = 0.23f, right = 0.4f, bottom = 0.17f;  ///< shares of the window
+  std::map<std::string, Dock, std::less<>> docks;    ///< where they differ from the table
+  std::map<Dock, std::string> front;                 ///< the panel shown; one that was asked for
+  std::string ask;                                   ///< bring this panel to the front in the next frame
+};
+
+struct Studio {
+  explicit Studio(Window& w) : window(w) {}
+
+  Window& window;
+  Workspace workspace;
+  Preferences preferences;
+  std::string configFolder;
+  Theme theme;
+  float userScale = 1;  ///< times the monitor's
+  bool themeChanged = true;
+  Layout layout;
+  PictureView picture;
+  RaysView rays;
+  std::string raysTab;  ///< a tab of the panel Rays to bring to the front
+  FileDialog dialog;
+  std::vector<KeyPress> keys;  ///< of this frame
+  bool showHelp = false, showAbout = false, quit = false;
+
+  // The scene panel's selection: what kind of thing, and its index.
+  enum class Selected { camera, object, light, material };
+  Selected selected = Selected::camera;
+  std::size_t selectedIndex = 0;
+  unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go
+
+  const Palette& palette() const { return studio::palette(theme.light); }
+  bool pressed(int key) const {
+    return std::any_of(keys.begin(), keys.end(), [&](const KeyPress& press) { return press.key == key; });
+  }
+  /// Does what loses the edits of the scene, after asking if there are any.
+  void leave(std::function<void()> then) {
+    if (workspace.document.edited())
+      leaving = std::move(then);
+    else
+      then();
+  }
+  std::function<void()> leaving;  ///< waits for an answer
+  void show(const std::string& panel) { layout.ask = panel; }
+};
+
+/// One frame: menu, panels, dialogs.
+void drawStudio(Studio& studio);
+
+/// Reads and writes studio.preferences.
+void restore(Studio& studio);
+void remember(Studio& studio);
+
+}  // namespace trace::studio

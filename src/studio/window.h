@@ -1,0 +1,57 @@
+// The window: GLFW, OpenGL 3.3 and Dear ImGui's back ends behind a few calls. With texture.cpp and
+// scene_drawer.cpp the only place that knows them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/tone.h"
+
+namespace trace::studio {
+
+/// A key that went down, with those that were held.
+struct KeyPress {
+  static constexpr int kEscape = 256, kEnter = 257, kF1 = 290, kF5 = 294;
+
+  int key;  ///< what it writes, a capital letter for letters, '=' for plus; else GLFW's code
+  bool control, shift, alt;
+};
+
+class Window {
+ public:
+  /// Throws Error(Fault::io) where no window can be opened.
+  Window(const std::string& title, int width, int height);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Waits for something to happen, at most this long, and begins a frame.
+  void beginFrame(double mostSeconds);
+  void endFrame();
+  bool closing() const;
+  void keepOpen();  ///< takes back the wish to close
+  void setTitle(const std::string& title);
+  void setSize(int width, int height);
+  void size(int& width, int& height) const;
+
+  /// By which everything should be enlarged on this monitor: 1 on a plain one, 2 on most 4K ones.
+  float contentScale() const;
+  /// Files that were dropped onto the window since the last call.
+  std::vector<std::string> takeDropped();
+  /// Keys that went down since the last call, however short: Dear ImGui 1.86 misses what is up again by the
+  /// frame.
+  std::vector<KeyPress> takeKeys();
+  /// What the last frame looked like.
+  Bytes screenshot() const;
+  /// To be called after the fonts have changed, between frames.
+  void fontsChanged();
+
+ private:
+  void draw() const;
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trace::studio

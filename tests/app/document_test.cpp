@@ -1,0 +1,335 @@
+// A document's edits, undo, options and reading again; the background render; what the studio remembers.
+#include "app/document.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "app/folder.h"
+#include "app/picture_views.h"
+#include "app/preferences.h"
+#include "app/workspace.h"
+#include "base/file.h"
+#include "image/codec.h"
+
+namespace trace::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScene = R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { direction=(0,0,-1); color=(1,1,1); }
+settings { depth = 3; }
+sphere { name = "ball"; material = { diffuse = (1,0,0); } }
+)";
+
+class Files : public testing::Test {
+ protected:
+  Files() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = testing::TempDir() + "trace_app_" + test->test_suite_name() + "_" + test->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("scene.ray", kScene);
+  }
+  ~Files() override { fs::remove_all(folder_); }
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  void write(const std::string& name, const std::string& text) const { writeFile(path(name), text); }
+  /// Writes, with a time that differs from the one before.
+  void rewrite(const std::string& name, const std::string& text) const {
+    const auto before = fs::last_write_time(path(name));
+    write(name, text);
+    fs::last_write_time(path(name), before + std::chrono::seconds(2));
+  }
+
+ private:
+  std::string folder_;
+};
+
+using DocumentTest = Files;
+using WorkspaceTest = Files;
+
+Scene renamed(Scene scene, const std::string& name) {
+  scene.objects.at(0).name = name;
+  return scene;
+}
+
+TEST_F(DocumentTest, UndoGoesBackThroughEditsOfSceneAndOptionsAndRedoForth) {
+  Document document;
+  document.open(path("scene.ray"));
+  EXPECT_FALSE(document.canUndo());
+  document.edit("name", renamed(document.scene(), "a"));
+  document.choose("width", "77");
+  EXPECT_EQ(document.settings().width, 77);
+  EXPECT_EQ(document.undoName(), "width");
+  document.undo();
+  EXPECT_EQ(document.settings().width, Settings{}.width);
+  EXPECT_EQ(document.redoName(), "width");
+  document.undo();
+  EXPECT_EQ(document.scene().objects[0].name, "ball");
+  EXPECT_FALSE(document.edited());
+  document.redo();
+  EXPECT_EQ(document.scene().objects[0].name, "a");
+  EXPECT_TRUE(document.edited());
+  document.edit("name", renamed(document.scene(), "b"));  // what could be redone is gone
+  EXPECT_FALSE(document.canRedo());
+}
+
+TEST_F(DocumentTest, ContinuedEditsAreOneStep) {
+  Document document;
+  document.open(path("scene.ray"));
+  for (const char* name : {"a", "b", "c"})
+    document.edit("name", renamed(document.scene(), name), *name != 'a');
+  EXPECT_EQ(document.scene().objects[0].name, "c");
+  document.undo();
+  EXPECT_EQ(document.scene().objects[0].name, "ball");
+  EXPECT_FALSE(document.canUndo());
+  document.choose("width", "10", true);  // nothing to go on with: a step of its own
+  EXPECT_TRUE(document.canUndo());
+}
+
+TEST_F(DocumentTest, OptionsTellWhoChoseThemAndGoBackToIt) {
+  Document document;
+  document.open(path("scene.ray"), {{"width", "50", {}}});
+  EXPECT_EQ(document.chooser(findOption("depth")), "scene.ray:4");
+  EXPECT_EQ(document.chooser(findOption("width")), "command line");
+  EXPECT_EQ(document.chooser(findOption("threads")), "default");
+  document.choose("depth", "9");
+  EXPECT_EQ(document.chooser(findOption("depth")), "studio");
+  EXPECT_TRUE(document.chosenHere("depth"));
+  document.reset("depth");
+  EXPECT_EQ(document.settings().depth, 3);
+  EXPECT_FALSE(document.chosenHere("depth"));
+  EXPECT_THROW(document.choose("depth", "deep"), Error);
+  EXPECT_EQ(document.undoName(), "reset depth");
+}
+
+TEST_F(DocumentTest, AConventionSetsAllOfItsOptionsAnew) {
+  Document document;
+  document.open(path("scene.ray"));
+  document.choose("pixel-position", "center");
+  document.choose("like", "ut");
+  const Settings expected = resolve({document.scene().choices, std::vector<Choice>{{"like", "ut", {}}}});
+  EXPECT_EQ(document.settings(), expected);
+  EXPECT_EQ(document.chooser(findOption("pixel-position")), "studio, by like");
+}
+
+TEST_F(DocumentTest, ReadingAgainIsAStepThatKeepsChoicesAndCanBeUndone) {
+  Document document;
+  document.open(path("scene.ray"));
+  document.choose("width", "60");
+  EXPECT_FALSE(document.changedOnDisk());
+  std::string other = kScene;
+  other.replace(other.find("ball"), 4, "moon");
+  rewrite("scene.ray", other);
+  EXPECT_TRUE(document.changedOnDisk());
+  document.reload();
+  EXPECT_FALSE(document.changedOnDisk());
+  EXPECT_EQ(document.scene().objects[0].name, "moon");
+  EXPECT_EQ(document.settings().width, 60);
+  EXPECT_FALSE(document.edited());
+  document.undo();
+  EXPECT_EQ(document.scene().objects[0].name, "ball");
+  EXPECT_TRUE(document.edited());
+
+  rewrite("scene.ray", "SBT-raytracer 1.0\nsphere {");  // broken: the document stays
+  fs::last_write_time(path("scene.ray"), fs::last_write_time(path("scene.ray")) + std::chrono::seconds(2));
+  const auto revision = document.revision();
+  EXPECT_THROW(document.reload(), Error);
+  EXPECT_EQ(document.revision(), revision);
+  EXPECT_FALSE(document.changedOnDisk());
+  EXPECT_THROW(document.open(path("nothing.ray")), Error);
+  EXPECT_EQ(document.file(), path("scene.ray"));
+}
+
+TEST_F(DocumentTest, SavedScenesAreReadAsTheyWereEdited) {
+  if (!Document::canSave()) GTEST_SKIP() << "SKIPPED: no scene format can be written";
+  Document document;
+  document.open(path("scene.ray"), {{"threads", "3", {}}});
+  document.edit("name", renamed(document.scene(), "moon"));
+  document.choose("depth", "9");
+  EXPECT_TRUE(document.edited());
+  document.save(path("saved.ray"));
+  EXPECT_FALSE(document.edited());
+  EXPECT_FALSE(document.changedOnDisk());
+  EXPECT_EQ(document.file(), path("saved.ray"));
+  Document again;
+  again.open(path("saved.ray"));
+  EXPECT_EQ(again.scene().objects.at(0).name, "moon");
+  EXPECT_EQ(again.settings().depth, 9);
+  EXPECT_EQ(again.settings().threads, 0);
+  EXPECT_THROW(document.save(path("no/such/folder/x.ray")), Error);
+  EXPECT_EQ(document.file(), path("saved.ray"));
+}
+
+// --- the background render ----------------------------------------------------------------------------
+
+void waitFor(BackgroundRender& render) {
+  while (render.state().working()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
+  Workspace workspace;
+  ASSERT_TRUE(workspace.open(path("scene.ray"), {{"width", "100", {}}}));
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  Session session;
+  session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
+  session.build();
+  session.render();
+  EXPECT_EQ(workspace.render.picture(), session.picture());
+  ASSERT_TRUE(workspace.savePicture(path("out.png")));
+  session.save(path("expected.png"));
+  EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
+}
+
+TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {
+  Workspace workspace;
+  ASSERT_TRUE(workspace.open(path("scene.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  const Picture red = workspace.render.picture();
+  Scene scene = workspace.document.scene();
+  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  workspace.document.edit("diffuse", scene);
+  EXPECT_TRUE(workspace.stale());
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_FALSE(workspace.stale());
+  EXPECT_NE(workspace.render.picture(), red);
+  workspace.document.undo();
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.picture(), red);
+  const auto number = workspace.render.state().number;
+  workspace.document.choose("threads", "1");
+  workspace.document.choose("rounding", "nearest");
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().number, number);
+  workspace.automatic = false;
+  workspace.document.choose("depth", "1");
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().number, number);
+  EXPECT_TRUE(workspace.stale());
+}
+
+TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
+  Workspace workspace;
+  ASSERT_TRUE(
+      workspace.open(path("scene.ray"), {{"width", "3000", {}}, {"spp", "100", {}}, {"threads", "1", {}}}));
+  while (workspace.render.picture().width == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  workspace.render.stop();
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::stopped);
+  EXPECT_EQ(workspace.render.picture().width, 3000);
+  for (int i = 0; i < 20; ++i) {  // each replaces the one before
+    workspace.document.choose("width", std::to_string(200 + i));
+    workspace.update();
+  }
+  workspace.document.choose("spp", "1");
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  EXPECT_EQ(workspace.render.picture().width, 219);
+}
+
+TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
+  Workspace workspace;
+  EXPECT_FALSE(workspace.open(path("nothing.ray")));
+  ASSERT_TRUE(workspace.open(path("scene.ray")));
+  Scene scene = workspace.document.scene();
+  scene.camera.fov = 0;
+  workspace.document.edit("fov", scene);
+  workspace.update();
+  waitFor(workspace.render);
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::failed);
+  EXPECT_NE(workspace.log().back().text.find("camera"), std::string::npos);
+  EXPECT_EQ(workspace.log().back().level, Workspace::LogEntry::Level::error);
+  EXPECT_FALSE(workspace.openReference(path("scene.ray")));
+  EXPECT_FALSE(workspace.reference());
+}
+
+TEST_F(WorkspaceTest, FilesOpenedLatelyComeNewestFirstAndOnce) {
+  Workspace workspace;
+  write("b.ray", kScene);
+  workspace.setRecent({"/old"});
+  for (const char* name : {"scene.ray", "b.ray", "scene.ray"}) ASSERT_TRUE(workspace.open(path(name)));
+  EXPECT_EQ(workspace.recent(), (std::vector<std::string>{path("scene.ray"), path("b.ray"), "/old"}));
+}
+
+TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {
+  Picture small(2, 1);
+  small.at(0, 0) = Color(1), small.at(1, 0) = Color(2);
+  const Picture large = enlarged(small, {5, 3});
+  EXPECT_EQ(large.at(0, 0), Color(1));
+  EXPECT_EQ(large.at(2, 2), Color(1));
+  EXPECT_EQ(large.at(3, 0), Color(2));
+  EXPECT_EQ(large.at(4, 2), Color(2));
+}
+
+// --- small things -------------------------------------------------------------------------------------
+
+TEST(Preferences, AreReadAsTheyWereWritten) {
+  Preferences p;
+  p.set("theme", "light");
+  p.set("left", 0.25);
+  p.setAll("recent", {"/a b/c.ray", "/d.ray"});
+  p.set("theme", "dark");
+  const Preferences q = Preferences::parse(p.text() + "nonsense\n\n");
+  EXPECT_EQ(q.get("theme"), "dark");
+  EXPECT_EQ(q.number("left", 0), 0.25);
+  EXPECT_EQ(q.number("right", 7), 7);
+  EXPECT_EQ(q.all("recent"), (std::vector<std::string>{"/a b/c.ray", "/d.ray"}));
+  EXPECT_EQ(q.get("nonsense", "no"), "no");
+}
+
+using FolderTest = Files;
+
+TEST_F(FolderTest, ListsFoldersFirstThenFilesThatFit) {
+  fs::create_directories(path("zoo"));
+  for (const char* name : {"b.RAY", "a.ray", ".hidden.ray", "note.txt"}) write(name, "x");
+  const auto entries = listFolder(path(""), {".ray"});
+  ASSERT_EQ(entries.size(), 4u);
+  EXPECT_EQ(entries[0], (FolderEntry{"zoo", true, 0}));
+  EXPECT_EQ(entries[1], (FolderEntry{"a.ray", false, 1}));
+  EXPECT_EQ(entries[2].name, "b.RAY");
+  EXPECT_EQ(entries[3].name, "scene.ray");
+  EXPECT_THROW(listFolder(path("nowhere"), {}), Error);
+  EXPECT_EQ(nearestFolder(path("zoo/no/such")), path("zoo"));
+  EXPECT_EQ(nearestFolder(path("a.ray")), fs::path(path("")).parent_path().string());
+}
+
+TEST(PictureViews, ExposureIsInStopsAndZeroStopsAreTheLevelsOfAFile) {
+  Picture picture(1, 1);
+  picture.at(0, 0) = {0.25, 0.5, 2};
+  EXPECT_EQ(exposed(picture, 0, Rounding::truncate), toBytes(picture, Rounding::truncate));
+  EXPECT_EQ(exposed(picture, 1, Rounding::truncate).rgb, (std::vector<std::uint8_t>{127, 255, 255}));
+}
+
+TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {
+  Picture a(2, 1), b(2, 1);
+  b.at(1, 0) = {0, 0, 0.5};
+  const Picture difference = falseColours(a, b, 2);
+  EXPECT_EQ(difference.at(0, 0), Color(0));
+  EXPECT_EQ(difference.at(1, 0), Color(1));
+  EXPECT_EQ(falseColour(std::nan("")), Color(1));
+  double before = -1;
+  for (double value : {0.0, 0.1, 0.2}) {
+    const Color c = falseColour(value);
+    EXPECT_GT(c.r + c.g + c.b, before);
+    before = c.r + c.g + c.b;
+  }
+}
+
+TEST(DurationWords, SuitPeople) {
+  EXPECT_EQ(durationWords(0.42), "0.42 s");
+  EXPECT_EQ(durationWords(7.31), "7.3 s");
+  EXPECT_EQ(durationWords(59.7), "1 min 00 s");
+  EXPECT_EQ(durationWords(125), "2 min 05 s");
+  EXPECT_EQ(durationWords(3720), "1 h 02 min");
+}
+
+}  // namespace
+}  // namespace trace::test

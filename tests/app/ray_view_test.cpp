@@ -1,0 +1,194 @@
+// What the studio shows of rays and of a scene in space, without its window.
+#include "app/ray_view.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/orbit_camera.h"
+#include "app/scene_model.h"
+#include "app/session.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+/// A mirror ball over a floor, with a light that a small ball hides from one place.
+Scene mirrorScene() {
+  Scene scene;
+  Phong mirror, grey;
+  mirror.reflective = Color(0.5), mirror.diffuse = Color(0.3);
+  grey.diffuse = Color(0.8);
+  addObject(scene, Sphere{}, {}, mirror);
+  addObject(
+      scene, Square{},
+      Affine::translation({0, -1, 0}) * Affine::rotation({1, 0, 0}, -kPi / 2) * Affine::scaling({20, 20, 1}),
+      grey);
+  addObject(scene, Sphere{}, Affine::translation({0, 5, 0}), grey);
+  scene.objects[0].name = "ball", scene.objects[1].name = "floor", scene.objects[2].name = "lid";
+  scene.lights.push_back(
+      {PointLight{.position = {0, 10, 0}, .color = Color(1), .constant = 1, .quadratic = 0}, {}});
+  scene.lights.push_back({DirectionalLight{.direction = {0, -1, -1}, .color = Color(0.5)}, {}});
+  scene.camera.position = {0, 0.5, 8};
+  return scene;
+}
+
+struct Traced {
+  Session session;
+  RayTree tree;
+};
+void trace(Traced& traced, const Scene& scene, int x, int y, int depth) {
+  Settings settings;
+  settings.width = 40, settings.depth = depth;
+  traced.session.open(scene, settings);
+  traced.session.build();
+  traced.tree = traced.session.explain(x, y, 0).tree;
+}
+
+TEST(RayView, EveryRayHasNumbersUnderHeadings) {
+  Traced traced;
+  trace(traced, mirrorScene(), 20, 18, 5);
+  ASSERT_GT(traced.tree.nodes.size(), 4u);
+  for (int i = 0; i < static_cast<int>(traced.tree.nodes.size()); ++i) {
+    const auto numbers = numbersOf(traced.tree, i, traced.session.scene());
+    EXPECT_TRUE(numbers.front().second.empty());  // a heading
+    EXPECT_GT(numbers.size(), 8u);
+  }
+  const auto numbers = numbersOf(traced.tree, 0, traced.session.scene());
+  const auto row = [&](const std::string& name) {
+    const auto found =
+        std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
+    return found == numbers.end() ? "" : found->second;
+  };
+  EXPECT_EQ(row("kind"), "camera, depth 0");
+  EXPECT_EQ(row("object"), "ball");
+  EXPECT_EQ(row("index of refraction").substr(0, 6), "1.0003");
+}
+
+TEST(RayView, ATreeDoesNotDifferFromItself) {
+  Traced traced;
+  trace(traced, mirrorScene(), 20, 18, 5);
+  const Scene& scene = traced.session.scene();
+  const auto pairs = difference(traced.tree, scene, traced.tree, scene);
+  EXPECT_EQ(pairs.size(), traced.tree.nodes.size());
+  for (const RayPair& pair : pairs) {
+    EXPECT_FALSE(pair.differs) << pair.what;
+    EXPECT_EQ(pair.a, pair.b);
+  }
+}
+
+TEST(RayView, ASmallerDepthLosesRaysAndTheDifferenceSaysWhich) {
+  Traced deep, flat;
+  trace(deep, mirrorScene(), 20, 18, 5);
+  trace(flat, mirrorScene(), 20, 18, 0);
+  ASSERT_LT(flat.tree.nodes.size(), deep.tree.nodes.size());
+  const auto pairs = difference(deep.tree, deep.session.scene(), flat.tree, flat.session.scene());
+  EXPECT_EQ(pairs.size(), deep.tree.nodes.size());
+  std::size_t lost = 0;
+  for (const RayPair& pair : pairs) {
+    if (pair.b >= 0) continue;
+    ++lost;
+    EXPECT_EQ(pair.what, "only in the pinned");
+  }
+  EXPECT_EQ(lost, deep.tree.nodes.size() - flat.tree.nodes.size());
+  EXPECT_TRUE(pairs.front().differs);  // the camera ray brings back less
+  EXPECT_NE(pairs.front().what.find("radiance"), std::string::npos);
+}
+
+TEST(RayView, WhatALightNoLongerReachesIsSaid) {
+  Scene open = mirrorScene();
+  open.objects[2].worldFromObject = Affine::translation({50, 5, 0});
+  Traced before, now;
+  trace(before, open, 20, 18, 0);
+  trace(now, mirrorScene(), 20, 18, 0);
+  const auto pairs = difference(before.tree, open, now.tree, mirrorScene());
+  const auto blocked =
+      std::find_if(pairs.begin(), pairs.end(), [](const RayPair& p) { return p.what == "now blocked"; });
+  ASSERT_NE(blocked, pairs.end());
+  EXPECT_EQ(sentence(now.tree.nodes[static_cast<std::size_t>(blocked->b)], mirrorScene()), "blocked by lid");
+}
+
+// --- the scene in space -------------------------------------------------------------------------------
+
+TEST(SceneModel, HasEveryObjectInItsPlace) {
+  Random random(7);
+  const Scene scene = randomScene(random, 25);
+  const SceneModel model = modelOf(scene);
+  ASSERT_EQ(model.parts.size(), scene.objects.size());
+  std::size_t corners = 0;
+  for (const ScenePart& part : model.parts) {
+    EXPECT_EQ(part.first, corners);
+    EXPECT_GT(part.count, 0u);
+    corners += part.count;
+    Box3 box;
+    for (const Vec3& corner : part.box) box.extend(corner);
+    const Real slack = 0.02 * maxComponent(box.size()) + 1e-6 * model.scale;
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+      const float* c = &model.corners[i * 6];
+      const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_GE(p[axis], box.low[axis] - slack);
+        ASSERT_LE(p[axis], box.high[axis] + slack);
+      }
+    }
+  }
+  EXPECT_EQ(model.corners.size(), corners * 6);
+  EXPECT_TRUE(sameSurfaces(scene, scene));
+  Scene moved = scene;
+  moved.objects[3].worldFromObject.offset.x += 1;
+  EXPECT_FALSE(sameSurfaces(scene, moved));
+}
+
+TEST(SceneModel, WhatTheCameraSeesIsWithoutTheFarEndsOfAFloor) {
+  const Scene scene = mirrorScene();
+  const World world = build(scene);
+  const Box3 seen = seenBy(world);
+  EXPECT_TRUE(seen.low.x < -0.5 && seen.high.x > 0.5 && seen.low.y < 0 && seen.high.y > 0);
+  EXPECT_LT(maxComponent(seen.size()), 0.9 * maxComponent(world.bounds().size()));
+  EXPECT_TRUE(seenBy(build(Scene{})).empty());
+}
+
+TEST(OrbitCamera, SeesItsTargetAndTheSceneCameraAndTurnsAboutTheTarget) {
+  for (const Vec3& up : {Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}}) {
+    Camera camera;
+    camera.position = {3, 2, 4}, camera.viewdir = {-3, -2, -4}, camera.updir = up;
+    const Box3 target{{-1, -1, -1}, {1, 1, 1}};
+    OrbitCamera orbit(target, camera);
+    for (int turn = 0; turn < 20; ++turn) {
+      const Matrix4 matrix = projection(orbit.frame(1.5), 0.01, 100);
+      for (const Vec3& p : {target.low, target.high, camera.position}) {
+        const auto c = transform(matrix, p);
+        ASSERT_GT(c[3], 0);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(c[i]), c[3] * 1.01);
+      }
+      orbit.turn(0.7, 0.9 * (turn % 2 ? 1 : -1));
+    }
+    const auto middle = transform(projection(orbit.frame(1), 0.01, 100), orbit.target());
+    EXPECT_NEAR(middle[0] / middle[3], 0, 1e-9);
+    EXPECT_NEAR(middle[1] / middle[3], 0, 1e-9);
+  }
+}
+
+TEST(OrbitCamera, TheViewFromTheCameraShowsItsPictureWhole) {
+  Camera camera;
+  camera.position = {1, 2, 3}, camera.aspectratio = 1.6;
+  const CameraFrame f = frame(camera, CameraAxes::orthonormal);
+  for (const Real aspect : {0.5, 1.6, 4.0}) {
+    const Matrix4 matrix = projection(fitted(f, aspect), 0.01, 100);
+    Real widest = 0;
+    for (const Vec2& corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
+      const auto c = transform(matrix, f.ray(corner.x, corner.y).at(5));
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LE(std::abs(c[i] / c[3]), 1 + 1e-9);
+        widest = std::max(widest, std::abs(c[i] / c[3]));
+      }
+      EXPECT_EQ(c[0] < 0, corner.x < 0.5);
+      EXPECT_EQ(c[1] < 0, corner.y < 0.5);
+    }
+    EXPECT_NEAR(widest, 1, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace trace::test

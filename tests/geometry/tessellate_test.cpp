@@ -1,0 +1,87 @@
+// Triangles for the interactive view lie on the shape and cover it.
+#include "geometry/tessellate.h"
+
+#include <gtest/gtest.h>
+
+#include "base/match.h"
+#include "support/shapes.h"
+
+namespace trace::test {
+namespace {
+
+/// Twice the area of all triangles as seen along the axis, each counted from either side.
+double shadowAlong(const std::vector<SurfaceCorner>& corners, int axis) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    sum += std::abs(
+        cross(corners[i + 1].point - corners[i].point, corners[i + 2].point - corners[i].point)[axis]);
+  return sum;
+}
+
+/// The same from the crossings of parallel rays.
+double crossingsAlong(const Shape& shape, const Box3& box, int axis) {
+  constexpr int kRays = 200;
+  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+  double count = 0;
+  for (int a = 0; a < kRays; ++a)
+    for (int b = 0; b < kRays; ++b) {
+      Ray ray;
+      ray.origin[axis] = box.low[axis] - 1;
+      ray.origin[j] = box.low[j] + box.size()[j] * (a + 0.5) / kRays;
+      ray.origin[k] = box.low[k] + box.size()[k] * (b + 0.5) / kRays;
+      ray.direction[axis] = 1;
+      match(shape, Overloaded{[](const Mesh&) {},
+                              [&](const auto& s) { s.crossings(ray, [&](const Crossing&) { ++count; }); }});
+    }
+  return 2 * count * box.size()[j] * box.size()[k] / (kRays * kRays);
+}
+
+TEST(Tessellate, EveryAnalyticShapeHasItsBoundsItsAreaAndItsNormals) {
+  for (const Shape& shape : analyticShapes()) {
+    const auto corners = tessellate(shape, 32);
+    const std::string_view name = match(shape, [](const auto& s) { return s.kKeyword; });
+    ASSERT_FALSE(corners.empty()) << name;
+    Box3 box, bounds;
+    match(shape, Overloaded{[](const Mesh&) {}, [&](const auto& s) { bounds = s.bounds(); }});
+    for (const SurfaceCorner& corner : corners) {
+      box.extend(corner.point);
+      EXPECT_NEAR(length(corner.normal), 1, 1e-9) << name;
+    }
+    const double size = maxComponent(bounds.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(box.low[axis], bounds.low[axis], 0.02 * size) << name;
+      EXPECT_NEAR(box.high[axis], bounds.high[axis], 0.02 * size) << name;
+      const double expected = crossingsAlong(shape, bounds, axis);
+      EXPECT_NEAR(shadowAlong(corners, axis), expected, 0.06 * size * size) << name << " along axis " << axis;
+    }
+  }
+}
+
+TEST(Tessellate, ACubeHasSharpEdges) {
+  const auto corners = tessellate(Cube{}, 8);
+  int atCorners = 0;
+  for (const SurfaceCorner& corner : corners) {
+    int flush = 0, straight = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      flush += std::abs(std::abs(corner.point[axis]) - 0.5) < 1e-3;
+      straight += std::abs(std::abs(corner.normal[axis]) - 1) < 1e-6;
+    }
+    EXPECT_GE(flush, 1);
+    EXPECT_EQ(straight, 1);
+    atCorners += flush == 3;
+  }
+  EXPECT_GE(atCorners, 24);
+}
+
+TEST(Tessellate, MeshesAreTheirOwnTriangles) {
+  MeshData data;
+  data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}};
+  data.triangles = {{0, 1, 2}, {0, 0, 1}};  // the second has no area
+  const auto corners = tessellate(Mesh{std::make_shared<const MeshData>(data)});
+  ASSERT_EQ(corners.size(), 3u);
+  EXPECT_EQ(corners[1].point, (Vec3{1, 0, 0}));
+  EXPECT_EQ(corners[1].normal, (Vec3{0, 0, 1}));
+}
+
+}  // namespace
+}  // namespace trace::test

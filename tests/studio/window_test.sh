@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Opens the studio on a display of its own, renders, changes an option, clicks a pixel, saves and quits, and looks
+# at what came out. Exits 77 where that cannot be tried. Usage: window_test.sh RAY_STUDIO CHECKOUT
+set -euo pipefail
+studio="$1" root="$2"
+skip() { echo "SKIPPED: $*"; exit 77; }
+[[ -x "$studio" ]] || skip "ray-studio was not built; ./dev studio installs what it needs"
+command -v Xvfb >/dev/null || skip "there is no Xvfb; ./dev setup all installs it"
+
+folder="$(mktemp -d)"
+server=''
+trap '[[ -z "$server" ]] || kill "$server" 2>/dev/null || true; rm -rf -- "$folder"' EXIT
+fail() { echo "FAILED: $*"; cat "$folder/log" 2>/dev/null || true; exit 1; }
+
+cp -- "$root/scenes/shapes.ray" "$folder/scene.ray"
+cd -- "$folder"
+export XDG_CONFIG_HOME="$folder/config" LIBGL_ALWAYS_SOFTWARE=1
+unset WAYLAND_DISPLAY
+
+# Without a display: a clear error and the exit code for input and output.
+code=0
+env -u DISPLAY "$studio" scene.ray >log 2>&1 || code=$?
+[[ $code == 1 ]] || fail "without a display it exits with $code, not 1"
+grep -q 'display' log || fail "without a display it does not say so"
+
+mkfifo display
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
+server=$!
+read -r -t 60 number <display || skip "Xvfb does not start"
+export DISPLAY=":$number"
+
+cat >script <<'END'
+wait
+set width 160
+set spp 1
+wait
+save small.png
+set depth 0
+wait
+action Undo
+wait
+pixel 40 50
+panel Scene
+panel Controls
+screenshot window.png
+END
+code=0
+"$studio" scene.ray --script script >log 2>&1 || code=$?
+[[ $code == 0 ]] || fail "the script ended with exit code $code"
+for picture in small.png window.png; do
+  [[ "$(head -c 4 "$picture" | tail -c 3)" == PNG ]] || fail "$picture was not written"
+done
+(($(stat -c %s window.png) > 20000)) || fail "the window shows almost nothing"
+
+# The same file as from the command line; and a script fails when it should.
+"$(dirname -- "$studio")/ray" scene.ray plain.png -w 160 -A 2>log || fail "ray does not render the scene"
+cmp small.png plain.png || fail "the picture is not the one of the command line"
+echo 'open nothing.ray' >script
+code=0
+"$studio" --script script >log 2>&1 || code=$?
+[[ $code == 1 ]] || fail "a script that fails ends with exit code $code"
+grep -q 'script:1' log || fail "a script that fails does not name its line"
+echo "the window opened, rendered, changed, saved and closed"
