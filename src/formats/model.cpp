@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/traced.h"
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/match.h"
+#include "geometry/csg_tree.h"
 #include "math/transform.h"
 
 namespace trace {
