@@ -437,7 +437,8 @@ class Reader {
                         "an open object can only be the first in a clip { }");
       parts.push_back({std::move(o.name), std::move(o.shape), o.worldFromObject, o.material});
     }
-    if (parts.size() > 1) parts = {{{}, Union{Operands(std::move(parts))}, {}, {}}};
+    if (parts.size() > 1)
+      parts = {{{}, Union{Operands(std::move(parts))}, {}, materials_.index(materials_.current)}};
     for (Operand& part : parts) operands.push_back(std::move(part));
   }
 

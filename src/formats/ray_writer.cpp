@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <type_traits>
+#include <utility>
 
 #include "base/match.h"
 #include "base/text.h"
@@ -124,13 +125,13 @@ class Writer {
     out_ += std::string(keyword) + " = " + value + "; ";
   }
 
-  /// Those that differ from the defaults.
+  /// Those that differ from the defaults; all of an operand's, which would inherit from the whole.
   template <class Model>
   void modelFields(const Material& material, const Model& model) {
     forEachField<Model>([&](const auto& f) {
       const auto& value = model.*f.member;
       const std::string* picture = pictureOf(material, f.keyword);
-      const bool differs = picture || value != Model{}.*f.member;
+      const bool differs = inWhole_ || picture || value != Model{}.*f.member;
       if (picture)
         item(f.keyword, "map(" + written(*picture, digits_) + ", " + written(value, digits_) + ")");
       else if (differs || isSaidAnyway(material, model, f.keyword))
@@ -174,6 +175,7 @@ class Writer {
                                      fields(shape);
                                      writeOwnMaterial(object);
                                    }});
+    const bool outside = std::exchange(inWhole_, true);
     forEachOperand(object.shape, [&](const Operand& operand) {
       writeObject({.name = operand.name,
                    .shape = operand.shape,
@@ -181,6 +183,7 @@ class Writer {
                    .material = operand.material,
                    .place = {}});
     });
+    inWhole_ = outside;
     out_ += moved ? "})\n\n" : "}\n\n";
   }
 
@@ -250,6 +253,7 @@ class Writer {
 
   const Scene& scene_;
   int digits_;
+  bool inWhole_ = false;  ///< what is written is an operand
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
       shared_;                                  ///< how many objects have a mesh; its number in the file
