@@ -20,20 +20,6 @@ std::string placeText(const Place& place) {
   return text.empty() ? "scene file" : text;
 }
 
-/// Whether the format writes scenes; writes `scene` if it is not null. Formats that only read have no such
-/// member.
-template <class Format>
-bool writes(const Format& format, const Scene* scene, const std::string& file, Messages& messages) {
-  if constexpr (requires { format.write; }) {
-    if (format.name != "ray" || !format.write) return false;
-    if (scene)
-      for (const auto& part : format.write(*scene, file, {}, messages)) writeFile(part.file, part.bytes);
-    return true;
-  } else {
-    return (void)scene, (void)file, (void)messages, false;
-  }
-}
-
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
 
 }  // namespace
@@ -165,13 +151,6 @@ void Document::reload() {
   push({"reload", reading.scene, editions_[current_].choices}, false);
 }
 
-bool Document::canSave() {
-  Messages messages;
-  const auto formats = sceneFormats();
-  return std::any_of(formats.begin(), formats.end(),
-                     [&](const auto& format) { return writes(format, nullptr, "", messages); });
-}
-
 std::vector<Message> Document::save(const std::string& file) {
   Scene scene = this->scene();
   scene.choices = changedOptions(settings_);
@@ -179,13 +158,11 @@ std::vector<Message> Document::save(const std::string& file) {
     return findOption(choice.option).repeats == Repeats::nothing;
   });
   Messages messages;
-  for (const auto& format : sceneFormats())
-    if (writes(format, &scene, file, messages)) {
-      file_ = file, written_ = timeOf(file), onDisk_ = sharedScene();
-      fingerprint_ = fingerprint(readFile(file), *onDisk_);
-      return messages.all();
-    }
-  throw Error(Fault::usage, "no scene format can be written");
+  for (const NamedBytes& part : writableFormatFor(file).write(scene, file, {}, messages))
+    writeFile(part.file, part.bytes);
+  file_ = file, written_ = timeOf(file), onDisk_ = sharedScene();
+  fingerprint_ = fingerprint(readFile(file), *onDisk_);
+  return messages.all();
 }
 
 }  // namespace trace

@@ -60,8 +60,6 @@ class Document {
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
   /// changedOnDisk() is false until the file changes once more.
   void reload();
-  /// Some scene format can be written.
-  static bool canSave();
   /// Writes the scene, with the options that differ from their defaults, as a .ray file, which is the
   /// document's file from now on. Returns warnings of what was lost. Throws Error; the document then stays.
   std::vector<Message> save(const std::string& file);

@@ -29,9 +29,16 @@ std::vector<std::string> pictureSuffixes() {
   return suffixes;
 }
 
+std::vector<std::string> sceneSuffixes() {
+  std::vector<std::string> suffixes;
+  for (const SceneFormat& format : sceneFormats())
+    suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
+  return suffixes;
+}
+
 void openScene(Studio& studio) {
   studio.dialog.open(
-      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), {".ray"},
+      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), sceneSuffixes(),
       [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
 }
 void openReference(Studio& studio) {
@@ -66,7 +73,7 @@ constexpr std::array kTable{
     Action{"File", "Save picture...", 'S', true, false, "write the picture to a file", savePicture,
            hasPicture, nullptr},
     Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to a .ray file",
-           saveScene, [](const Studio& s) { return hasScene(s) && Document::canSave(); }, nullptr},
+           saveScene, hasScene, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back",
@@ -194,10 +201,8 @@ void drawLeaving(Studio& studio) {
     ImGui::CloseCurrentPopup();
     return std::exchange(studio.leaving, nullptr);
   };
-  if (Document::canSave()) {
-    if (ImGui::Button("Save as...", size)) close(), saveScene(studio);
-    ImGui::SameLine();
-  }
+  if (ImGui::Button("Save as...", size)) close(), saveScene(studio);
+  ImGui::SameLine();
   if (ImGui::Button("Discard it", size)) close()();
   ImGui::SameLine();
   if (ImGui::Button("Cancel", size) || studio.pressed(kEscape)) close();
