@@ -165,33 +165,6 @@ struct Bvh::Builder {
     return number | BvhNode::kLeaf;
   }
 
-  /// Which child goes to which lane: bit i of a lane's number is set for children on the high side of axis i,
-  /// as far as that can be had, so that a ray meets lower lanes first after its octant is taken off.
-  std::array<size_t, 8> placed(const Bounds& whole, std::span<const std::uint32_t> children) const {
-    std::array<std::array<float, 8>, 8> gain{};  // child, lane
-    alignas(16) float middle[4], center[4];
-    (whole.low + whole.high).store(middle);
-    for (size_t c = 0; c < children.size(); ++c) {
-      const Bounds& box = branches[children[c]].box;
-      (box.low + box.high).store(center);
-      for (size_t lane = 0; lane < 8; ++lane)
-        for (size_t axis = 0; axis < 3; ++axis)
-          gain[c][lane] += (lane >> axis & 1 ? 1.0f : -1.0f) * (center[axis] - middle[axis]);
-    }
-    std::array<size_t, 8> atLane;
-    atLane.fill(children.size());
-    std::array<bool, 8> done{};
-    for (size_t step = 0; step < children.size(); ++step) {
-      size_t child = 8, lane = 8;
-      for (size_t c = 0; c < children.size(); ++c)
-        for (size_t l = 0; l < 8 && !done[c]; ++l)
-          if (atLane[l] == children.size() && (child == 8 || gain[c][l] > gain[child][lane]))
-            child = c, lane = l;
-      atLane[lane] = child, done[child] = true;
-    }
-    return atLane;
-  }
-
   /// Opens the largest inner child again and again until eight are found; writes the node and all below it.
   std::uint32_t collapse(std::uint32_t index) {
     std::array<std::uint32_t, 8> children{index};
@@ -210,14 +183,13 @@ struct Bvh::Builder {
 
     const auto number = static_cast<std::uint32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();
-    const std::array<size_t, 8> atLane = placed(branches[index].box, std::span(children).first(count));
     for (size_t lane = 0; lane < 8; ++lane) {
       Bounds box;
       std::uint32_t child = BvhNode::kLeaf;
-      if (atLane[lane] < count) {
-        const Branch& b = branches[children[atLane[lane]]];
+      if (lane < count) {
+        const Branch& b = branches[children[lane]];
         box = b.box;
-        child = b.count > 0 ? addLeaf(b) : collapse(children[atLane[lane]]);
+        child = b.count > 0 ? addLeaf(b) : collapse(children[lane]);
       }
       BvhNode& node = bvh.nodes_[number];
       alignas(16) float low[4], high[4];
