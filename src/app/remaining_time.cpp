@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace trace {
 
@@ -17,6 +18,22 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction) {
   *left_ = std::max(*left_, steady / 2);
   last_ = elapsed;
   return left_;
+}
+
+std::string durationText(double seconds) {
+  char text[64];
+  const auto whole = static_cast<long long>(std::llround(std::min(seconds, 1e15)));
+  if (seconds < 0.995)
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+  else if (seconds < 9.95)
+    std::snprintf(text, sizeof text, "%.1f s", seconds);
+  else if (whole < 60)
+    std::snprintf(text, sizeof text, "%lld s", whole);
+  else if (whole < 3600)
+    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
+  return text;
 }
 
 }  // namespace trace

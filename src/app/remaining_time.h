@@ -1,7 +1,8 @@
-// How long a job will still take, from the share of it that is done.
+// How long a job will still take, from the share of it that is done; durations in words.
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace trace {
 
@@ -17,5 +18,8 @@ class RemainingTime {
   std::optional<double> left_;
   double last_ = 0;
 };
+
+/// "0.04 s", "3.2 s", "2 min 05 s", "1 h 03 min".
+std::string durationText(double seconds);
 
 }  // namespace trace

@@ -31,20 +31,6 @@ bool differInPicture(const Settings& a, const Settings& b) {
   return !(a == same);
 }
 
-std::string durationWords(double seconds) {
-  char text[48];
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (seconds < 9.95)
-    std::snprintf(text, sizeof text, seconds < 1 ? "%.2f s" : "%.1f s", seconds);
-  else if (whole < 60)
-    std::snprintf(text, sizeof text, "%lld s", whole);
-  else if (whole < 3600)
-    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
-  return text;
-}
-
 void Workspace::report(const std::vector<Message>& messages) {
   for (const Message& message : messages) {
     const Level level = message.severity == Message::Severity::error ? Level::error : Level::warning;
@@ -115,7 +101,7 @@ void Workspace::noteEnd() {
   const Size size = render.session()->size();
   const RenderResult result = render.result();
   note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +
-       durationWords(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) + " rays");
+       durationText(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) + " rays");
   if (const auto bad = result.statistics.badSamples; bad > 0)
     log_.push_back({Level::warning,
                     std::to_string(bad) + " samples were not finite and left out of the picture",

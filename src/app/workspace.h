@@ -9,6 +9,7 @@
 
 #include "app/background_render.h"
 #include "app/document.h"
+#include "app/remaining_time.h"
 
 namespace trace {
 
@@ -78,8 +79,5 @@ class Workspace {
 
 /// A render with other settings gives another picture, before tone: not so for threads or rounding.
 bool differInPicture(const Settings& a, const Settings& b);
-
-/// Seconds for people: "0.42 s", "7.3 s", "2 min 05 s", "1 h 02 min".
-std::string durationWords(double seconds);
 
 }  // namespace trace

@@ -70,22 +70,6 @@ void printResult(const std::string& text) {
     throw Error(Fault::io, std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
 
-std::string durationText(double seconds) {
-  char text[64];
-  const auto whole = static_cast<long long>(std::llround(std::min(seconds, 1e15)));
-  if (seconds < 0.995)
-    std::snprintf(text, sizeof text, "%.2f s", seconds);
-  else if (seconds < 9.95)
-    std::snprintf(text, sizeof text, "%.1f s", seconds);
-  else if (whole < 60)
-    std::snprintf(text, sizeof text, "%lld s", whole);
-  else if (whole < 3600)
-    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
-  else
-    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
-  return text;
-}
-
 std::string counted(std::size_t n, std::string_view noun) {
   const bool sibilant = noun.ends_with("s") || noun.ends_with("x") || noun.ends_with("sh");
   return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : sibilant ? "es" : "s");

@@ -41,9 +41,6 @@ class Console {
 /// Writes to stdout and throws Error(Fault::io) when that fails, as on a full disk.
 void printResult(const std::string& text);
 
-/// "0.04 s", "3.2 s", "2 min 05 s", "1 h 03 min".
-std::string durationText(double seconds);
-
 /// "1 error", "3 errors".
 std::string counted(std::size_t n, std::string_view noun);
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/remaining_time.h"
 #include "base/file.h"
 #include "base/match.h"
 #include "cli/commands.h"

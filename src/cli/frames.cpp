@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "app/remaining_time.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"

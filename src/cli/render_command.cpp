@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "app/remaining_time.h"
 #include "app/session.h"
 #include "base/file.h"
 #include "base/text.h"

@@ -165,12 +165,12 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
   const BackgroundRender::State state = workspace.render.state();
   if (state.working()) {
     char text[96];
-    const std::string left = state.remaining ? ", " + durationWords(*state.remaining) + " left" : "";
+    const std::string left = state.remaining ? ", " + durationText(*state.remaining) + " left" : "";
     if (state.phase == BackgroundRender::Phase::building)
       std::snprintf(text, sizeof text, "building");
     else
       std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
-                    durationWords(state.elapsed).c_str(), left.c_str());
+                    durationText(state.elapsed).c_str(), left.c_str());
     ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(40), ImGui::GetFrameHeight()}, text);
     ImGui::SameLine();
   }
@@ -197,7 +197,7 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
                       : state.phase == BackgroundRender::Phase::failed ? "failed: see the log"
                                                                        : "stopped";
     ImGui::TextDisabled("%d x %d, %s after %s%s", view.shown.width, view.shown.height, how,
-                        durationWords(state.elapsed).c_str(),
+                        durationText(state.elapsed).c_str(),
                         workspace.stale() ? "; the scene has changed since: F5 renders" : "");
   } else {
     ImGui::TextUnformatted(" ");

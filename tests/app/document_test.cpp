@@ -323,11 +323,11 @@ TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {
 }
 
 TEST(DurationWords, SuitPeople) {
-  EXPECT_EQ(durationWords(0.42), "0.42 s");
-  EXPECT_EQ(durationWords(7.31), "7.3 s");
-  EXPECT_EQ(durationWords(59.7), "1 min 00 s");
-  EXPECT_EQ(durationWords(125), "2 min 05 s");
-  EXPECT_EQ(durationWords(3720), "1 h 02 min");
+  EXPECT_EQ(durationText(0.42), "0.42 s");
+  EXPECT_EQ(durationText(7.31), "7.3 s");
+  EXPECT_EQ(durationText(59.7), "1 min 00 s");
+  EXPECT_EQ(durationText(125), "2 min 05 s");
+  EXPECT_EQ(durationText(3720), "1 h 02 min");
 }
 
 }  // namespace

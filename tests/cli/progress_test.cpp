@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/remaining_time.h"
 #include "cli/console.h"
 #include "cli/flags.h"
 #include "scene/options.h"
