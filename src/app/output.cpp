@@ -21,11 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr const char *kSettings = "Settings", *kDefaults = "defaults", *kPass = "Pass";
 
-std::string passFile(const fs::path& picture, std::string_view pass, PassFormat format) {
+std::string passFile(const fs::path& picture, std::string_view pass, const Settings& settings) {
+  const PassFormat format = settings.passFormat;
   const std::string suffix = format == PassFormat::exr   ? ".exr"
                              : format == PassFormat::png ? ".png"
                                                          : picture.extension().string();
-  return fs::path(picture).replace_extension("." + std::string(pass) + suffix).string();
+  const char* between = settings.passName == PassName::dot ? "." : "_";
+  return (picture.parent_path() / picture.stem()).string() + between + std::string(pass) + suffix;
 }
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo).
@@ -79,8 +81,7 @@ Picture pictureOf(const Output& output, const Film& film, const Settings& settin
 std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   std::vector<Output> all{{path, -1, ""}};
   for (const PassRow* pass : passesOf(settings))
-    all.push_back(
-        {passFile(path, pass->name, settings.passFormat), static_cast<int>(all.size()) - 1, pass->name});
+    all.push_back({passFile(path, pass->name, settings), static_cast<int>(all.size()) - 1, pass->name});
   return all;
 }
 

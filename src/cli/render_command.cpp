@@ -23,8 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The picture's file: as named, or the scene's name with .png, or .####.png for frames, in the current
-/// folder.
+/// The picture's file as named on the command line; empty if it is not.
 std::string outputName(const Arguments& arguments) {
   const std::vector<std::string>& files = arguments.files;
   if (files.empty())
@@ -35,8 +34,13 @@ std::string outputName(const Arguments& arguments) {
     throw Error(Fault::usage,
                 "two names for the picture: \"" + arguments.output + "\" and \"" + files[1] + "\"");
   if (files.size() == 2) return files[1];
-  if (!arguments.output.empty()) return arguments.output;
-  return fs::path(files[0]).stem().string() + (arguments.frames.empty() ? ".png" : ".####.png");
+  return arguments.output;
+}
+
+/// The file as named, or where the scene wants its picture, or its name with .png in the current folder.
+std::string outputFor(const Scene& scene, const std::string& named) {
+  if (!named.empty()) return named;
+  return !scene.picture.empty() ? scene.picture : fs::path(scene.file).stem().string() + ".png";
 }
 
 void open(Session& session, const Arguments& arguments) {
@@ -61,12 +65,16 @@ int render(const Arguments& arguments, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
-  const std::string output = outputName(arguments);
-  if (!arguments.frames.empty()) return renderFrames(arguments, output, console);
-  pictureFormatFor(output);  // an unknown ending is told before a large scene is read
+  const std::string named = outputName(arguments);
+  if (!arguments.frames.empty()) {
+    const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";
+    return renderFrames(arguments, named.empty() ? frames : named, console);
+  }
+  if (!named.empty()) pictureFormatFor(named);  // an unknown ending is told before a large scene is read
   Signals signals;
   Session session;
   open(session, arguments);
+  const std::string output = outputFor(session.scene(), named);
   for (const Output& file : outputs(output, session.settings())) checkWritable(file.path);
   session.build();  // a lack of memory is the better reason to refuse a huge picture
   checkOutputs(session, output);

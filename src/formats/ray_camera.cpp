@@ -29,6 +29,8 @@ class CameraReader {
     const std::size_t before = findings_.errors();
     for (const Item item : block) field(item);
     if (findings_.errors() == before) direct();
+    if (horizontalFov_ > 0 && findings_.errors() == before)
+      camera_.fov = std::atan(std::tan(horizontalFov_ * kPi / 360) / camera_.aspectratio) * 360 / kPi;
     return camera_;
   }
 
@@ -37,6 +39,12 @@ class CameraReader {
     if (!item.keyed()) return findings_.expected(item, Camera::kKeyword, "a field, as in fov = 45");
     const std::string_view key = canonical(item.key());
     if (key == "quaternian") return quaternion(item);
+    if (key == "horizontal_fov") {
+      if (rayfile::read(findings_, key, item.value(), horizontalFov_) &&
+          !(horizontalFov_ > 0 && horizontalFov_ < 180))
+        findings_.expected(item.value(), key, "an angle between 0 and 180 degrees");
+      return;
+    }
     if (key == "look_at") {
       rayfile::read(findings_, key, item.value(), target_);
       lookAt_ = item;
@@ -53,7 +61,8 @@ class CameraReader {
 
   void unknown(const Item& item) {
     if (item.key() == "focaldistance") findings_.sureSignOf2001(item);
-    findings_.unknownField(Camera::kKeyword, item, keywords<Camera>({"look_at", "quaternian"}));
+    findings_.unknownField(Camera::kKeyword, item,
+                           keywords<Camera>({"horizontal_fov", "look_at", "quaternian"}));
   }
 
   /// (x, y, z, w), the real part last: turns the default camera. viewdir and updir override it.
@@ -102,6 +111,7 @@ class CameraReader {
   Findings& findings_;
   Camera camera_;
   Vec3 target_;
+  Real horizontalFov_ = 0;  ///< degrees; 0: not given
   std::optional<Item> viewdir_, updir_, lookAt_;
 };
 

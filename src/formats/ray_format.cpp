@@ -17,6 +17,7 @@
 
 #include "base/match.h"
 #include "base/text.h"
+#include "formats/ray_background.h"
 #include "formats/ray_camera.h"
 #include "formats/ray_fields.h"
 #include "formats/ray_findings.h"
@@ -73,7 +74,8 @@ const TransformForm* findTransform(const Item& item) {
 }
 
 std::vector<std::string_view> knownWords() {
-  std::vector<std::string_view> words{"trimesh", "mesh", Camera::kKeyword, Phong::kKeyword, kSettings};
+  std::vector<std::string_view> words{
+      "trimesh", "mesh", Camera::kKeyword, Phong::kKeyword, Background::kKeyword, kSettings};
   addKeywords<Shape>(words);
   addKeywords<Light>(words);
   for (const TransformForm& transform : kTransforms) words.push_back(transform.name);
@@ -147,6 +149,12 @@ std::string_view repair(Cone& cone, Affine& worldFromObject) {
   return {};
 }
 
+std::string_view repair(Conic& conic, Affine&) {
+  if (conic.zMin == conic.zMax) return "a conic of height 0 is left out";
+  if (conic.bottomRadius == 0 && conic.topRadius == 0) return "a conic of radius 0 is left out";
+  return {};
+}
+
 // --- the reader -----------------------------------------------------------------------------------------
 
 class Reader {
@@ -193,6 +201,7 @@ class Reader {
       if (item.key() == Phong::kKeyword) return namedMaterial(item);
       if (item.key() == Camera::kKeyword) return camera(item);
       if (item.key() == kSettings) return settings(item);
+      if (item.key() == Background::kKeyword) return background(item);
       if (withKeyword<Light>(item.key(), [&]<class L>(L*) { light<L>(item); })) return;
     }
     object(item, {});
@@ -272,7 +281,7 @@ class Reader {
   void otherNode(const Item& call, const Affine& worldFromObject) {
     const std::string_view key = call.key();
     const bool topLevelOnly = withKeyword<Light>(key, [](auto*) {}) || key == Camera::kKeyword ||
-                              key == kSettings || key == Phong::kKeyword;
+                              key == Background::kKeyword || key == kSettings || key == Phong::kKeyword;
     if (topLevelOnly)
       findings_.error(call, "expected an object, found " + describe(call),
                       std::string(key) + " belongs to the top of a file, outside of transforms and groups");
@@ -466,6 +475,11 @@ class Reader {
 
   void camera(const Item& call) {
     if (const std::optional<Item> block = blockOf(call)) scene_.camera = readCamera(findings_, *block);
+  }
+
+  void background(const Item& call) {
+    if (const std::optional<Item> block = blockOf(call))
+      scene_.background = readBackground(findings_, *block);
   }
 
   template <class L>

@@ -14,9 +14,9 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 12> kFields{"uv",         "shared",   "crease",    "faces",
-                                                   "gennormals", "material", "materials", "name",
-                                                   "normals",    "points",   "subdivide", "texture_uv"};
+constexpr std::array<std::string_view, 13> kFields{
+    "uv",   "shared",  "crease", "faces",     "gennormals", "material", "materials",
+    "name", "normals", "points", "subdivide", "texture_uv", "two_sided"};
 
 class MeshReader {
  public:
@@ -55,6 +55,7 @@ class MeshReader {
       data_.generateNormals = true;
       return true;
     }
+    if (item.is(Kind::word) && item.text() == "two_sided") return data_.twoSided = true;
     if (!item.keyed()) {
       findings_.expected(item, Mesh::kKeyword, "a field, as in points = ((0, 0, 0), (1, 0, 0), (0, 1, 0))");
       return false;
@@ -65,6 +66,7 @@ class MeshReader {
       findings_.sureSignOf2001(item);
       return rayfile::read(findings_, key, value, data_.generateNormals);
     }
+    if (key == "two_sided") return rayfile::read(findings_, key, value, data_.twoSided);
     if (key == "points") return vectors(value, "point", data_.points);
     if (key == "normals") return vectors(normals_.emplace(value), "normal", data_.normals);
     if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));

@@ -30,6 +30,7 @@ class Writer {
     out_ = "SBT-raytracer 1.0\n\n";
     writeSettings();
     writeCamera();
+    writeBackground();
     for (const LightSource& light : scene_.lights) writeLight(light.light);
     for (const Object& object : scene_.objects) writeObject(object);
     writeUnrendered();
@@ -41,9 +42,15 @@ class Writer {
   void field(std::string_view keyword, const Value& value) {
     out_ += "  " + std::string(keyword) + " = " + written(value, digits_) + ";\n";
   }
+  /// A number that is infinite stands for no limit, which is what there is without the field.
   template <class Struct>
   void fields(const Struct& from) {
-    forEachField<Struct>([&](const auto& f) { field(f.keyword, from.*f.member); });
+    forEachField<Struct>([&](const auto& f) {
+      const auto& value = from.*f.member;
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
+        if (value == kNoLimit) return;
+      field(f.keyword, value);
+    });
   }
   /// They stand in the block, after the material, which they would inherit.
   void field(std::string_view, const Operands&) {}
@@ -78,6 +85,16 @@ class Writer {
   void writeCamera() {
     out_ += "camera {\n";
     fields(scene_.camera);
+    out_ += "}\n\n";
+  }
+
+  void writeBackground() {
+    const Background& background = scene_.background;
+    if (background.colors.empty()) return;
+    out_ += "background {\n";
+    list("colors", background.colors, [&](const Color& c) { out_ += written(c, digits_); });
+    if (!background.limits.empty())
+      list("limits", background.limits, [&](Real limit) { out_ += written(limit, digits_); });
     out_ += "}\n\n";
   }
 
@@ -220,6 +237,7 @@ class Writer {
       list("materials", mesh.materials, [&](std::uint32_t material) { writeMaterial(material); });
     writeOwnMaterial(object);
     if (mesh.generateNormals) out_ += "  gennormals;\n";
+    if (mesh.twoSided) out_ += "  two_sided;\n";
     list("faces", mesh.triangles, [&](const Triangle& t) { tuple(t); });
   }
 

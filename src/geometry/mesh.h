@@ -27,6 +27,7 @@ struct MeshData {
   std::vector<std::uint32_t> materials;  ///< per point, indices into Scene::materials, or empty
   std::vector<Vec2> uvs;                 ///< per point, or empty
   bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
+  bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
 
   bool operator==(const MeshData&) const = default;
 };

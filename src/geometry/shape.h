@@ -3,9 +3,10 @@
 //
 // Every shape but Mesh answers, in its own space:
 //   solid()             does it enclose space? (an open sheet is seen from both sides)
-//   bounds()            a box that holds it
+//   bounds()            a box that holds it, infinite if the shape is
 //   crossings(ray, f)   f(Crossing) for every place, in any order and at any t, where the ray's line goes
-//                       through the surface; for solids, entries and exits come in pairs
+//                       through the surface; for solids, entries and exits come in pairs, of which one may
+//                       lie at infinity
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
 //
 // A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
@@ -20,6 +21,7 @@
 #include <variant>
 
 #include "geometry/cone.h"
+#include "geometry/conic.h"
 #include "geometry/csg.h"
 #include "geometry/cube.h"
 #include "geometry/disk.h"
@@ -29,6 +31,7 @@
 #include "geometry/menger.h"
 #include "geometry/mesh.h"
 #include "geometry/metaballs.h"
+#include "geometry/plane.h"
 #include "geometry/prism.h"
 #include "geometry/quadric.h"
 #include "geometry/rounded_box.h"
@@ -40,9 +43,9 @@
 
 namespace trace {
 
-using Shape =
-    std::variant<Sphere, Cube, Square, Cylinder, Cone, Disk, RoundedBox, Torus, Ellipsoid, EllipticCone,
-                 Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Lathe, Prism, SphereSweep,
-                 Metaballs, Isosurface, Menger, Julia, Union, Intersection, Difference, Clip, Mesh>;
+using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus,
+                           Ellipsoid, EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric,
+                           Superellipsoid, Lathe, Prism, SphereSweep, Metaballs, Isosurface, Menger, Julia,
+                           Union, Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

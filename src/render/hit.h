@@ -15,6 +15,7 @@ struct Hit {
   SurfacePoint surface;
   Phong material;
   bool leaving = false;                   ///< the ray comes from inside: it runs along the true normal
+  bool twoSided = false;                  ///< the surface is shaded from both sides
   Real indexBefore = 1, indexBehind = 1;  ///< of refraction, on the ray's side and on the other
 };
 

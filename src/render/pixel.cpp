@@ -8,12 +8,18 @@ PixelTracer::PixelTracer(const World& world, const Settings& settings, const Siz
       size_(size),
       grid_(gridSize(settings)),
       // A cell of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
-      within_(settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0) {}
+      within_(settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0),
+      toBorder_(settings.pixelPosition == PixelPosition::border) {}
+
+Real PixelTracer::place(int pixel, int cell, int pixels) const {
+  if (!toBorder_) return (pixel + (cell + within_) / grid_) / pixels;
+  const int last = pixels * grid_ - 1;
+  return last > 0 ? static_cast<Real>(pixel * grid_ + cell) / last : 0.5;
+}
 
 Ray PixelTracer::cameraRay(int x, int y, int k) const {
   const int fromBottom = size_.height - 1 - y;
-  const Real u = (x + (k % grid_ + within_) / grid_) / size_.width;
-  const Real v = (fromBottom + (k / grid_ + within_) / grid_) / size_.height;
+  const Real u = place(x, k % grid_, size_.width), v = place(fromBottom, k / grid_, size_.height);
   return tracer_.world().camera().ray(u, v);
 }
 

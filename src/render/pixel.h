@@ -31,11 +31,15 @@ class PixelTracer {
   Statistics& statistics() { return tracer_.statistics(); }
 
  private:
+  /// Of a cell of the grid of a pixel, in the picture, from 0 to 1.
+  Real place(int pixel, int cell, int pixels) const;
+
   Tracer tracer_;
   Color (*radiance_)(Tracer&, const Ray&);
   Size size_;
   int grid_;
-  Real within_;  ///< where a ray goes through its cell of the grid
+  Real within_;    ///< where a ray goes through its cell of the grid
+  bool toBorder_;  ///< unless the outermost rays are to go through the border of the picture
 };
 
 template <class BadSample>

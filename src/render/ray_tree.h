@@ -62,7 +62,8 @@ using RayEnd = std::variant<LeftScene, Opaque, DepthLimit, BelowThreshold, Total
 
 // --- what a ray brings back ---
 
-/// The light of one source as a surface scatters it; the term's factor is intensity * (diffuse + specular).
+/// The light of one source as a surface scatters it; the term's factor is arriving.scattered(scatter), or
+/// the part of it that the material's `shadow` says.
 struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
@@ -71,9 +72,9 @@ struct LightTerm {
 
 /// factor * value, a summand of a ray's radiance.
 struct Term {
-  enum class Kind { emissive, ambient, light, reflection, refraction };
-  static constexpr std::array<std::string_view, 5> kNames{"emissive", "ambient", "light", "reflection",
-                                                          "refraction"};
+  enum class Kind { emissive, ambient, light, reflection, refraction, background };
+  static constexpr std::array<std::string_view, 6> kNames{"emissive",   "ambient",    "light",
+                                                          "reflection", "refraction", "background"};
   Kind kind;
   Color factor, value;
   int ray = -1;  ///< the node whose radiance is the value; of a light: its shadow ray; -1: no ray was sent

@@ -15,12 +15,13 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
   if (tree_) begin(ray, kind, kInfinity);
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  if (!found) {
+  if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
     if (tree_) finish().ends.push_back(LeftScene{});
     return {};
   }
   Hit hit{found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
   hit.leaving = dot(ray.direction, hit.surface.normal) > 0;
+  hit.twoSided = world_.twoSided(found->object);
   const Real air = settings_.airIndex, inside = hit.material.index;
   hit.indexBefore = hit.leaving ? inside : air, hit.indexBehind = hit.leaving ? air : inside;
   if (tree_) finish().hit = hit;
@@ -46,7 +47,7 @@ Color Tracer::passed(const Ray& ray, Real distance) {
   bool blocked = false;
   crossed_.clear();
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
-    blocked = world_.opaque(found.object);
+    blocked = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black;
     if (!blocked) crossed_.push_back(found);
     return blocked;
   });
@@ -87,7 +88,8 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   Statistics uncounted;
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
-    const bool opaque = world_.opaque(found.object) || isBlack(world_.material(found).transmissive);
+    const bool opaque = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black ||
+                        isBlack(world_.material(found).transmissive);
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

@@ -4,7 +4,8 @@
 //     + kr I(mirrored ray) + kt I(refracted ray)
 //
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
-// place of the refracted ray under total internal reflection. No Fresnel term: kr and kt are constants.
+// place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
+// is asked for.
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "shading/optics.h"
@@ -22,13 +23,19 @@ struct Path {
 Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
   Gather sum(tracer, ray, path.kind);
   const std::optional<Hit>& hit = sum.hit();
-  if (!hit) return sum.radiance();
   const World& world = tracer.world();
+  if (!hit) {
+    if (path.kind == RayKind::camera) sum.add(Term::Kind::background, world.background(ray));
+    return sum.radiance();
+  }
   const Settings& settings = tracer.settings();
   const Phong& material = hit->material;
   const SurfacePoint& surface = hit->surface;
-  // The inside of glass is shaded with its normal turned to the eye; opaque things are lit from outside only.
-  const Vec3 normal = hit->leaving && material.transmits() ? -surface.shading : surface.shading;
+  // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
+  // sides, there by the normal that is shaded; other opaque things are lit from outside only.
+  const bool turned =
+      hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
+  const Vec3 normal = turned ? -surface.shading : surface.shading;
 
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient, world.ambient());
@@ -37,10 +44,11 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
         match(world.lights()[i], [&](const auto& l) { return l.illuminate(surface.point); });
     if (!arriving) continue;
     const Scatter scatter = material.scatter(normal, arriving->toLight, -ray.direction);
-    const Color scattered = arriving->intensity() * scatter.sum();
+    const Color scattered = arriving->scattered(scatter);
     const Color passed =
         isBlack(scattered) ? Color(0) : tracer.visible(surface, arriving->toLight, arriving->distance);
-    sum.addLight(i, *arriving, scatter, scattered, passed);
+    sum.addLight(i, *arriving, scatter, scattered * material.shadow, passed);
+    if (material.shadow < 1) sum.addLight(i, *arriving, scatter, scattered * (1 - material.shadow), Color(1));
   }
 
   const auto worthwhile = [&](RayKind kind, const Color& share) {
@@ -52,16 +60,21 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
       return true;
     return false;
   };
-  if (material.mirrors()) {
-    const Color share = path.weight * material.reflective;
+  // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
+  const bool fresnel = settings.fresnel == Fresnel::schlick && material.transmits();
+  const Real R = fresnel ? schlick(-dot(ray.direction, normal), hit->indexBefore, hit->indexBehind) : 0;
+  const Color mirror = fresnel ? Color(R) : material.reflective;
+  if (!isBlack(mirror)) {
+    const Color share = path.weight * mirror;
     if (worthwhile(RayKind::reflection, share))
-      sum.add(Term::Kind::reflection, material.reflective,
+      sum.add(Term::Kind::reflection, mirror,
               radianceAlong(tracer, spawnRay(surface, mirrored(ray.direction, normal)),
                             {RayKind::reflection, path.depth + 1, share, path.medium}));
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
-    const Color filter = perCrossing ? material.transmissive : Color(1), share = path.weight * filter;
+    const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - R);
+    const Color share = path.weight * filter;
     if (worthwhile(RayKind::refraction, share)) {
       const Color medium = perCrossing || hit->leaving ? Color(1) : material.transmissive;
       if (const auto direction = refracted(ray.direction, normal, hit->indexBefore / hit->indexBehind))

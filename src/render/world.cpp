@@ -32,6 +32,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
     }
     return false;
   };
+  for (std::uint32_t object : unbounded_) visitObject(object);
   bvh_.query(worldRay.origin, worldRay.direction, best->t, true, statistics.nodes, visitObject);
   if (best->t == kInfinity) best.reset();
   return best;
@@ -107,6 +108,13 @@ Bvh hierarchy(std::span<const Box3> boxes, Accel accel) {
 
 }  // namespace
 
+/// The ball of the mean radius in place of an ellipsoid.
+Affine rounded(const Affine& m) {
+  const auto column = [&](int i) { return length(Vec3{m.row[0][i], m.row[1][i], m.row[2][i]}); };
+  const Real radius = (column(0) + column(1) + column(2)) / 3;
+  return Affine::translation(m.offset) * Affine::scaling({radius, radius, radius});
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages) {
   World world;
   for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
@@ -116,11 +124,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
       world.lights_.push_back(light), world.lightSources_.push_back(i);
     };
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
-                                            [&](PointLight light) {
-                                              light.atMostOne = settings.limitAttenuation;
+                                            [&](auto light) {
+                                              if constexpr (requires { light.atMostOne; })
+                                                light.atMostOne = settings.limitAttenuation;
                                               add(light);
-                                            },
-                                            [&](const auto& light) { add(light); }});
+                                            }});
   }
 
   const Camera& camera = scene.camera;
@@ -130,6 +138,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
   world.camera_ = frame(camera, settings.cameraAxes);
+  world.background_ = scene.background;
 
   std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees;
   std::vector<Box3> boxes;
@@ -140,16 +149,22 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
     } catch (const Error& error) {
       throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
     }
-    instance.worldFromObject = object.worldFromObject;
-    instance.moved = object.worldFromObject != Affine{};
+    const bool round = settings.roundSpheres && std::holds_alternative<Sphere>(object.shape);
+    instance.worldFromObject = round ? rounded(object.worldFromObject) : object.worldFromObject;
+    instance.moved = instance.worldFromObject != Affine{};
     instance.material = object.material;
     if (object.material >= world.materials_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
+    if (settings.omit.has(static_cast<ShapeKind>(object.shape.index()))) {
+      boxes.emplace_back();  // keeps the numbering of objects; what is empty is never met
+      world.objects_.push_back(std::move(instance));
+      continue;
+    }
     if (!invertible(object.worldFromObject)) {
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
       instance.worldFromObject = {};  // keeps the numbering of objects; its empty bounds are never met
     } else {
-      instance.objectFromWorld = inverse(object.worldFromObject);
+      instance.objectFromWorld = inverse(instance.worldFromObject);
     }
     instance.opaque = !world.materials_[object.material].transmits();
     Box3 box;
@@ -177,7 +192,12 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
                            if (world.materials_.at(m).transmits()) instance.opaque = false;
                        }
                      }});
-    if (invertible(object.worldFromObject)) instance.bounds = object.worldFromObject * box;
+    if (invertible(object.worldFromObject)) {
+      if (box.unbounded())
+        world.unbounded_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
+      else
+        instance.bounds = instance.worldFromObject * box;
+    }
     boxes.push_back(instance.bounds);
     world.bounds_.extend(instance.bounds);
     world.objects_.push_back(std::move(instance));

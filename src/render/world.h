@@ -60,6 +60,11 @@ class World {
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   Phong material(const Found& found) const;
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].worldFromObject; }
+  /// A mesh whose triangles are shaded from both sides.
+  bool twoSided(std::uint32_t object) const {
+    const auto& mesh = objects_[object].mesh;
+    return mesh && mesh->data().twoSided;
+  }
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -68,7 +73,9 @@ class World {
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  const Box3& bounds() const { return bounds_; }
+  /// What a camera ray sees that meets nothing.
+  Color background(const Ray& ray) const { return background_.at(1 - camera_.heightOf(ray.direction)); }
+  const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   std::size_t triangleCount() const;
   /// Of the hierarchies, without the meshes' own arrays.
@@ -102,11 +109,13 @@ class World {
 
   std::vector<Instance> objects_;
   Bvh bvh_;
+  std::vector<std::uint32_t> unbounded_;  ///< objects without end, which no hierarchy can hold
   std::vector<Phong> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
+  Background background_;
   Box3 bounds_;
 };
 
@@ -131,7 +140,7 @@ void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& t
 template <class Visit>
 void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
                       Visit&& visit) const {
-  bvh_.query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
+  const auto visitObject = [&](std::uint32_t object) {
     const Instance& instance = objects_[object];
     Ray moved;
     const Ray& ray = instance.objectRay(worldRay, moved);
@@ -157,7 +166,10 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
       crossingsOfShape(object, ray, wanted, statistics, report);
     }
     return ended;
-  });
+  };
+  for (std::uint32_t object : unbounded_)
+    if (visitObject(object)) return;
+  bvh_.query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, visitObject);
 }
 
 }  // namespace trace

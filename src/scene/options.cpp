@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/text.h"
+#include "geometry/shape.h"
 #include "scene/conventions.h"
 
 namespace trace {
@@ -22,23 +23,28 @@ constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
 constexpr std::array<std::string_view, 1> kNames<Integrator>{"whitted"};
 template <>
-constexpr std::array<std::string_view, 4> kNames<Like>{"uw", "uw2009", "uw2001", "ut"};
+constexpr std::array<std::string_view, 7> kNames<Like>{"uw",  "uw2009", "uw2001", "ut",
+                                                       "ubc", "uw1998", "usc"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Highlight>{"blinn", "phong"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Glass>{"per-crossing", "per-distance"};
 template <>
+constexpr std::array<std::string_view, 2> kNames<Fresnel>{"constant", "schlick"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<GlassShadows>{"filtered", "black"};
+template <>
 constexpr std::array<std::string_view, 2> kNames<MirrorDefault>{"specular", "zero"};
 template <>
 constexpr std::array<std::string_view, 3> kNames<BackFaces>{"both", "cull-seen", "cull-all"};
 template <>
-constexpr std::array<std::string_view, 2> kNames<PixelPosition>{"corner", "center"};
+constexpr std::array<std::string_view, 3> kNames<PixelPosition>{"corner", "center", "border"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<VertexNormals>{"unit", "mean"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<DiffuseSides>{"front", "both-on-glass"};
 template <>
-constexpr std::array<std::string_view, 3> kNames<CameraAxes>{"orthonormal", "raw", "normalized"};
+constexpr std::array<std::string_view, 4> kNames<CameraAxes>{"orthonormal", "raw", "normalized", "skewed"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Tone>{"clamp", "stretch"};
 template <>
@@ -46,9 +52,19 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 template <>
 constexpr std::array<std::string_view, 5> kNames<Pass>{"depth", "normal", "id", "uv", "position"};
 template <>
+constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
+template <>
 constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
+
+template <class Variant>
+constexpr auto kKeywords = 0;
+template <class... T>
+constexpr auto kKeywords<std::variant<T...>> = std::array{T::kKeyword...};
+template <>
+constexpr auto kNames<ShapeKind> = kKeywords<Shape>;
+static_assert(kNames<ShapeKind>.size() <= 32, "more kinds than an EnumSet holds");
 
 constexpr std::string_view kNone = "none";  // of a set
 
@@ -301,6 +317,11 @@ constexpr std::array kTable{
                                .most = 1,
                                .integrators = "whitted",
                                .extra = true}),
+    row<&Settings::omit>({.name = "omit",
+                          .group = "Tracing",
+                          .help = "leave out all objects of these kinds",
+                          .source = "British Columbia, whose own pictures lack the conics",
+                          .repeats = Repeats::world}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",
@@ -348,6 +369,16 @@ constexpr std::array kTable{
                               .least = 0.01,
                               .most = 100,
                               .integrators = "whitted"}),
+    row<&Settings::fresnel>(
+        {.name = "fresnel",
+         .group = "Conventions",
+         .help = "glass mirrors what its material says, or the more the flatter it is looked at (schlick)",
+         .source = "Schlick 1994; University of Southern California",
+         .integrators = "whitted"}),
+    row<&Settings::glassShadows>({.name = "glass-shadows",
+                                  .group = "Conventions",
+                                  .help = "glass filters the light that passes it, or casts a black shadow",
+                                  .source = "black in Southern California"}),
     row<&Settings::backFaces>(
         {.name = "back-faces",
          .group = "Conventions",
@@ -360,18 +391,25 @@ constexpr std::array kTable{
          .help = "generated vertex normals have length 1, or stay the mean of the faces'",
          .source = "unit since 2013",
          .repeats = Repeats::world}),
+    row<&Settings::roundSpheres>(
+        {.name = "round-spheres",
+         .group = "Conventions",
+         .help = "a sphere that its transform stretches is a ball of the mean radius, not an ellipsoid",
+         .source = "University of Washington, 1998",
+         .repeats = Repeats::world}),
     row<&Settings::cameraAxes>(
         {.name = "camera-axes",
          .group = "Conventions",
-         .help = "viewdir and updir made orthogonal unit vectors, used as written, or only "
-                 "normalized",
+         .help = "viewdir and updir made orthogonal unit vectors, used as written, only normalized, or "
+                 "normalized with the vector to the right (skewed)",
          .source = "orthonormal since 2013",
          .repeats = Repeats::world}),
-    row<&Settings::pixelPosition>(
-        {.name = "pixel-position",
-         .group = "Conventions",
-         .help = "the camera ray of a pixel goes through its lower left corner or its centre",
-         .source = "courses: corner"}),
+    row<&Settings::pixelPosition>({.name = "pixel-position",
+                                   .group = "Conventions",
+                                   .help = "the camera ray of a pixel goes through its lower left corner or "
+                                           "its centre, or the outermost rays "
+                                           "through the border of the picture",
+                                   .source = "courses: corner"}),
     row<&Settings::tone>({.name = "tone",
                           .group = "Conventions",
                           .help =
@@ -394,6 +432,11 @@ constexpr std::array kTable{
          .help = "files of passes: raw values (exr), levels for the eye (png), or the picture's format",
          .source = "",
          .repeats = Repeats::nothing}),
+    row<&Settings::passName>({.name = "pass-name",
+                              .group = "Passes",
+                              .help = "files of passes are called NAME.PASS, or NAME_PASS",
+                              .source = "underscore in British Columbia",
+                              .repeats = Repeats::nothing}),
     row<&Settings::passDepth>({.name = "pass-depth",
                                .group = "Passes",
                                .help = "the pass depth measures along the view direction, or along the ray",

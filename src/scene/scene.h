@@ -11,6 +11,7 @@
 #include "geometry/shape.h"
 #include "math/transform.h"
 #include "scene/options.h"
+#include "shading/background.h"
 #include "shading/camera.h"
 #include "shading/light.h"
 #include "shading/material.h"
@@ -35,7 +36,7 @@ struct LightSource {
 /// Something the file says that Trace understands or skips but does not render: kept as it stands in the
 /// file, so that writing the scene loses nothing.
 struct Unrendered {
-  std::string kind;  ///< the keyword: "spot_light", "map", "texture_uv", ...
+  std::string kind;  ///< the keyword: "warn_light", "map", "texture_uv", ...
   Place place;
   std::string text;  ///< the source text of the node
   bool operator==(const Unrendered&) const = default;
@@ -50,8 +51,10 @@ struct UnusedMaterial {
 
 struct Scene {
   std::string file;
-  std::string format;  ///< name of the format it was read from
+  std::string format;   ///< name of the format it was read from
+  std::string picture;  ///< where a render goes that names no file; empty: the scene's name in this folder
   Camera camera;
+  Background background;
   std::vector<LightSource> lights;
   std::vector<Material> materials;
   std::vector<Object> objects;

@@ -14,19 +14,27 @@ enum class Accel { bvh, none };
 enum class Integrator { whitted };
 
 /// Whose rules hold where the courses and years differ: a row of conventions.cpp.
-enum class Like { uw, uw2009, uw2001, ut };
+enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
 
 enum class Glass { perCrossing, perDistance };
+/// How much glass mirrors: what its material says, or by the angle.
+enum class Fresnel { constant, schlick };
+enum class GlassShadows { filtered, black };
 enum class MirrorDefault { specular, zero };
 enum class BackFaces { both, cullSeen, cullAll };
-enum class PixelPosition { corner, center };
+enum class PixelPosition { corner, center, border };
 enum class VertexNormals { unit, mean };
 enum class DiffuseSides { front, bothOnGlass };
+
+/// A type of the list of shapes, by its number there.
+enum class ShapeKind {};
 
 /// A picture beside the picture: a row of render/passes.cpp.
 enum class Pass { depth, normal, id, uv, position };
 /// What is measured in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
+/// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
+enum class PassName { dot, underscore };
 /// The file format of passes; same: that of the picture.
 enum class PassFormat { exr, png, same };
 
@@ -48,6 +56,7 @@ struct Settings {
   Integrator integrator = Integrator::whitted;
   int depth = 5;
   Real threshold = 0;
+  EnumSet<ShapeKind> omit{};
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;
@@ -57,8 +66,11 @@ struct Settings {
   bool limitAttenuation = true;
   Glass glass = Glass::perCrossing;
   Real airIndex = 1.0003;
+  Fresnel fresnel = Fresnel::constant;
+  GlassShadows glassShadows = GlassShadows::filtered;
   BackFaces backFaces = BackFaces::both;
   VertexNormals vertexNormals = VertexNormals::unit;
+  bool roundSpheres = false;
   CameraAxes cameraAxes = CameraAxes::orthonormal;
   PixelPosition pixelPosition = PixelPosition::corner;
   Tone tone = Tone::clamp;
@@ -66,6 +78,7 @@ struct Settings {
   // Passes
   EnumSet<Pass> passes{};
   PassFormat passFormat = PassFormat::exr;
+  PassName passName = PassName::dot;
   PassDepth passDepth = PassDepth::view;
   Real passNear = 0;
   Real passFar = 0;

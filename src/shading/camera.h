@@ -16,8 +16,9 @@ struct Camera {
   Vec3 position;
   Vec3 viewdir{0, 0, -1};
   Vec3 updir{0, 1, 0};
-  Real fov = 53.13010235415598;  ///< vertical, degrees: a plane of height 1 at distance 1
-  Real aspectratio = 1;          ///< width / height
+  Real fov = 53.13010235415598;    ///< vertical, degrees: a plane of height 1 at distance 1
+  Real aspectratio = 1;            ///< width / height
+  Real near = 0, far = kInfinity;  ///< along camera rays: nearer and farther surfaces are not seen
 
   static constexpr auto fields() {
     return std::tuple{
@@ -25,7 +26,10 @@ struct Camera {
         Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "where it looks"},
         Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "what is up"},
         Field{"fov", &Camera::fov, "degrees", 0, 180, "vertical angle of view"},
-        Field{"aspectratio", &Camera::aspectratio, "", 0, kNoLimit, "width / height of the picture"}};
+        Field{"aspectratio", &Camera::aspectratio, "", 0, kNoLimit, "width / height of the picture"},
+        Field{"near", &Camera::near, "", 0, kNoLimit,
+              "a camera ray whose first surface is nearer shows nothing"},
+        Field{"far", &Camera::far, "", 0, kNoLimit, "a camera ray sees no farther"}};
   }
   bool operator==(const Camera&) const = default;
 };
@@ -35,12 +39,20 @@ enum class CameraAxes {
   orthonormal,  ///< right = up x back, up = back x right, all of length 1
   raw,          ///< as written: lengths stretch the picture, up is not straightened
   normalized,   ///< viewdir and updir of length 1, up not straightened, right not normalised
+  skewed,       ///< all three of length 1, up not straightened
 };
 
 /// The ray through (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right +
 /// (y - 0.5) up, normalised.
 struct CameraFrame {
   Vec3 eye, look, right, up;
+  Real near = 0, far = kInfinity;
+  /// The y of the ray of that direction; for one that looks backward, of its opposite.
+  Real heightOf(const Vec3& direction) const {
+    const Vec3 upward = cross(look, right), forward = cross(right, up);
+    return 0.5 + dot(direction, upward) / dot(up, upward) * (dot(look, forward) / dot(direction, forward));
+  }
+  bool sees(Real distance) const { return near <= distance && distance <= far; }
   Ray ray(Real x, Real y) const { return {eye, normalize(look + right * (x - 0.5) + up * (y - 0.5))}; }
 };
 

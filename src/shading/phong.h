@@ -27,6 +27,7 @@ struct Phong {
   Color emissive, ambient, diffuse, specular, reflective, transmissive;
   Real shininess = 0;  ///< exponent of the highlight
   Real index = 1;      ///< of refraction
+  Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
     return std::tuple{
@@ -38,7 +39,9 @@ struct Phong {
         Field{"transmissive", &Phong::transmissive, "", 0, 1,
               "weight of the refracted ray, filter of shadows"},
         Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
-        Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"}};
+        Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
+        Field{"shadow", &Phong::shadow, "", 0, 1,
+              "share of a light that a shadow on the surface takes away"}};
   }
   bool operator==(const Phong&) const = default;
 

@@ -375,6 +375,19 @@ TEST(RayFormat, WarnsOfDarkness) {
   EXPECT_TRUE(warnings("ambient_light { color = 1 } sphere{}").empty());
 }
 
+TEST(RayFormat, ReadsBackgroundsAndHorizontalAngles) {
+  EXPECT_EQ(load("background { color = (0.1, 0.2, 0.3); }").scene.background.colors,
+            (std::vector<Color>{{0.1, 0.2, 0.3}}));
+  const Background bands = load("background { colors = ((1,0,0), 0.5); limits = (0.25); }").scene.background;
+  EXPECT_EQ(bands, (Background{{{1, 0, 0}, Color(0.5)}, {0.25}}));
+  EXPECT_EQ(errorsOf("background { colors = (1, 1); limits = (0.5, 0.75); }"),
+            "2:12: background: expected one limit less than colors, found 2 and 2");
+  const Camera wide = load("camera { horizontal_fov = 90; aspectratio = 2; }").scene.camera;
+  EXPECT_NEAR(std::tan(wide.fov * kPi / 360), 0.5, 1e-15);
+  EXPECT_EQ(errorsOf("camera { horizontal_fov = 180; }"),
+            "2:27: horizontal_fov: expected an angle between 0 and 180 degrees, found 180");
+}
+
 // --- meshes -------------------------------------------------------------------------------------------
 
 constexpr const char* kPoints = "points = ((0,0,0), (1,0,0), (1,1,0), (0,1,0), (0,0,1));";
@@ -393,6 +406,10 @@ TEST(RayFormat, ReadsMeshes) {
   EXPECT_TRUE(meshOf("gennormals " + std::string(kPoints))->generateNormals);
   EXPECT_TRUE(meshOf("gennormals = true;")->generateNormals);
   EXPECT_FALSE(meshOf("gennormals = false;")->generateNormals);
+  EXPECT_TRUE(meshOf("two_sided;")->twoSided);
+  EXPECT_TRUE(meshOf("two_sided = true;")->twoSided);
+  EXPECT_FALSE(meshOf("two_sided = false;")->twoSided);
+  EXPECT_FALSE(meshOf("")->twoSided);
   EXPECT_EQ(onlyShape<Mesh>("trimesh { }").data->points.size(), 0u);
   EXPECT_EQ(load("polymesh { name = \"cow\" }").scene.objects[0].name, "cow");
 }
@@ -449,19 +466,19 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
 
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
-      "spot_light { position = (0, 0, 1); }\nspot_light { }\n"
+      "area_light { position = (0, 0, 1); }\narea_light { }\n"
       "translate(1, 2, 3, height_field { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(warningsOf(text),
-            "2:1: \"spot_light\" is not rendered yet (2 times, first here)\n"
+            "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
             "4:20: \"height_field\" is not rendered yet\n"
             "5:1: \"csg\" is not rendered yet\n"
             "6:23: \"bump_mapping\" is not rendered yet\n"
             "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
-  EXPECT_EQ(loaded.scene.unrendered[0].kind, "spot_light");
-  EXPECT_EQ(loaded.scene.unrendered[0].text, "spot_light { position = (0, 0, 1); }");
+  EXPECT_EQ(loaded.scene.unrendered[0].kind, "area_light");
+  EXPECT_EQ(loaded.scene.unrendered[0].text, "area_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
             "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nheight_field { a = 1; })");
@@ -472,7 +489,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
 TEST(RayFormat, WarnsOfUnknownWords) {
   EXPECT_EQ(warningsOf("spehre { }"),
             "2:1: \"spehre\" is not known and is left out [did you mean \"sphere\"?]");
-  EXPECT_EQ(warningsOf("background = 1"), "2:1: \"background\" is not known and is left out");
+  EXPECT_EQ(warningsOf("horizon = 1"), "2:1: \"horizon\" is not known and is left out");
   EXPECT_EQ(warningsOf("{ zzz(1, 2) }"), "2:3: \"zzz\" is not known and is left out");
   EXPECT_EQ(warningsOf("camera { focaldistance = 4; }"),
             "2:10: unknown field \"focaldistance\" of camera is ignored");

@@ -43,6 +43,7 @@ std::pair<MeshData, std::vector<Material>> unfolded(const Scene& scene, const Me
 
 void expectEqual(const Scene& a, const Scene& b, const std::string& name) {
   EXPECT_EQ(a.camera, b.camera) << name;
+  EXPECT_EQ(a.background, b.background) << name;
   ASSERT_EQ(a.lights.size(), b.lights.size()) << name;
   for (std::size_t i = 0; i < a.lights.size(); ++i) EXPECT_EQ(a.lights[i].light, b.lights[i].light) << name;
   ASSERT_EQ(a.choices.size(), b.choices.size()) << name;

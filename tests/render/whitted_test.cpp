@@ -23,6 +23,119 @@ LightSource sun(const Vec3& direction, Color color = Color(1)) {
 }
 const Ray kDown{{0, 0, 10}, {0, 0, -1}};
 
+// --- materials, lights and cameras of other courses -----------------------------------------------------
+
+/// A white square under a lamp at height 5, half of it behind a black one.
+Scene shadowed(Real shadow) {
+  Scene scene;
+  Phong white;
+  white.diffuse = Color(1), white.shadow = shadow;
+  addObject(scene, Square{}, Affine::scaling({10, 10, 1}), white);
+  addObject(scene, Square{}, at(2, 0, 3), {});
+  scene.lights.push_back(sun({0, 0, -1}));
+  return scene;
+}
+
+TEST(Whitted, AShadowTakesAwayTheShareThatTheReceiverSays) {
+  const Ray lit{{-2, 0, 2}, {0, 0, -1}}, inShadow{{2, 0, 2}, {0, 0, -1}};
+  for (Real shadow : {0.0, 0.25, 1.0}) {
+    EXPECT_EQ(trace(shadowed(shadow), lit), Color(1));
+    EXPECT_EQ(trace(shadowed(shadow), inShadow), Color(1 - shadow));
+  }
+}
+
+TEST(Whitted, AnExtraHighlightIsAddedToTheLightsColor) {
+  Scene scene;
+  Phong shiny;
+  shiny.diffuse = {0.5, 0.5, 0.5}, shiny.specular = {0.25, 0.5, 1}, shiny.shininess = 10;
+  addObject(scene, Square{}, {}, shiny);
+  PointLight light{.position = {0, 0, 4}, .color = {2, 4, 8}, .constant = 2, .quadratic = 0};
+  light.extraHighlight = {6, -4, 0};
+  scene.lights.push_back({light, {}});
+  const Settings settings{.limitAttenuation = false};
+  // Seen from the lamp, where cosines are 1: (2 * 0.5 + 8 * 0.25) / 2, and so on.
+  EXPECT_EQ(trace(scene, {{0, 0, 4}, {0, 0, -1}}, settings), Color(1.5, 1, 6));
+}
+
+TEST(Whitted, ATwoSidedMeshIsLitFromBehindToo) {
+  for (bool twoSided : {false, true}) {
+    MeshData mesh;
+    mesh.points = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 2, 1}};  // its front looks down
+    mesh.twoSided = twoSided;
+    Scene scene;
+    Phong white;
+    white.diffuse = Color(1);
+    addObject(scene, Mesh{std::make_shared<const MeshData>(mesh)}, {}, white);
+    scene.lights.push_back(sun({0, 0, -1}));
+    EXPECT_EQ(trace(scene, kDown), Color(twoSided ? 1 : 0));
+  }
+}
+
+TEST(Whitted, CameraRaysSeeFromNearToFarAndOthersEverything) {
+  Scene scene;
+  Phong mirror;
+  mirror.emissive = {1, 0, 0}, mirror.reflective = Color(1);
+  addObject(scene, Square{}, {}, mirror);
+  Phong lamp;
+  lamp.emissive = {0, 0, 1};
+  addObject(scene, Square{}, at(0, 0, 90), lamp);
+  for (auto [near, far, seen] : {std::tuple{1.0, 20.0, true}, {11.0, 20.0, false}, {1.0, 9.0, false}}) {
+    scene.camera.near = near, scene.camera.far = far;
+    EXPECT_EQ(trace(scene, kDown), seen ? Color(1, 0, 1) : Color(0));
+  }
+}
+
+TEST(Whitted, SchlicksGlassMirrorsMoreTheFlatterItIsSeen) {
+  EXPECT_NEAR(schlick(1, 1, 1.5), 0.04, 1e-15);
+  EXPECT_EQ(schlick(0, 1, 1.5), 1);
+  EXPECT_EQ(schlick(0.5, 1.5, 1), 1) << "total internal reflection";
+  EXPECT_NEAR(schlick(1, 1.5, 1), 0.04, 1e-15);
+  const Real inside = 0.9, outside = std::sqrt(1 - 2.25 * (1 - inside * inside));
+  EXPECT_NEAR(schlick(inside, 1.5, 1), schlick(outside, 1, 1.5), 1e-15) << "the same both ways";
+
+  Scene scene;  // a sheet of glass between a red lamp above and a blue one below
+  Phong glass, red, blue;
+  glass.transmissive = Color(1), glass.index = 1.5;
+  red.emissive = {1, 0, 0}, blue.emissive = {0, 0, 1};
+  addObject(scene, Square{}, Affine::scaling({9, 9, 1}), glass);
+  addObject(scene, Square{}, at(0, 0, 20), red);
+  addObject(scene, Square{}, at(0, 0, -5), blue);
+  const Color seen = trace(scene, kDown, {.airIndex = 1, .fresnel = Fresnel::schlick});
+  EXPECT_NEAR(seen.r, 0.04, 1e-14);
+  EXPECT_NEAR(seen.b, 0.96, 1e-14);
+  EXPECT_EQ(trace(scene, kDown, {.airIndex = 1}), Color(0, 0, 1));
+}
+
+TEST(Whitted, GlassMayCastABlackShadow) {
+  Scene scene;
+  Phong white, glass;
+  white.diffuse = Color(1), glass.transmissive = Color(0.5);
+  addObject(scene, Square{}, Affine::scaling({10, 10, 1}), white);
+  addObject(scene, Square{}, at(2, 0, 3), glass);
+  scene.lights.push_back(sun({0, 0, -1}));
+  const Ray below{{2, 0, 2}, {0, 0, -1}};
+  EXPECT_EQ(trace(scene, below), Color(0.5));
+  EXPECT_EQ(trace(scene, below, {.glassShadows = GlassShadows::black}), Color(0));
+}
+
+TEST(Whitted, TheBackgroundIsInBandsAndOnlyCameraRaysSeeIt) {
+  Scene scene;
+  scene.background = {{Color(1, 0, 0), Color(0, 1, 0), Color(0, 0, 1)}, {0.25, 0.5}};
+  Phong mirror;
+  mirror.reflective = Color(1);
+  addObject(scene, Square{}, at(0, 0, -1000), mirror);
+  const World world = build(scene);
+  const auto seen = [&](Real x, Real y) { return trace(scene, world.camera().ray(x, y)); };
+  EXPECT_EQ(seen(0.1, 0.9), Color(1, 0, 0));
+  EXPECT_EQ(seen(0.9, 0.76), Color(1, 0, 0));
+  EXPECT_EQ(seen(0.3, 0.74), Color(0, 1, 0));
+  EXPECT_EQ(seen(0.3, 0.1), Color(0, 0, 1));
+  EXPECT_EQ(seen(0.5, 0.5), Color(0)) << "the mirror looks back past the eye";
+  scene.background.limits.clear();
+  EXPECT_EQ(trace(scene, world.camera().ray(0.3, 0.4)), Color(0, 1, 0)) << "equal bands";
+}
+
 // --- checks.md E2 --------------------------------------------------------------------------------------
 
 TEST(Optics, SnellAndTheReversedRay) {

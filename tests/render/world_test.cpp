@@ -84,7 +84,8 @@ TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {
       Scene scene;
       addObject(scene, shape, random.affine(scale), {});
       const World world = build(scene);
-      const Vec3 center = world.bounds().center(), size = world.bounds().size();
+      const Box3 box = scene.objects[0].worldFromObject * closeBoundsOf(prepare(shape));
+      const Vec3 center = box.center(), size = box.size();
       for (int k = 0; k < kPerWorld; ++k) {
         const Vec3 target =
             center + Vec3{size.x * random.uniform(-0.5, 0.5), size.y * random.uniform(-0.5, 0.5),
@@ -118,7 +119,8 @@ TEST(World, HitsLieInTheBoundsAndNormalsAreUnit) {
   Random random(4);
   Statistics statistics;
   for (int s = 0; s < 20; ++s) {
-    const World world = build(randomScene(random, 10));
+    const Scene scene = randomScene(random, 10);
+    const World world = build(scene);
     for (int i = 0; i < 2000; ++i) {
       const Ray ray = rayThrough(random, 1);
       const auto found = world.closest(ray, Faces::both, statistics);
@@ -126,10 +128,11 @@ TEST(World, HitsLieInTheBoundsAndNormalsAreUnit) {
       const SurfacePoint surface = world.surface(ray, *found);
       const Vec3 e = surface.error;
       const Box3 padded{world.bounds().low - e, world.bounds().high + e};
-      EXPECT_TRUE(padded.contains(surface.point));
+      EXPECT_TRUE(padded.contains(surface.point) ||
+                  std::holds_alternative<Plane>(scene.objects[found->object].shape));
       EXPECT_NEAR(length(surface.normal), 1, 1e-14);
       EXPECT_NEAR(length(surface.shading), 1, 1e-14);
-      EXPECT_LT(length(surface.point - ray.at(found->t)), 1e-11);
+      EXPECT_LT(length(surface.point - ray.at(found->t)), 1e-11 * std::max(1.0, found->t));
     }
   }
 }
@@ -150,6 +153,39 @@ TEST(World, ASphereScaledUnevenlyIsAnEllipsoid) {
     EXPECT_NEAR(dot(q, q), 1, 1e-14);
     const Vec3 gradient = normalize({q.x, q.y / 2, q.z / 3});
     EXPECT_LT(length(gradient - s.normal), 1e-14);
+  }
+}
+
+TEST(World, StretchedSpheresAreBallsOfTheMeanRadiusIfAsked) {
+  Scene scene;
+  addObject(scene, Sphere{}, Affine::translation({1, 2, 3}) * Affine::scaling({1, 2, 6}), {});
+  addObject(scene, Cube{}, Affine::scaling({1, 2, 6}), {});
+  const World world = build(scene, {.roundSpheres = true});
+  Statistics statistics;
+  const auto found = world.closest({{1, 2, 20}, {0, 0, -1}}, Faces::both, statistics);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->t, 20 - (3 + 3), 1e-14);
+  EXPECT_EQ(world.bounds(), (Box3{{-2, -1, -3}, {4, 5, 6}}));  // the box is as it was
+}
+
+TEST(World, ObjectsWithoutEndAreMetBesideTheOthers) {
+  Scene scene;
+  addObject(scene, Sphere{}, {}, {});
+  addObject(scene, Plane{}, Affine::translation({0, 0, -1}), {});  // the sphere stands on it
+  Statistics statistics;
+  for (Accel accel : {Accel::bvh, Accel::none}) {
+    const World world = build(scene, {.accel = accel});
+    EXPECT_EQ(world.bounds(), (Box3{{-1, -1, -1}, {1, 1, 1}}));
+    EXPECT_EQ(world.closest({{0, 0, 5}, {0, 0, -1}}, Faces::both, statistics)->object, 0u);
+    const auto far = world.closest({{1e6, 0, 5}, {0, 0, -1}}, Faces::both, statistics);
+    ASSERT_TRUE(far);
+    EXPECT_EQ(far->object, 1u);
+    EXPECT_EQ(far->t, 6);
+    EXPECT_FALSE(world.closest({{9, 0, 5}, {0, 0, 1}}, Faces::both, statistics));
+    int crossed = 0;
+    world.crossings({{0, 0, 5}, {0, 0, -1}}, kInfinity, Faces::both, statistics,
+                    [&](const Found&) { return ++crossed, false; });
+    EXPECT_EQ(crossed, 3);
   }
 }
 

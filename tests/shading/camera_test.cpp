@@ -43,6 +43,10 @@ TEST(Camera, AxesByConvention) {
   EXPECT_NEAR(length(slanted.up), 1, 1e-15);
   EXPECT_GT(std::abs(dot(slanted.up, slanted.look)), 0.5);
   EXPECT_NEAR(length(slanted.right), std::sqrt(0.5), 1e-15);
+
+  const CameraFrame skewed = frame(camera, CameraAxes::skewed);  // the same, but right is not shorter
+  EXPECT_EQ(skewed.up, slanted.up);
+  EXPECT_NEAR(length(skewed.right), 1, 1e-15);
 }
 
 }  // namespace

@@ -125,6 +125,7 @@ inline std::string nameOf(const Shape& shape) {
   return std::string(match(shape, [](const auto& s) { return s.kKeyword; }));
 }
 
+/// In order along the ray.
 inline std::vector<Crossing> crossingsOf(const TracedShape& shape, const Ray& ray) {
   std::vector<Crossing> found;
   const Range everywhere{-kInfinity, kInfinity};
@@ -145,6 +146,19 @@ inline SurfacePoint surfaceOf(const TracedShape& shape, const Ray& ray, const Cr
 inline Box3 boundsOf(const TracedShape& shape) {
   return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); },
                                  [](const auto& s) { return formOf(s).bounds(); }});
+}
+
+/// Without those at infinity.
+inline std::vector<Crossing> placesOf(const TracedShape& shape, const Ray& ray) {
+  std::vector<Crossing> found = crossingsOf(shape, ray);
+  std::erase_if(found, [](const Crossing& c) { return !std::isfinite(c.t); });
+  return found;
+}
+
+/// The shape's bounds, cut off a few units from the origin where it has no end.
+inline Box3 closeBoundsOf(const TracedShape& shape) {
+  const Box3 box = boundsOf(shape);
+  return {max(box.low, Vec3{-3, -3, -3}), min(box.high, Vec3{3, 3, 3})};
 }
 
 inline bool isSolid(const TracedShape& shape) {

@@ -1,0 +1,53 @@
+// Meshes in place of shapes: closed, outward, and as near as their steps allow.
+#include "geometry/tessellation.h"
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace trace::test {
+namespace {
+
+double volumeOf(const MeshData& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    sum += dot(Vec3(mesh.points[t[0]]), cross(Vec3(mesh.points[t[1]]), Vec3(mesh.points[t[2]]))) / 6;
+  return sum;
+}
+
+TEST(Tessellation, EnclosesTheVolumeOfTheSolid) {
+  EXPECT_NEAR(volumeOf(*tessellated(Sphere{}, 256)), 4.18879, 2e-3);
+  EXPECT_NEAR(volumeOf(*tessellated(Cube{})), 1, 1e-7);
+  EXPECT_NEAR(volumeOf(*tessellated(Cylinder{}, 256)), kPi, 1e-3);
+  EXPECT_NEAR(volumeOf(*tessellated(Cone{}, 256)), kPi / 3, 1e-3);
+  EXPECT_NEAR(volumeOf(*tessellated(Conic{.bottomRadius = 1, .topRadius = 1, .zMin = 3, .zMax = 1}, 256)),
+              2 * kPi, 2e-3);
+}
+
+TEST(Tessellation, PointsAndNormalsAreThoseOfTheSurface) {
+  for (const Shape& shape : analyticShapes()) {
+    const auto mesh = tessellated(shape);
+    if (!mesh) continue;
+    SCOPED_TRACE(nameOf(shape));
+    const TracedShape traced = prepare(shape);
+    EXPECT_EQ(mesh->twoSided, !isSolid(traced));
+    for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+      const Vec3 n = normalize(faceNormal(*mesh, i));
+      for (std::uint32_t p : mesh->triangles[i]) {
+        EXPECT_NEAR(length(Vec3(mesh->normals[p])), 1, 1e-6);
+        EXPECT_GT(dot(n, Vec3(mesh->normals[p])), 0.9);
+        // A ray along the normal meets the surface there.
+        const Ray ray{Vec3(mesh->points[p]) * (1 - 1e-6) + Vec3(mesh->normals[p]), -Vec3(mesh->normals[p])};
+        bool met = false;
+        for (const Crossing& c : placesOf(traced, ray)) met |= std::abs(c.t - 1) < 1e-4;
+        EXPECT_TRUE(met || std::hypot(mesh->points[p].x, mesh->points[p].y) > 0.24)
+            << "at a rim the ray may pass by";
+      }
+    }
+  }
+}
+
+TEST(Tessellation, LeavesOutWhatHasNoEnd) { EXPECT_FALSE(tessellated(Plane{})); }
+
+}  // namespace
+}  // namespace trace::test
