@@ -100,4 +100,14 @@ std::string besideFile(const std::string& from, const std::string& name) {
   return path.is_absolute() ? name : (fs::path(from).parent_path() / path).string();
 }
 
+std::string findFile(const std::string& from, const std::string& name) {
+  constexpr int kFoldersAbove = 3;
+  std::error_code ignored;
+  if (fs::is_regular_file(name, ignored)) return name;
+  fs::path folder = fs::path(from).parent_path();
+  for (int i = 0; i <= kFoldersAbove; ++i, folder /= "..")
+    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
+  return besideFile(from, name);
+}
+
 }  // namespace trace

@@ -22,4 +22,8 @@ void checkWritable(const std::string& path);
 /// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
 std::string besideFile(const std::string& from, const std::string& name);
 
+/// Where `name`, which the file `from` mentions, exists: in the current folder, in the folder of `from`, or
+/// in one of the few above it. `besideFile()` if nowhere.
+std::string findFile(const std::string& from, const std::string& name);
+
 }  // namespace trace

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/file.h"
+#include "formats/composer_format.h"
 #include "formats/gltf_format.h"
+#include "formats/inventor_format.h"
 #include "formats/mesh_writers.h"
 #include "formats/obj_format.h"
 #include "formats/off_format.h"
@@ -16,13 +18,14 @@
 #include "formats/ray_format.h"
 #include "formats/ray_writer.h"
 #include "formats/stl_format.h"
+#include "formats/ubc_format.h"
 
 namespace trace {
 namespace {
 
 using Suffixes = std::array<std::string_view, 1>;
-constexpr Suffixes kRay{".ray"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
-constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"};
+constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
+constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"}, kInventor{".wrl", ".iv"};
 
 constexpr std::array kTable{
     SceneFormat{.name = "ray",
@@ -31,6 +34,22 @@ constexpr std::array kTable{
                 .recognises = recognisesRay,
                 .readAt = readRay,
                 .write = writeRay},
+    SceneFormat{.name = "composer",
+                .suffixes = kOut,
+                .help = "Composer format 2.1, text and binary",
+                .recognises = recognisesComposer,
+                .read = readComposer,
+                .write = writeComposer},
+    SceneFormat{.name = "inventor",
+                .suffixes = kInventor,
+                .help = "Open Inventor 2.x, VRML 1.0 and VRML97, all as text",
+                .recognises = recognisesInventor,
+                .read = readInventor},
+    SceneFormat{.name = "ubc",
+                .suffixes = kRay,
+                .help = "scenes of British Columbia and Montreal, of commands such as Dimensions 640 480",
+                .recognises = recognisesUbc,
+                .read = readUbc},
     SceneFormat{.name = "ply",
                 .suffixes = kPly,
                 .help = "PLY meshes, text and binary",
@@ -62,15 +81,13 @@ constexpr std::array kTable{
 
 /// What bytes that are no scene look like.
 std::string kindOf(std::string_view bytes) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kBeginnings{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
       {"\xff\xd8\xff", "a JPEG picture"},
       {"BM", "a BMP picture"},
       {"GIF8", "a GIF picture"},
       {"\x76\x2f\x31\x01", "an OpenEXR picture"},
       {"#?RADIANCE", "a Radiance picture"},
-      {"#Inventor", "an Open Inventor scene, which Trace does not read yet"},
-      {"#VRML", "a VRML scene, which Trace does not read"},
       {"%PDF", "a PDF document"},
       {"PK\x03\x04", "a zip archive"},
       {"\x7f"

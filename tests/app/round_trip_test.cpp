@@ -13,6 +13,7 @@ namespace {
 Picture small(const Scene& scene) {
   Settings settings = resolve({scene.choices});
   settings.width = 24, settings.height = 0, settings.region = {}, settings.spp = 1, settings.depth = 2;
+  settings.passes = {};
   return test::picture(scene, settings);
 }
 

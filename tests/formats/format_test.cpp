@@ -27,7 +27,6 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
       {"<html>", "what looks like XML or HTML"},
       {"\x89PNG\r\n", "a PNG picture"},
       {"\xff\xd8\xff\xe0", "a JPEG picture"},
-      {"#Inventor V2.1 ascii", "an Open Inventor scene, which Trace does not read yet"},
       {std::string_view("a\0b", 3), "binary data"},
       {"/* not closed SBT-raytracer 1.0", "other text"},
   };

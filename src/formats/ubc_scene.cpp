@@ -1,0 +1,72 @@
+#include "formats/ubc_scene.h"
+
+#include <cmath>
+
+#include "base/text.h"
+#include "math/transform.h"
+
+namespace trace::ubc {
+namespace {
+
+constexpr Real kFarthest = 1e30;  // that the options of passes take
+
+}  // namespace
+
+Phong phong(const Surface& s) {
+  Phong phong;
+  phong.ambient = s.ambient, phong.diffuse = s.diffuse, phong.specular = s.specular;
+  phong.emissive = s.emission, phong.reflective = Color(s.reflect);
+  phong.shininess = s.shininess, phong.shadow = s.shadow;
+  return phong;
+}
+
+void addLamp(Scene& scene, const Lamp& lamp, const Place& place) {
+  if (!isBlack(lamp.ambient)) scene.lights.push_back({AmbientLight{lamp.ambient}, place});
+  PointLight light{.position = lamp.position, .color = lamp.diffuse};
+  light.constant = lamp.attenuation.x, light.linear = lamp.attenuation.y;
+  light.quadratic = lamp.attenuation.z;
+  if (lamp.attenuation == Vec3{}) light.constant = 1;
+  light.extraHighlight = lamp.specular + lamp.diffuse * -1;
+  scene.lights.push_back({light, place});
+}
+
+Camera camera(const View& view, const Place& place) {
+  Camera camera;
+  camera.position = view.eye;
+  camera.viewdir = view.center - view.eye;
+  camera.updir = view.up;
+  camera.fov = view.fovy, camera.aspectratio = view.aspect;
+  camera.near = view.near, camera.far = view.far;
+  if (!(length(cross(camera.viewdir, camera.updir)) > 0))
+    throw Error(
+        Fault::scene, place,
+        "expected a view whose up vector is not parallel to it, from an eye that is not its own target");
+  camera.viewdir = normalize(camera.viewdir);
+  if (!(view.fovy > 0 && view.fovy < 180))
+    throw Error(Fault::scene, place, "expected a field of view between 0 and 180 degrees");
+  if (!(view.aspect > 0))
+    throw Error(Fault::scene, place, "expected an aspect ratio above 0, width / height");
+  return camera;
+}
+
+void addChoices(Scene& scene, int width, int height, const View& view) {
+  const Place place{scene.file, 0, 0, {}};
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"like", "ubc"},
+                                      {"depth", "9"},
+                                      {"width", std::to_string(width)},
+                                      {"height", std::to_string(height)},
+                                      {"passes", "depth"},
+                                      {"pass-depth", "ray"},
+                                      {"pass-format", "same"},
+                                      {"pass-name", "underscore"}})
+    scene.choices.push_back({option, value, place});
+  if (view.near >= 0 && view.far > view.near && view.far <= kFarthest) {
+    scene.choices.push_back({"pass-near", toText(view.near), place});
+    scene.choices.push_back({"pass-far", toText(view.far), place});
+  }
+  const std::string::size_type dot = scene.file.find_last_of("./\\");
+  const bool hasSuffix = dot != std::string::npos && scene.file[dot] == '.';
+  scene.picture = scene.file.substr(0, hasSuffix ? dot : std::string::npos) + "_out.bmp";
+}
+
+}  // namespace trace::ubc
