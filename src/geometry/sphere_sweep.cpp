@@ -131,17 +131,19 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
       for (const Nodes& nodes : {rootsWithEnds(turns, u0, u1), rootsWithEnds(DSlope, u0, u1)})
         for (std::size_t n = 0; n < nodes.count; ++n) consider(nodes.at[n], true);
       // The polynomial of degree ten is not exact enough for grazing rays: Newton's steps on what it stands
-      // for, D' -+ 2 b' sqrt(D) = 0, as long as they lead farther out.
+      // for, D' -+ 2 b' sqrt(D) = 0, which falls from u0 to u1 around each extreme; halving where they leave.
       for (const Real side : {-1.0, 1.0}) {
-        Real u = side < 0 ? in.u : out.u;
-        for (int step = 0; step < 4; ++step) {
+        Real u = side < 0 ? in.u : out.u, low = u0, high = u1;
+        for (int step = 0; step < 12; ++step) {
           const Roots2 t = sphere(u, true);
           const Real root = 0.5 * (t.t1 - t.t0);
           const Jet slope = evaluate(DSlope, u), rise = evaluate(bSlope, u);
           const Real f = slope.value + side * 2 * rise.value * root;
           const Real g = slope.slope + side * (2 * rise.slope * root + rise.value * slope.value / root);
-          const Real next = std::clamp(u - f / g, 0.0, 1.0);
-          if (!(next != u)) break;  // also if it is no number
+          (f > 0 ? low : high) = u;
+          Real next = u - f / g;
+          if (!(next >= low && next <= high)) next = 0.5 * (low + high);  // also if it is no number
+          if (next == u) break;
           consider(u = next, false);
         }
       }
