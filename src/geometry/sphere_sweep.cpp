@@ -115,7 +115,8 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
       const Vec3 side = v - along * middle;
       const bool near = std::abs(middle) < radius;
       const Real square = near ? middle * middle - c : radius * radius - dot(side, side);
-      return solveQuadratic(1, middle, c, touching ? max(0, square) : square);
+      if (!(square > 0)) return touching ? Roots2{2, -middle, -middle} : Roots2{};
+      return solveQuadratic(1, middle, c, square);
     };
     const Nodes ends = rootsWithEnds(D, 0, 1);
     for (std::size_t i = 0; i + 1 < ends.count; ++i) {
@@ -130,11 +131,13 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
       };
       for (const Nodes& nodes : {rootsWithEnds(turns, u0, u1), rootsWithEnds(DSlope, u0, u1)})
         for (std::size_t n = 0; n < nodes.count; ++n) consider(nodes.at[n], true);
-      // The polynomial of degree ten is not exact enough for grazing rays: Newton's steps on what it stands
-      // for, D' -+ 2 b' sqrt(D) = 0, which falls from u0 to u1 around each extreme; halving where they leave.
+      // The polynomials are not exact enough for grazing rays: Newton's steps on what they stand for,
+      // D' -+ 2 b' sqrt(D) = 0, which falls around each extreme; halving where one leaves. A polynomial that
+      // is nearly nothing leaves u0 and u1 uncertain by its root.
+      const Real margin = std::sqrt(error_);
       for (const Real side : {-1.0, 1.0}) {
-        Real u = side < 0 ? in.u : out.u, low = u0, high = u1;
-        for (int step = 0; step < 12; ++step) {
+        Real u = side < 0 ? in.u : out.u, low = max(0, u0 - margin), high = min(1, u1 + margin);
+        for (int step = 0; step < 64; ++step) {
           const Roots2 t = sphere(u, true);
           const Real root = 0.5 * (t.t1 - t.t0);
           const Jet slope = evaluate(DSlope, u), rise = evaluate(bSlope, u);
@@ -142,8 +145,8 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
           const Real g = slope.slope + side * (2 * rise.slope * root + rise.value * slope.value / root);
           (f > 0 ? low : high) = u;
           Real next = u - f / g;
-          if (!(next >= low && next <= high)) next = 0.5 * (low + high);  // also if it is no number
-          if (next == u) break;
+          if (!(low < next && next < high)) next = 0.5 * (low + high);  // also if it is no number
+          if (std::abs(next - u) < gammaError(64)) break;
           consider(u = next, false);
         }
       }
