@@ -362,8 +362,18 @@ class GltfReader {
       model_.lights.push_back({DirectionalLight{.direction = normalize(direction), .color = color}, place_});
       return;
     }
-    if (from.type == "spot") messages_.warn(place_, "spot light \"" + from.name + "\" shines to all sides");
-    model_.lights.push_back({PointLight{.position = position, .color = color}, place_});
+    const auto degrees = [](Real radians) { return std::clamp(radians * 180 / kPi, 0.0, 90.0); };
+    if (from.type == "spot")
+      model_.lights.push_back({SpotLight{.position = position,
+                                         .direction = normalize(direction),
+                                         .color = color,
+                                         .angle = degrees(from.spot.outerConeAngle),
+                                         .fullAngle = degrees(from.spot.innerConeAngle),
+                                         .constant = 0,
+                                         .quadratic = 1},
+                               place_});
+    else
+      model_.lights.push_back({PointLight{.position = position, .color = color}, place_});
     if (model_.choices.empty()) model_.choices.push_back({"limit-attenuation", "off", place_});
   }
 

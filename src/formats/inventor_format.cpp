@@ -10,11 +10,14 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "base/file.h"
+#include "formats/format.h"
 #include "formats/inventor_binding.h"
 #include "formats/inventor_shapes.h"
 #include "formats/inventor_state.h"
@@ -70,14 +73,48 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "MetadataString",
                                           "KeySensor"};
 
+/// What other files bring into a scene, by path: each is read once however often it is named. Nothing while
+/// it is read, or if it cannot be.
+using Library = std::map<std::string, std::optional<Scene>>;
+
+/// A light that stands in another file, where that file stands.
+Light moved(Light light, const Affine& worldFromFile) {
+  std::visit(
+      [&](auto& l) {
+        if constexpr (requires { l.position; }) l.position = worldFromFile * l.position;
+        if constexpr (requires { l.direction; }) l.direction = linear(worldFromFile, l.direction);
+      },
+      light);
+  return light;
+}
+
 class Reader {
  public:
-  Reader(const Document& document, Messages& messages)
-      : document_(document), messages_(messages), vrml2_(document.version() == Version::vrml2) {
+  Reader(const Document& document, Messages& messages, Library& library, int nesting = 0)
+      : document_(document),
+        messages_(messages),
+        library_(library),
+        nesting_(nesting),
+        vrml2_(document.version() == Version::vrml2) {
     scene_.file = document.file(), scene_.format = "inventor";
   }
 
+  /// The file as a scene, with what it lacks.
   Scene read() {
+    walk();
+    finish();
+    return std::move(scene_);
+  }
+  /// Only what the file itself holds.
+  Scene readPart() {
+    walk();
+    return std::move(scene_);
+  }
+
+ private:
+  // --- the walk ---
+
+  void walk() {
     State state;
     auto paint = std::make_shared<Paint>();
     paint->unlit = vrml2_;  // a shape without a material is white, whatever the light
@@ -87,12 +124,7 @@ class Reader {
     state.points = state.normals = std::make_shared<const std::vector<Vec3>>();
     state.uvs = std::make_shared<const std::vector<Vec2>>();
     for (const Node* node : document_.roots()) visit({node, nullptr}, state);
-    finish();
-    return std::move(scene_);
   }
-
- private:
-  // --- the walk ---
 
   void visit(NodeIn at, State& state) {
     constexpr int kMostDepth = 600;
@@ -275,8 +307,53 @@ class Reader {
       children(v, own);
     }
   }
-  void include(const Values& v, State&) {
-    warn(v.node(), "\"" + std::string(v.node().type) + "\": other files are not read", "include");
+
+  /// Objects and lights of another file, of this kind or of meshes, as if they stood here.
+  void include(const Values& v, State& state) {
+    const std::string name(v.word(v.node().type == "Inline" ? "url" : "name", ""));
+    if (name.empty()) return;
+    const auto [known, fresh] = library_.try_emplace(besideFile(document_.file(), name));
+    if (fresh) try {
+        known->second = readPart(known->first, name);
+      } catch (const Error& error) {
+        if (error.fault() == Fault::limit) throw;
+        warn(v.node(), name + " is left out: " + error.messages().front().what, name);
+      }
+    if (!known->second) return warn(v.node(), name + " is left out: it holds itself", name);
+    const Scene& part = *known->second;
+    spend(part.objects.size() + part.lights.size(), v.node());
+    const auto [first, unknown] = firstMaterials_.try_emplace(&part, scene_.materials.size());
+    if (unknown)
+      scene_.materials.insert(scene_.materials.end(), part.materials.begin(), part.materials.end());
+    for (Object object : part.objects) {
+      object.worldFromObject = state.worldFromObject * object.worldFromObject;
+      object.material += static_cast<std::uint32_t>(first->second);
+      if (invertible(object.worldFromObject)) scene_.objects.push_back(std::move(object));
+    }
+    for (const LightSource& source : part.lights)
+      scene_.lights.push_back({moved(source.light, state.worldFromObject), source.place});
+  }
+
+  /// What the file of that path holds, by which `name` names it.
+  Scene readPart(const std::string& path, const std::string& name) {
+    constexpr int kMostFiles = 20;
+    if (nesting_ >= kMostFiles)
+      throw Error(Fault::scene, "files that name files are read 20 deep, and no deeper");
+    const std::string bytes = readBeside(document_.file(), name);
+    Scene part;
+    if (hasHeader(bytes)) {
+      const Document document(path, bytes, messages_);
+      part = Reader(document, messages_, library_, nesting_ + 1).readPart();
+    } else {
+      const Model model = readModel(path, bytes, messages_);
+      part.objects = placed(model, plainMaterial(), [&](const Material& material) {
+        part.materials.push_back(material);
+        return static_cast<std::uint32_t>(part.materials.size() - 1);
+      });
+    }
+    for (Material& material : part.materials)  // pictures lie beside that file, and are named from this one
+      for (FieldMap& map : material.maps) map.file = besideFile(name, map.file);
+    return part;
   }
 
   // --- transforms ---
@@ -730,6 +807,8 @@ class Reader {
 
   const Document& document_;
   Messages& messages_;
+  Library& library_;
+  int nesting_;  ///< of files that name files
   bool vrml2_;
   MeshRepairs repairs_;
   Scene scene_;
@@ -741,6 +820,7 @@ class Reader {
   std::map<const Field*, std::shared_ptr<const std::vector<Vec2>>> pairs_;
   std::map<std::tuple<const Node*, const Env*, std::shared_ptr<const Paint>>, std::shared_ptr<const Paint>>
       paints_;
+  std::map<const Scene*, std::size_t> firstMaterials_;  ///< of what other files bring
   std::map<MeshKey, Mesh> meshes_;
   Mesh made_;  ///< by mesh(), for remember()
   std::map<std::shared_ptr<const Paint>, std::vector<std::uint32_t>> numbers_;
@@ -756,7 +836,9 @@ bool recognisesInventor(std::string_view bytes) { return inventor::hasHeader(byt
 
 Scene readInventor(const std::string& file, std::string_view bytes, Messages& messages) {
   const inventor::Document document(file, bytes, messages);
-  return inventor::Reader(document, messages).read();
+  inventor::Library library;
+  library.try_emplace(file);  // it cannot bring itself
+  return inventor::Reader(document, messages, library).read();
 }
 
 }  // namespace trace

@@ -14,6 +14,7 @@
 
 #include "base/file.h"
 #include "base/unique.h"
+#include "formats/obj_lines.h"
 #include "geometry/mesh_repair.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -97,6 +98,7 @@ class ObjReader : public tinyobj::MaterialReader {
       : file_(file), place_{file, 0, 0, {}}, bytes_(bytes), messages_(messages) {}
 
   Model read() {
+    unusable_ = checkObjLines(file_, bytes_);
     tinyobj::callback_t calls;
     calls.vertex_cb = [](void* self, float x, float y, float z, float) {
       of(self).points_.push_back({x, y, z});
@@ -181,7 +183,6 @@ class ObjReader : public tinyobj::MaterialReader {
       face_.push_back(corner(to, {*point, optional(index.texcoord_index, uvs_.size()),
                                   optional(index.normal_index, normals_.size())}));
     }
-    if (corners.size() < 3) ++unusable_;
     appendPolygon(to.mesh, face_);
   }
 

@@ -142,7 +142,8 @@ class Reader {
     view_.near = number("Perspective"), view_.far = number("Perspective");
     if (viewPlace_.line == 0) viewPlace_ = tokens_.place(token);
     if (!tokens_.peek().is(Token::Kind::number)) return;
-    messages_.warn(tokens_.place(tokens_.next()), "Perspective: a fifth number, of stereo pictures, is ignored");
+    messages_.warn(tokens_.place(tokens_.next()),
+                   "Perspective: a fifth number, of stereo pictures, is ignored");
   }
   void lookAt(const Token& token) {
     view_.eye = vector("LookAt"), view_.center = vector("LookAt"), view_.up = vector("LookAt");

@@ -239,9 +239,9 @@ TEST(Inventor, UnknownNodesAreLeftOutWithOneWarning) {
 }
 
 TEST(Inventor, ConnectionsFlagsAndRoutesAreSkipped) {
-  const Scene scene = sceneIn(
-      iv("Rotation { rotation 0 0 1 0.5 = ElapsedTime { } . timeOut } Sphere { radius 2 ~ } "
-         "Cube { width 2 = ElapsedTime { } . timeOut }"));
+  const Scene scene =
+      sceneIn(iv("Rotation { rotation 0 0 1 0.5 = ElapsedTime { } . timeOut } Sphere { radius 2 ~ } "
+                 "Cube { width 2 = ElapsedTime { } . timeOut }"));
   EXPECT_EQ(scene.objects.size(), 2u);
 }
 
@@ -258,6 +258,26 @@ TEST(Inventor, TellsWhereAndWhat) {
       {vrml2("Group [ ]"), "2:7: node Group: expected \"{\", found \"[\""},
   };
   for (const auto& [text, message] : cases) EXPECT_EQ(errorsOfFile(text), message) << text;
+}
+
+// --- other files --------------------------------------------------------------------------------------
+
+TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
+  Messages messages;
+  const Scene scene = readScene(TRACE_SOURCE "/tests/corpus/inventor/with_parts.wrl", messages);
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(placeOf(scene, 0), (Vec3{5, 0, 0}));
+  EXPECT_EQ(placeOf(scene, 1), (Vec3{0, 5, 0}));
+  EXPECT_NEAR(length(linear(scene.objects[1].worldFromObject, {1, 0, 0})), 1, 1e-12) << "of radius 0.5 by 2";
+  EXPECT_EQ(scene.objects[0].material, scene.objects[1].material);
+  EXPECT_EQ(phongAt(scene, 1).diffuse, Color(0, 0, 1));
+  EXPECT_EQ(meshOf(scene, 2).triangles.size(), 12u);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(std::get<PointLight>(scene.lights[1].light).position, (Vec3{0, 7, 0}));
+  std::string said;
+  for (const Message& message : messages.all()) said += message.what + "\n";
+  EXPECT_NE(said.find("with_parts.wrl is left out: it holds itself"), std::string::npos) << said;
+  EXPECT_NE(said.find("nowhere.wrl is left out: "), std::string::npos) << said;
 }
 
 }  // namespace

@@ -80,6 +80,26 @@ TEST(Obj, KeepsDentsOfPolygons) {
   EXPECT_NEAR(area, 0.6, 1e-6);
 }
 
+TEST(Obj, SaysWhereANumberIsNone) {
+  const auto error = [](const std::string& text) -> std::string {
+    try {
+      Messages messages;
+      readScene("test.obj", text, messages);
+    } catch (const Error& e) {
+      return toLine(e.messages().front());
+    }
+    return "";
+  };
+  EXPECT_EQ(error("v 0 0 0\nv 1 1x 0\n"), "2:5: expected a number, found \"1x\"");
+  EXPECT_EQ(error("v 0 0\n"), "1:1: expected 3 numbers after \"v\", found 2");
+  EXPECT_EQ(error("v 0 0 1e39 # too far\n"), "1:7: expected a number, found \"1e39\"");
+  EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3/\n"),
+            "4:7: expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"3/\"");
+  EXPECT_NE(warningsOfFile("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n")
+                .find("faces of fewer than 3 points are left out: 1"),
+            std::string::npos);
+}
+
 TEST(Obj, DoesWithoutItsMaterials) { EXPECT_EQ(read("obj/no_materials.obj", 1).objects.size(), 1u); }
 
 TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
@@ -106,6 +126,23 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0.8, 0.4, 0.1));
   EXPECT_TRUE(isBlack(phongOf(scene, 1).diffuse)) << "a metal";
   EXPECT_EQ(meshOf(scene, 1).materials.size(), 4u);
+}
+
+TEST(Gltf, SpotLightsHaveTheirCones) {
+  Messages messages;
+  const Scene scene = readScene("test.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+"scenes": [{"nodes": [0]}], "nodes": [{"rotation": [1, 0, 0, 0], "translation": [1, 2, 3],
+"extensions": {"KHR_lights_punctual": {"light": 0}}}], "extensionsUsed": ["KHR_lights_punctual"],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 3,
+"spot": {"innerConeAngle": 0.3, "outerConeAngle": 0.6}}]}}})",
+                                messages);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const auto& spot = std::get<SpotLight>(scene.lights[0].light);
+  EXPECT_EQ(spot.position, (Vec3{1, 2, 3}));
+  EXPECT_NEAR(length(spot.direction - Vec3{0, 0, 1}), 0, 1e-12) << "turned around";
+  EXPECT_NEAR(spot.angle, 0.6 * 180 / kPi, 1e-9);
+  EXPECT_NEAR(spot.fullAngle, 0.3 * 180 / kPi, 1e-9);
+  EXPECT_EQ(spot.quadratic, 1);
 }
 
 TEST(Gltf, BinaryAndTextAreTheSame) {
