@@ -83,9 +83,9 @@ int convert(const Arguments& arguments, const Console& console) {
     names += (names.empty() ? "" : " and ") + file.file;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  console.line(LogLevel::error, "wrote " + names + " (" + counted(scene.objects.size(), "object") + ", " +
-                                    counted(countTriangles(scene), "triangle") + ") in " +
-                                    durationText(seconds));
+  std::string held = counted(scene.objects.size(), "object");
+  if (const std::size_t triangles = countTriangles(scene)) held += ", " + counted(triangles, "triangle");
+  console.line(LogLevel::error, "wrote " + names + " (" + held + ") in " + durationText(seconds));
   return kDone;
 }
 

@@ -307,10 +307,10 @@ class TextWriter {
       open("poly");
       line("numVertices", std::to_string(count));
       for (const auto end = vertex + count; vertex != end; ++vertex) {
-        line("pos", vertex->position);
-        if (p.vertexNormals) line("norm", vertex->normal);
+        line("pos", Vec3f(vertex->position));
+        if (p.vertexNormals) line("norm", Vec3f(vertex->normal));
         if (p.vertexMaterials) line("materialIndex", std::to_string(vertex->material));
-        if (p.hasUv) line("s", vertex->uv.x), line("t", vertex->uv.y);
+        if (p.hasUv) line("s", static_cast<float>(vertex->uv.x)), line("t", static_cast<float>(vertex->uv.y));
       }
       close();
     }
@@ -319,20 +319,20 @@ class TextWriter {
   void indent() { text_.append(2 * static_cast<std::size_t>(depth_), ' '); }
   void open(const char* name) { indent(), ++depth_, text_ += std::string(name) + " {\n"; }
   void close() { --depth_, indent(), text_ += "}\n"; }
-  std::string number(Real value) const {
-    if (digits_ <= 0) return toText(value);
-    char text[40];
-    std::snprintf(text, sizeof text, "%.*g", digits_, value);
-    return text;
+  void number(Real value) { text_ += ' ', appendNumber(text_, value, digits_); }
+  /// Meshes are read as floats.
+  void number(float value) { text_ += ' ', appendNumber(text_, value, digits_); }
+  template <class... Numbers>
+  void line(const char* name, Numbers... numbers) {
+    indent(), text_ += name, (number(numbers), ...), text_ += '\n';
   }
   void line(const char* name, const std::string& value) {
-    indent(), text_ += std::string(name) + " " + value + "\n";
+    indent(), text_ += name, text_ += ' ', text_ += value, text_ += '\n';
   }
-  void line(const char* name, Real value) { line(name, number(value)); }
-  void line(const char* name, const Vec3& v) {
-    line(name, number(v.x) + " " + number(v.y) + " " + number(v.z));
-  }
-  void line(const char* name, const Color& c) { line(name, Vec3{c.r, c.g, c.b}); }
+  void line(const char* name, const char* value) { line(name, std::string(value)); }
+  void line(const char* name, const Vec3& v) { line(name, v.x, v.y, v.z); }
+  void line(const char* name, const Vec3f& v) { line(name, v.x, v.y, v.z); }
+  void line(const char* name, const Color& c) { line(name, c.r, c.g, c.b); }
 
   int digits_;
   std::string text_;

@@ -121,7 +121,7 @@ class Writer {
       warn("shapes other than spheres and meshes become triangles");
       add(o, *surface, object);
     } else {
-      return warn("a " + kind + " is left out");
+      return warn("left out, as it has no end: " + kind);
     }
     file_.objects.push_back(std::move(o));
   }

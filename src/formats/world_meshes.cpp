@@ -1,9 +1,11 @@
 #include "formats/world_meshes.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/match.h"
+#include "geometry/tessellation.h"
 
 namespace trace {
 namespace {
@@ -27,11 +29,15 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
 std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   const Place place{scene.file, 0, 0, {}};
   std::vector<WorldMesh> meshes;
+  bool sampled = false;
   std::map<std::string, std::size_t> leftOut;
   for (const Object& object : scene.objects) {
+    std::optional<MeshData> triangles;
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh && invertible(object.worldFromObject))
-      meshes.push_back({object.name, object.material, transformed(*mesh->data, object.worldFromObject)});
+    if (!mesh) triangles = tessellated(object.shape), sampled |= triangles.has_value();
+    if ((mesh || triangles) && invertible(object.worldFromObject))
+      meshes.push_back({object.name, object.material,
+                        transformed(mesh ? *mesh->data : *triangles, object.worldFromObject)});
     else
       ++leftOut[std::string(match(object.shape, [](const auto& shape) { return shape.kKeyword; }))];
   }
@@ -42,7 +48,8 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
     throw Error(Fault::scene, place,
                 "expected a scene with meshes, found " + (kinds.empty() ? "no object" : kinds),
                 "a .ray file holds every shape");
-  if (!kinds.empty()) messages.warn(place, "left out, as they are no meshes: " + kinds);
+  if (sampled) messages.warn(place, "shapes other than meshes become triangles");
+  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds);
   return meshes;
 }
 

@@ -1,8 +1,14 @@
 #include "geometry/tessellation.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/match.h"
+#include "base/unique.h"
+#include "geometry/csg_tree.h"
+#include "geometry/tessellate.h"
+#include "geometry/traced.h"
 
 namespace trace {
 namespace {
@@ -109,20 +115,47 @@ void add(Builder& builder, const Cylinder& shape, int) { builder.frustum(shape.f
 void add(Builder& builder, const Cone& shape, int) { builder.frustum(shape.frustum(), 0); }
 void add(Builder& builder, const Conic& shape, int) { builder.frustum(shape.frustum(), shape.low()); }
 
+/// The triangles of any shape with equal corners joined; those of a solid face outward.
+MeshData joined(const std::vector<SurfaceCorner>& corners, bool solid) {
+  using Key = std::array<float, 6>;
+  Unique<Key> numbers;
+  MeshData mesh;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    Triangle triangle;
+    Vec3 normal;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f p(corners[i + k].point), n(corners[i + k].normal);
+      triangle[k] = numbers.number({p.x, p.y, p.z, n.x, n.y, n.z});
+      if (triangle[k] == mesh.points.size()) mesh.points.push_back(p), mesh.normals.push_back(n);
+      normal += corners[i + k].normal;
+    }
+    mesh.triangles.push_back(triangle);
+    const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(mesh.triangles.size() - 1));
+    if (face == Vec3{})
+      mesh.triangles.pop_back();
+    else if (solid && dot(face, normal) < 0)
+      std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 std::optional<MeshData> tessellated(const Shape& shape, int steps) {
+  const auto [box, solid] = match(prepare(shape), [](const auto& form) {
+    if constexpr (Traceable<std::decay_t<decltype(formOf(form))>>)
+      return std::pair{formOf(form).bounds(), formOf(form).solid()};
+    return std::pair{Box3{}, false};  // a mesh
+  });
+  if (box.empty() || !isFinite(box.size())) return {};
   Builder builder(steps);
   const bool known = match(shape, [&](const auto& s) {
     if constexpr (requires { add(builder, s, steps); }) return add(builder, s, steps), true;
     return false;
   });
-  if (!known) return {};
-  MeshData mesh = builder.finish();
-  mesh.twoSided = !match(shape, [](const auto& s) {
-    if constexpr (requires { s.solid(); }) return s.solid();
-    return true;
-  });
+  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps), solid);
+  if (mesh.triangles.empty()) return {};
+  mesh.twoSided = !solid;
   return mesh;
 }
 

@@ -1,5 +1,5 @@
-// Meshes close to analytic shapes, for formats that have no such shapes: exact at their points, with the
-// shape's own normals. (tessellate.h is for looking at any shape.)
+// Meshes close to analytic shapes, for formats that have no such shapes. Those of the courses exactly, point by
+// point, with the shape's own normals; any other out of its crossings, as tessellate.h draws it.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace trace {
 
-/// In the shape's own space, with normals, curved sides in that many steps around. Nothing for shapes that
-/// are meshes, have no end, or are not known here.
+/// In the shape's own space, with normals, in that many steps around or along its longest side. Nothing for a
+/// shape that is a mesh, or has no end, or nothing to see.
 std::optional<MeshData> tessellated(const Shape& shape, int steps = 64);
 
 }  // namespace trace

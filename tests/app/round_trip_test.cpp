@@ -30,14 +30,18 @@ void expectSamePicture(const std::string& file) {
   EXPECT_EQ(small(back), small(scene)) << file;
 }
 
+constexpr const char* kSuffixes[] = {".ray", ".out", ".ascii", ".scene", ".iv", ".wrl"};
+
 TEST(RoundTrip, ExamplesLookTheSame) {
-  for (const std::string& file : test::filesUnder(TRACE_SOURCE "/scenes", ".ray")) expectSamePicture(file);
+  for (const char* suffix : kSuffixes)
+    for (const std::string& file : test::filesUnder(TRACE_SOURCE "/scenes", suffix)) expectSamePicture(file);
 }
 
 TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
   TRACE_NEEDS_SHARED("scenes/uw");
-  for (const std::string& file : test::filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray"))
-    expectSamePicture(file);
+  for (const char* suffix : kSuffixes)
+    for (const std::string& file : test::filesUnder(std::string(TRACE_SHARED) + "/scenes", suffix))
+      expectSamePicture(file);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace trace {
 namespace {
 
 const std::string kScene = R"(SBT-raytracer 1.0
-sphere { }
+plane { }
 material = { diffuse = (1, 0, 0); }
 translate(1, 0, 0, scale(-2, 1, 1, mesh { name = part; points = ((0,0,0), (1,0,0), (0,1,0.1)); faces = ((0, 1, 2));
   normals = ((0,0,1), (0,0,1), (0.6,0,0.8)); texture_uv = ((0,0), (1,0), (0,0.25)); }))
@@ -54,12 +54,18 @@ TEST(MeshWriters, PlyHasColoursOfSeveralMaterials) {
   EXPECT_TRUE(mesh.uvs.empty()) << "not all meshes have them";
 }
 
-TEST(MeshWriters, WarnOfShapesThatAreNoMeshes) {
+TEST(MeshWriters, OtherShapesBecomeTrianglesUnlessTheyHaveNoEnd) {
   Messages messages;
-  writeObj(scene(kScene), "out.obj", {}, messages);
-  ASSERT_EQ(messages.all().size(), 1u);
-  EXPECT_EQ(messages.all()[0].what, "left out, as they are no meshes: 1 sphere");
-  EXPECT_THROW(writePly(scene("SBT-raytracer 1.0 sphere { }"), "out.ply", {}, messages), Error);
+  const auto files =
+      writeObj(scene("SBT-raytracer 1.0 sphere { } difference { cube { } sphere { } } plane { }"), "out.obj",
+               {}, messages);
+  ASSERT_EQ(messages.all().size(), 2u);
+  EXPECT_EQ(messages.all()[0].what, "shapes other than meshes become triangles");
+  EXPECT_EQ(messages.all()[1].what, "left out, as they cannot become triangles: 1 plane");
+  const Scene back = readScene("out.obj", files.at(0).bytes, messages);
+  ASSERT_EQ(back.objects.size(), 1u) << "of the same material, without names";
+  EXPECT_GT(meshOf(back, 0).triangles.size(), 1000u);
+  EXPECT_THROW(writePly(scene("SBT-raytracer 1.0 plane { }"), "out.ply", {}, messages), Error);
 }
 
 TEST(MeshWriters, ObjKeepsObjectsAndMaterials) {

@@ -20,14 +20,16 @@ TEST(Tessellation, EnclosesTheVolumeOfTheSolid) {
   EXPECT_NEAR(volumeOf(*tessellated(Cube{})), 1, 1e-7);
   EXPECT_NEAR(volumeOf(*tessellated(Cylinder{}, 256)), kPi, 1e-3);
   EXPECT_NEAR(volumeOf(*tessellated(Cone{}, 256)), kPi / 3, 1e-3);
+  EXPECT_NEAR(volumeOf(*tessellated(Torus{})), 2 * kPi * kPi / 16, 0.02) << "out of crossings";
   EXPECT_NEAR(volumeOf(*tessellated(Conic{.bottomRadius = 1, .topRadius = 1, .zMin = 3, .zMax = 1}, 256)),
               2 * kPi, 2e-3);
 }
 
 TEST(Tessellation, PointsAndNormalsAreThoseOfTheSurface) {
-  for (const Shape& shape : analyticShapes()) {
+  for (const Shape& shape :
+       {Shape(Sphere{}), Shape(Cube{}), Shape(Square{}), Shape(Cylinder{}), Shape(Cone{}), Shape(Conic{})}) {
     const auto mesh = tessellated(shape);
-    if (!mesh) continue;
+    ASSERT_TRUE(mesh);
     SCOPED_TRACE(nameOf(shape));
     const TracedShape traced = prepare(shape);
     EXPECT_EQ(mesh->twoSided, !isSolid(traced));
@@ -44,6 +46,16 @@ TEST(Tessellation, PointsAndNormalsAreThoseOfTheSurface) {
             << "at a rim the ray may pass by";
       }
     }
+  }
+}
+
+TEST(Tessellation, AllShapesWithAnEndBecomeTriangles) {
+  for (const Shape& shape : analyticShapes()) {
+    SCOPED_TRACE(nameOf(shape));
+    const TracedShape traced = prepare(shape);
+    const auto mesh = tessellated(shape, 24);
+    EXPECT_EQ(mesh.has_value(), isFinite(boundsOf(traced).size()));
+    if (mesh && isSolid(traced)) EXPECT_GT(volumeOf(*mesh), 0) << "it faces outward";
   }
 }
 
