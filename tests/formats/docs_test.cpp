@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/match.h"
+#include "formats/format.h"
 #include "scene/conventions.h"
 #include "scene/scene.h"
 
@@ -37,6 +38,16 @@ TEST(Docs, TableOfConventionsIsThatOfTheProgram) {
       for (const auto& [other, given] : convention.values)
         if (other == option) row += " " + std::string(given) + " |";
     EXPECT_NE(text.find(row), std::string::npos) << row;
+  }
+}
+
+TEST(Docs, TableOfFormatsIsThatOfTheProgram) {
+  const std::string text = page("formats.md");
+  for (const SceneFormat& format : sceneFormats()) {
+    std::string row = "| `" + std::string(format.name) + "` | ";
+    for (std::string_view suffix : format.suffixes)
+      row += (suffix == format.suffixes.front() ? "" : ", ") + std::string(suffix);
+    EXPECT_NE(text.find(row + " |"), std::string::npos) << row;
   }
 }
 
