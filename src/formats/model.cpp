@@ -61,6 +61,14 @@ void MeshRepairs::report(const Place& place, Messages& messages) const {
   if (triangles_ == 0) messages.warn(place, "the file has no triangle that can be seen");
 }
 
+void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& messages) {
+  MeshRepairs repairs;
+  repairs.check(mesh, place);
+  repairs.report(place, messages);
+  model.objects.push_back(
+      {"", Mesh{std::make_shared<const MeshData>(std::move(mesh))}, {}, Model::kNoMaterial, place});
+}
+
 std::vector<Object> placed(const Model& model, const Material& base,
                            const std::function<std::uint32_t(const Material&)>& index) {
   // Numbers of the materials that are used, and of `base` behind them.

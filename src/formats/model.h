@@ -41,6 +41,9 @@ class MeshRepairs {
   std::size_t notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0, triangles_ = 0;
 };
 
+/// Adds the mesh of a file that holds just one, repaired with warnings. Throws as MeshRepairs::check().
+void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& messages);
+
 /// The model's objects as a scene has them. `base` is the material of those without one; `index` gives a
 /// material's number in the scene. Meshes are shared with the model unless their points are coloured.
 std::vector<Object> placed(const Model& model, const Material& base,

@@ -42,14 +42,7 @@ class OffReader {
     if (unusable_ > 0)
       messages_.warn(Place{file_, 0, 0, {}},
                      "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
-    MeshRepairs repairs;
-    repairs.check(mesh_, Place{file_, 0, 0, {}});
-    repairs.report(Place{file_, 0, 0, {}}, messages_);
-    model_.objects.push_back({"",
-                              Mesh{std::make_shared<const MeshData>(std::move(mesh_))},
-                              {},
-                              Model::kNoMaterial,
-                              Place{file_, 0, 0, {}}});
+    addOnlyMesh(model_, std::move(mesh_), Place{file_, 0, 0, {}}, messages_);
     return std::move(model_);
   }
 

@@ -33,14 +33,7 @@ class PlyReader {
     if (!hasVertices_) fail("expected an element \"vertex\"");
     if (!hasFaces_)
       fail("expected an element \"face\" or \"tristrips\": this file holds points, and no surface");
-    MeshRepairs repairs;
-    repairs.check(mesh_, Place{file_, 0, 0, {}});
-    repairs.report(Place{file_, 0, 0, {}}, messages_);
-    model_.objects.push_back({"",
-                              Mesh{std::make_shared<const MeshData>(std::move(mesh_))},
-                              {},
-                              Model::kNoMaterial,
-                              Place{file_, 0, 0, {}}});
+    addOnlyMesh(model_, std::move(mesh_), Place{file_, 0, 0, {}}, messages_);
     return std::move(model_);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh_helpers.h"
+#include "support/shapes.h"
 
 namespace trace {
 namespace {
@@ -209,22 +210,15 @@ TEST(Inventor, ElevationGridsLookUp) {
             0u);
 }
 
-/// A closed mesh whose faces look outward encloses its volume (divergence theorem).
-double volumeOf(const MeshData& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    sum += dot(Vec3(mesh.points[t[0]]), cross(Vec3(mesh.points[t[1]]), Vec3(mesh.points[t[2]]))) / 6;
-  return sum;
-}
-
 TEST(Inventor, ExtrusionsAreClosedAndLookOutward) {
-  EXPECT_NEAR(volumeOf(meshOf(sceneIn(shape("Extrusion { }")))), 4, 1e-6) << "2 x 1 x 2";
-  EXPECT_NEAR(volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 0 0 0, 0 3 0 ] scale [ 1 1, 0.5 0.5 ] }")))),
-              3 * (4 + 1 + 2) / 3.0, 1e-5)
+  EXPECT_NEAR(test::volumeOf(meshOf(sceneIn(shape("Extrusion { }")))), 4, 1e-6) << "2 x 1 x 2";
+  EXPECT_NEAR(
+      test::volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 0 0 0, 0 3 0 ] scale [ 1 1, 0.5 0.5 ] }")))),
+      3 * (4 + 1 + 2) / 3.0, 1e-5)
       << "a frustum";
-  EXPECT_NEAR(volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 0 0 0, 2 0 0 ] }")))), 8, 1e-5);
-  EXPECT_NEAR(volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 5 0 0, 0 0 -5, -5 0 0, 0 0 5, 5 0 0 ] "
-                                            "crossSection [ 1 1, 1 -1, -1 -1, -1 1, 1 1 ] }")))),
+  EXPECT_NEAR(test::volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 0 0 0, 2 0 0 ] }")))), 8, 1e-5);
+  EXPECT_NEAR(test::volumeOf(meshOf(sceneIn(shape("Extrusion { spine [ 5 0 0, 0 0 -5, -5 0 0, 0 0 5, 5 0 0 ] "
+                                                  "crossSection [ 1 1, 1 -1, -1 -1, -1 1, 1 1 ] }")))),
               80, 1e-4)
       << "a square ring, whose sections stand aslant: four bars of 2 by sqrt(2) by 5 sqrt(2)";
 }

@@ -12,20 +12,6 @@ Operand at(const Shape& shape, const Affine& place = {}, std::uint32_t material 
 }
 Affine move(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
 
-/// Sum of the lengths inside, over parallel rays on a grid of the box.
-double volume(const Shape& plain, const Box3& box, int n) {
-  const TracedShape shape = prepare(plain);
-  const Vec3 size = box.size();
-  double sum = 0;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const Ray ray{{box.low.x - 1, box.low.y + size.y * (i + 0.5) / n, box.low.z + size.z * (j + 0.5) / n},
-                    {1, 0, 0}};
-      const auto c = crossingsOf(shape, ray);
-      for (size_t k = 0; k + 1 < c.size(); k += 2) sum += c[k + 1].t - c[k].t;
-    }
-  return sum * size.y * size.z / n / n;
-}
 const Box3 kUnit{{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}};
 
 /// The cylinder of radius 1 from -2 to 2, along an axis.

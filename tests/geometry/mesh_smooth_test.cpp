@@ -19,15 +19,6 @@ MeshData cube() {
   return mesh;
 }
 
-double volume(const MeshData& mesh) {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Corners v = corners(mesh, i);
-    sum += dot(v.a, cross(v.b, v.c)) / 6;
-  }
-  return sum;
-}
-
 TEST(MeshSmooth, CreasesOfACube) {
   const MeshData sharp = withCreaseNormals(cube(), 0.5);
   EXPECT_EQ(sharp.points.size(), 24u) << "three at each corner";
@@ -58,9 +49,9 @@ TEST(MeshSmooth, SubdivisionOfAClosedMesh) {
   EXPECT_EQ(once.points.size(), 8u + 18u);
   EXPECT_EQ(once.triangles.size(), 48u);
   EXPECT_EQ(thrice.triangles.size(), 12u * 64);
-  EXPECT_LT(volume(thrice), volume(once));
-  EXPECT_GT(volume(thrice), 2);
-  EXPECT_LT(volume(thrice), 8);
+  EXPECT_LT(test::volumeOf(thrice), test::volumeOf(once));
+  EXPECT_GT(test::volumeOf(thrice), 2);
+  EXPECT_LT(test::volumeOf(thrice), 8);
 }
 
 TEST(MeshSmooth, SubdivisionKeepsAPlaneAndItsCorners) {

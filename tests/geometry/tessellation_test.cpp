@@ -8,13 +8,6 @@
 namespace trace::test {
 namespace {
 
-double volumeOf(const MeshData& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    sum += dot(Vec3(mesh.points[t[0]]), cross(Vec3(mesh.points[t[1]]), Vec3(mesh.points[t[2]]))) / 6;
-  return sum;
-}
-
 TEST(Tessellation, EnclosesTheVolumeOfTheSolid) {
   EXPECT_NEAR(volumeOf(*tessellated(Sphere{}, 256)), 4.18879, 2e-3);
   EXPECT_NEAR(volumeOf(*tessellated(Cube{})), 1, 1e-7);

@@ -364,13 +364,19 @@ TEST(Whitted, AmbientSheetsOfGlassSeenInARow) {
 
 // --- reflection ----------------------------------------------------------------------------------------
 
-TEST(Whitted, ParallelMirrorsCountTheDepth) {
-  // Two facing mirrors of weight 1/2 that glow with 1: depth k sums 1 + 1/2 + ... + 1/2^k.
+/// Two mirrors of weight 1/2 that glow with 1.
+Scene facingMirrors() {
   Scene scene;
   Phong mirror;
   mirror.emissive = Color(1), mirror.reflective = Color(0.5);
   addObject(scene, Square{}, {}, mirror);
   addObject(scene, Square{}, at(0, 0, 20), mirror);
+  return scene;
+}
+
+TEST(Whitted, ParallelMirrorsCountTheDepth) {
+  // Depth k sums 1 + 1/2 + ... + 1/2^k.
+  const Scene scene = facingMirrors();
   Real expected = 0;
   for (int depth = 0; depth <= 8; ++depth) {
     expected += std::pow(0.5, depth);
@@ -381,11 +387,7 @@ TEST(Whitted, ParallelMirrorsCountTheDepth) {
 }
 
 TEST(Whitted, ThresholdStopsRaysThatAddLittle) {
-  Scene scene;
-  Phong mirror;
-  mirror.emissive = Color(1), mirror.reflective = Color(0.5);
-  addObject(scene, Square{}, {}, mirror);
-  addObject(scene, Square{}, at(0, 0, 20), mirror);
+  const Scene scene = facingMirrors();
   EXPECT_NEAR(trace(scene, kDown, {.depth = 50, .threshold = 0.2}).r, 1.75,
               1e-15);  // 1 + 1/2 + 1/4, 1/8 is less
   EXPECT_NEAR(trace(scene, kDown, {.depth = 50}).r, 2, 1e-12);

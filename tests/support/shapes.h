@@ -166,6 +166,29 @@ inline bool isSolid(const TracedShape& shape) {
       shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return formOf(s).solid(); }});
 }
 
+/// Of the part of a solid in the box: the sum of the lengths inside, over n x n parallel rays.
+inline double volume(const Shape& plain, const Box3& box, int n) {
+  const TracedShape shape = prepare(plain);
+  const Vec3 size = box.size();
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Ray ray{{box.low.x - 1, box.low.y + size.y * (i + 0.5) / n, box.low.z + size.z * (j + 0.5) / n},
+                    {1, 0, 0}};
+      const std::vector<Crossing> c = crossingsOf(shape, ray);
+      for (std::size_t k = 0; k + 1 < c.size(); k += 2) sum += c[k + 1].t - c[k].t;
+    }
+  return sum * size.y * size.z / n / n;
+}
+
+/// What a closed mesh whose faces look outward encloses, by the divergence theorem.
+inline double volumeOf(const MeshData& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    sum += dot(Vec3(mesh.points[t[0]]), cross(Vec3(mesh.points[t[1]]), Vec3(mesh.points[t[2]]))) / 6;
+  return sum;
+}
+
 /// Shapes that have to be worked out first, for single rays.
 template <class S>
 requires requires(const S s) { s.prepared(); }
