@@ -38,8 +38,9 @@ class Session {
   const Messages& messages() const { return messages_; }  ///< warnings of reading and building
   Size size() const { return pictureSize(settings_, scene_.camera); }
 
-  /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do.
-  void build();
+  /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do. What has
+  /// not changed since a session built before is shared with it.
+  void build(const Session* before = nullptr);
   const World& world() const { return *world_; }
 
   /// Renders; blocks. Others may watch and stop it through job() and picture().
