@@ -49,8 +49,8 @@ class Session {
 
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
   /// while render() runs. Throws Error(Fault::usage) outside the picture.
-  Explanation explain(int x, int y, int sample) const {
-    return trace::explain(*world_, settings_, size(), x, y, sample);
+  Explanation explain(int x, int y, int sample, const std::function<bool()>& cancelled = {}) const {
+    return trace::explain(*world_, settings_, size(), x, y, sample, cancelled);
   }
 
   /// What is rendered so far. May be asked from other threads while render() runs.
