@@ -1,5 +1,6 @@
 #include "studio/script.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -77,6 +78,17 @@ constexpr std::array kTable{
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
             [](Studio& s, const std::vector<std::string>& a) {
               s.picture.hasPixel = true, s.picture.pixelX = whole(a[0]), s.picture.pixelY = whole(a[1]);
+              return true;
+            }},
+    Command{"select", "KIND NUMBER", 2, 2,
+            "in the panel Scene: camera, object, light or material, counted from 0",
+            [](Studio& s, const std::vector<std::string>& a) {
+              const auto kind =
+                  std::find(std::begin(Studio::kSelectedNames), std::end(Studio::kSelectedNames), a[0]);
+              if (kind == std::end(Studio::kSelectedNames))
+                throw Error(Fault::usage, "expected camera, object, light or material, found " + a[0]);
+              s.selected = static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames));
+              s.selectedIndex = static_cast<std::size_t>(std::max(0, whole(a[1])));
               return true;
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",
