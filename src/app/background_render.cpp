@@ -148,7 +148,8 @@ void BackgroundRender::work() {
 void BackgroundRender::run(const Request& request) {
   const auto session = std::make_shared<Session>();
   session->open(*request.scene, request.settings);
-  session->build();
+  session->build(built_.get());
+  built_ = session;
   const auto isCurrent = [&] { return state_.number == request.number && state_.working(); };
   {
     const std::lock_guard lock(mutex_);

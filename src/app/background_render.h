@@ -2,7 +2,7 @@
 //
 // start() takes values and returns at once. A thread of its own builds the World, makes a few small pictures
 // that are enlarged until the tiles of the real one cover them, and renders that: the same bits as
-// everywhere. A new start() stops what runs and takes its place.
+// everywhere. A new start() stops what runs and takes its place; of the World it makes only what has changed.
 #pragma once
 
 #include <chrono>
@@ -71,7 +71,8 @@ class BackgroundRender {
   std::condition_variable wake_;
   std::optional<Request> request_;  // waiting
   bool quit_ = false;
-  std::shared_ptr<Session> session_;  // whose film is seen
+  std::shared_ptr<Session> session_;      // whose film is seen
+  std::shared_ptr<const Session> built_;  // the last with a World; the thread's own
   Job coarseJob_;
   Picture coarse_;  // enlarged; empty when there is none of session_
   std::uint64_t coarseVersion_ = 0;

@@ -177,7 +177,8 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   Settings sideSettings = settings;
   sideSettings.cameraAxes = CameraAxes::orthonormal;
   Messages ignored;  // said before, of the same scene
-  const World sideWorld = compile(sideScene, sideSettings, ignored);
+  const Compiled here{scene, settings, world};
+  const World sideWorld = compile(sideScene, sideSettings, ignored, &here);
 
   const auto panel = [&](const World& w, const Settings& s, double x, const std::string& title) {
     drawing.things.push_back(DrawnWords{{x, top - kLine}, title, kInk});

@@ -8,8 +8,7 @@
 
 namespace trace {
 
-/// `world` was compiled from the scene with the settings. Renders two small pictures of depth 2; compiles the
-/// scene once more for the view from the side.
+/// `world` was compiled from the scene with the settings. Renders two small pictures of depth 2.
 Drawing drawRays(const Scene& scene, const Settings& settings, const World& world, const RayTree& tree);
 
 }  // namespace trace

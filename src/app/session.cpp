@@ -72,7 +72,7 @@ void Session::open(Scene scene, const Settings& settings) {
   fingerprint_.clear();
 }
 
-void Session::build() {
+void Session::build(const Session* before) {
   const Stopwatch watch;
   const Size picture = size();
   const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) *
@@ -86,7 +86,12 @@ void Session::build() {
                     std::to_string(allowed >> 20),
                 "choose a smaller --width" +
                     std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
-  world_.emplace(compile(scene_, settings_, messages_));
+  if (before) {
+    const Compiled earlier{before->scene_, before->settings_, *before->world_};
+    world_.emplace(compile(scene_, settings_, messages_, &earlier));
+  } else {
+    world_.emplace(compile(scene_, settings_, messages_));
+  }
   messages_.throwIfFailed(strict_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));

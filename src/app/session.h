@@ -38,8 +38,9 @@ class Session {
   const Messages& messages() const { return messages_; }  ///< warnings of reading and building
   Size size() const { return pictureSize(settings_, scene_.camera); }
 
-  /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do.
-  void build();
+  /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do. What has
+  /// not changed since a session built before is shared with it.
+  void build(const Session* before = nullptr);
   const World& world() const { return *world_; }
 
   /// Renders; blocks. Others may watch and stop it through job() and picture().
@@ -48,8 +49,8 @@ class Session {
 
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
   /// while render() runs. Throws Error(Fault::usage) outside the picture.
-  Explanation explain(int x, int y, int sample) const {
-    return trace::explain(*world_, settings_, size(), x, y, sample);
+  Explanation explain(int x, int y, int sample, const std::function<bool()>& cancelled = {}) const {
+    return trace::explain(*world_, settings_, size(), x, y, sample, cancelled);
   }
 
   /// What is rendered so far. May be asked from other threads while render() runs.

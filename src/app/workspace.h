@@ -9,6 +9,7 @@
 
 #include "app/background_render.h"
 #include "app/document.h"
+#include "app/pixel_inspector.h"
 #include "app/remaining_time.h"
 
 namespace trace {
@@ -22,6 +23,7 @@ class Workspace {
 
   Document document;
   BackgroundRender render;
+  PixelInspector inspector;
   bool automatic = true;  ///< the picture follows every change
 
   /// Renders the document as it is now.

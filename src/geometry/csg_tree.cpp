@@ -75,7 +75,12 @@ CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands) :
   std::vector<Box3> boxes;
   std::int64_t mostParts = 1;
   for (const Operand& operand : operands) {
+    if (!invertible(operand.wholeFromOperand))
+      throw Error(Fault::scene, "an object of a solid is squeezed flat by its transform");
     operands_.emplace_back(operand.shape, operand.wholeFromOperand);
+    if (!operands_.back().solid() && (operation != CsgOperation::clip || operands_.size() > 1))
+      throw Error(Fault::scene, "an object of a solid is open: it encloses nothing",
+                  "an open object can only be the first in a clip { }");
     materials_.push_back(operand.material);
     boxes.push_back(operands_.back().bounds());
     mostParts = std::max(mostParts, operands_.back().partCount());

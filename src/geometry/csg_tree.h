@@ -24,7 +24,7 @@ namespace trace {
 struct Operand {
   std::string name;  ///< as in the file; may be empty
   Shape shape;
-  Affine wholeFromOperand;     ///< precondition: can be undone
+  Affine wholeFromOperand;     ///< which can be undone
   std::uint32_t material = 0;  ///< index into Scene::materials
   bool operator==(const Operand&) const = default;
 };
@@ -33,7 +33,8 @@ enum class CsgOperation { unite, intersect, subtract, clip };
 
 class CsgTree {
  public:
-  /// Throws Error if solids of solids are nested too deeply for their parts to be numbered.
+  /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of solids
+  /// are nested too deeply for their parts to be numbered.
   CsgTree(CsgOperation operation, const std::vector<Operand>& operands);
 
   bool solid() const { return operation_ != CsgOperation::clip; }

@@ -14,8 +14,8 @@ void require(bool good, const std::string& what, int most, const std::string& fo
 
 }  // namespace
 
-Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y,
-                    int sample) {
+Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample,
+                    const std::function<bool()>& cancelled) {
   require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
   require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
   Explanation result;
@@ -24,11 +24,13 @@ Explanation explain(const World& world, const Settings& settings, const Size& si
   result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
   PixelTracer(world, settings, size, &result.tree).sample(x, y, sample);
 
-  result.pixel = plain.pixel(x, y, [](int, int, int) {});
-  for (int k = 0; k < plain.samples(); ++k) result.samples.push_back(plain.sample(x, y, k));
-  const auto good = std::count_if(result.samples.begin(), result.samples.end(),
-                                  [](const Color& color) { return isFinite(color); });
-  weigh(result.tree, good > 0 ? 1.0 / static_cast<Real>(good) : 1);
+  PixelMean mean;
+  for (int k = 0; k < plain.samples() && !(cancelled && cancelled()); ++k) {
+    result.samples.push_back(plain.sample(x, y, k));
+    mean.add(result.samples.back());
+  }
+  result.pixel = mean.color();
+  weigh(result.tree, 1.0 / std::max(mean.count(), 1));
   return result;
 }
 

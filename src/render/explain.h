@@ -1,6 +1,7 @@
 // One pixel again, with a record of every ray: why it has its colour.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "render/ray_tree.h"
@@ -18,7 +19,9 @@ struct Explanation {
 
 /// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
 /// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, Error(Fault::limit) for
-/// one with more than kMostRecordedRays rays.
-Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample);
+/// one with more than kMostRecordedRays rays. `cancelled`, if any, is asked after every sample; once it is
+/// true what has been found so far is returned.
+Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample,
+                    const std::function<bool()>& cancelled = {});
 
 }  // namespace trace

@@ -11,7 +11,7 @@ namespace trace {
 struct Hit {
   Real t = 0;
   std::uint32_t object = 0;  ///< index into Scene::objects
-  std::uint32_t part = 0;    ///< of the object: the crossing's part; of a mesh: the triangle
+  std::uint64_t part = 0;    ///< of the object: the crossing's part; of a mesh: the triangle
   SurfacePoint surface;
   Phong material;
   bool leaving = false;                   ///< the ray comes from inside: it runs along the true normal

@@ -10,6 +10,23 @@
 
 namespace trace {
 
+/// Of a pixel's finite samples, in their order; black if there is none.
+class PixelMean {
+ public:
+  /// False if the sample is not finite and does not count.
+  bool add(const Color& sample) {
+    if (!isFinite(sample)) return false;
+    sum_ += sample, ++count_;
+    return true;
+  }
+  int count() const { return count_; }
+  Color color() const { return count_ > 0 ? sum_ / count_ : Color(0); }
+
+ private:
+  Color sum_;
+  int count_ = 0;
+};
+
 /// Takes a picture's samples, one at a time, by one worker.
 class PixelTracer {
  public:
@@ -20,7 +37,7 @@ class PixelTracer {
   int samples() const { return grid_ * grid_; }
   /// What the camera ray of sample 0 <= k < samples() brings; may be NaN or infinite. Row y = 0 is the top.
   Color sample(int x, int y, int k);
-  /// The mean of the pixel's finite samples; black if there is none. badSample(x, y, k) hears of the others.
+  /// The PixelMean of the pixel. badSample(x, y, k) hears of samples that do not count.
   template <class BadSample>
   Color pixel(int x, int y, BadSample&& badSample);
 
@@ -44,16 +61,10 @@ class PixelTracer {
 
 template <class BadSample>
 Color PixelTracer::pixel(int x, int y, BadSample&& badSample) {
-  Color sum;
-  int good = 0;
-  for (int k = 0; k < samples(); ++k) {
-    const Color color = sample(x, y, k);
-    if (isFinite(color))
-      sum += color, ++good;
-    else
-      badSample(x, y, k);
-  }
-  return good > 0 ? sum / good : Color(0);
+  PixelMean mean;
+  for (int k = 0; k < samples(); ++k)
+    if (!mean.add(sample(x, y, k))) badSample(x, y, k);
+  return mean.color();
 }
 
 }  // namespace trace

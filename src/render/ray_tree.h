@@ -83,7 +83,8 @@ struct Term {
 
 /// A surface that a shadow ray went through.
 struct Filter {
-  std::uint32_t object = 0, part = 0;
+  std::uint32_t object = 0;
+  std::uint64_t part = 0;
   Real t = 0;
   Color factor;  ///< by which it multiplied the light
 };

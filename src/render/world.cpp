@@ -1,5 +1,6 @@
 #include "render/world.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -33,7 +34,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
     return false;
   };
   for (std::uint32_t object : unbounded_) visitObject(object);
-  bvh_.query(worldRay.origin, worldRay.direction, best->t, true, statistics.nodes, visitObject);
+  bvh_->query(worldRay.origin, worldRay.direction, best->t, true, statistics.nodes, visitObject);
   if (best->t == kInfinity) best.reset();
   return best;
 }
@@ -81,7 +82,7 @@ std::size_t World::triangleCount() const {
 }
 
 std::size_t World::bytes() const {
-  std::size_t sum = bvh_.bytes();
+  std::size_t sum = bvh_->bytes();
   std::set<const MeshTree*> counted;
   for (const Instance& instance : objects_)
     if (instance.mesh && counted.insert(instance.mesh.get()).second) sum += instance.mesh->bytes();
@@ -102,11 +103,58 @@ Phong bake(const Material& material, const Settings& settings) {
   return phong;
 }
 
-Bvh hierarchy(std::span<const Box3> boxes, Accel accel) {
-  return accel == Accel::none ? Bvh::bruteForce(boxes) : Bvh(boxes);
+std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, Accel accel) {
+  return std::make_shared<const Bvh>(accel == Accel::none ? Bvh::bruteForce(boxes) : Bvh(boxes));
 }
 
 }  // namespace
+
+/// What a World takes over from the one before: an edit in the studio changes little of a scene.
+class World::Earlier {
+ public:
+  Earlier(const Compiled* before, const Scene& scene, const Settings& settings)
+      : before_(before), scene_(scene) {
+    if (!before) return;
+    sameAccel_ = (before->settings.accel == Accel::none) == (settings.accel == Accel::none);
+    sameNormals_ = before->settings.vertexNormals == settings.vertexNormals;
+    for (std::size_t i = 0; i < before->scene.objects.size(); ++i)
+      if (const auto* mesh = std::get_if<Mesh>(&before->scene.objects[i].shape))
+        if (const auto& tree = before->world.objects_[i].mesh) trees_[mesh->data.get()] = tree;
+  }
+
+  /// Its object with the same shape as object i has now: the one at the same place in the list, or where that
+  /// was before others were deleted or added. Null if there is none.
+  const Instance* sameShape(std::uint32_t i) const {
+    if (!before_) return nullptr;
+    const std::vector<Object>& old = before_->scene.objects;
+    for (const std::size_t j : {std::size_t{i}, i + old.size() - scene_.objects.size()})
+      if (j < old.size() && old[j].shape == scene_.objects[i].shape) return &before_->world.objects_[j];
+    return nullptr;
+  }
+
+  /// The hierarchy of the mesh, which is that of `same` if that is not null; null if it has to be made.
+  std::shared_ptr<const MeshTree> tree(const Instance* same, const MeshData& data) const {
+    if (!sameAccel_ || (data.generateNormals && !sameNormals_)) return nullptr;
+    if (same && same->mesh) return same->mesh;
+    const auto found = trees_.find(&data);
+    return found == trees_.end() ? nullptr : found->second;
+  }
+
+  /// The hierarchy over objects with these bounds; null if it has to be made.
+  std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes) const {
+    if (!before_ || !sameAccel_) return nullptr;
+    const std::vector<Instance>& old = before_->world.objects_;
+    const bool same = std::equal(old.begin(), old.end(), boxes.begin(), boxes.end(),
+                                 [](const Instance& a, const Box3& box) { return a.bounds == box; });
+    return same ? before_->world.bvh_ : nullptr;
+  }
+
+ private:
+  const Compiled* before_;
+  const Scene& scene_;
+  bool sameAccel_ = false, sameNormals_ = false;
+  std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees_;
+};
 
 /// The ball of the mean radius in place of an ellipsoid.
 Affine rounded(const Affine& m) {
@@ -115,8 +163,9 @@ Affine rounded(const Affine& m) {
   return Affine::translation(m.offset) * Affine::scaling({radius, radius, radius});
 }
 
-World compile(const Scene& scene, const Settings& settings, Messages& messages) {
+World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
+  const World::Earlier earlier(before, scene, settings);
   for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
@@ -144,8 +193,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
     World::Instance instance;
+    const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
     try {
-      instance.shape = prepare(object.shape);
+      instance.shape = same ? same->shape : prepare(object.shape);
     } catch (const Error& error) {
       throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
     }
@@ -171,6 +221,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
     match(instance.shape,
           Overloaded{[&](Mesh& mesh) {
                        auto& tree = trees[mesh.data.get()];
+                       if (!tree) tree = earlier.tree(same, *mesh.data);
                        if (!tree) {
                          auto data = mesh.data;
                          if (data->generateNormals)
@@ -202,7 +253,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages) 
     world.bounds_.extend(instance.bounds);
     world.objects_.push_back(std::move(instance));
   }
-  world.bvh_ = hierarchy(boxes, settings.accel);
+  world.bvh_ = earlier.hierarchy(boxes);
+  if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings.accel);
   return world;
 }
 

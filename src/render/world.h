@@ -45,6 +45,8 @@ inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHi
   return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
 
+struct Compiled;
+
 class World {
  public:
   /// The nearest crossing at t > 0.
@@ -77,12 +79,16 @@ class World {
   Color background(const Ray& ray) const { return background_.at(1 - camera_.heightOf(ray.direction)); }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
+  const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
+  /// Of an object that is a mesh; null for others and for what is left out.
+  const MeshTree* meshTree(std::uint32_t object) const { return objects_[object].mesh.get(); }
   std::size_t triangleCount() const;
   /// Of the hierarchies, without the meshes' own arrays.
   std::size_t bytes() const;
 
  private:
-  friend World compile(const Scene&, const Settings&, Messages&);
+  friend World compile(const Scene&, const Settings&, Messages&, const Compiled*);
+  class Earlier;
 
   struct Instance {
     TracedShape shape;
@@ -101,14 +107,14 @@ class World {
     }
   };
 
-  /// Calls visit(Found) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during the
-  /// calls, and for others; the ray is in its space.
+  /// Calls visit(Found) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
+  /// the calls, and for others; the ray is in its space.
   template <class Visit>
   void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
 
   std::vector<Instance> objects_;
-  Bvh bvh_;
+  std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> unbounded_;  ///< objects without end, which no hierarchy can hold
   std::vector<Phong> materials_;
   std::vector<Light> lights_;
@@ -119,8 +125,17 @@ class World {
   Box3 bounds_;
 };
 
+/// A World that was made before, and of what.
+struct Compiled {
+  const Scene& scene;
+  const Settings& settings;
+  const World& world;
+};
+
 /// Scene -> World. Repairs with warnings what can be repaired; throws Error(Fault::scene) for the rest.
-World compile(const Scene& scene, const Settings& settings, Messages& messages);
+/// What is as in `before` (hierarchies, prepared shapes) is shared with it instead of made again.
+World compile(const Scene& scene, const Settings& settings, Messages& messages,
+              const Compiled* before = nullptr);
 
 // ------------------------------------------------------------------------------------------------------
 
@@ -169,7 +184,7 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
   };
   for (std::uint32_t object : unbounded_)
     if (visitObject(object)) return;
-  bvh_.query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, visitObject);
+  bvh_->query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, visitObject);
 }
 
 }  // namespace trace

@@ -1,6 +1,5 @@
 // The panel Controls: THE options table as widgets. Nothing here knows a single option.
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +21,16 @@ std::string rangeText(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::region: return "x0,y0,x1,y1 in pixels from the top left; empty for the whole picture";
-    case Option::Kind::choice: {
-      std::string text;
-      for (std::string_view choice : option.choices) text += (text.empty() ? "" : ", ") + std::string(choice);
+    case Option::Kind::choice:
+    case Option::Kind::choices: {
+      std::string text = option.kind == Option::Kind::choices ? "none or any of: " : "";
+      const std::size_t begin = text.size();
+      for (std::string_view choice : option.choices)
+        text += (text.size() == begin ? "" : ", ") + std::string(choice);
       return text;
     }
     case Option::Kind::integer:
     case Option::Kind::real: break;
-    default: return "";
   }
   if (option.most == kNoLimit) return toText(option.least) + unit + " or more";
   return toText(option.least) + " to " + toText(option.most) + unit;
@@ -98,6 +99,22 @@ std::optional<std::string> editChoice(const Option& option, const std::string& v
   return chosen;
 }
 
+/// Check boxes; the list stays open.
+std::optional<std::string> editChoices(const Option& option, const std::string& value) {
+  if (!ImGui::BeginCombo("##value", value.c_str())) return {};
+  const std::string among = "," + value + ",";
+  std::string chosen;
+  bool changed = false;
+  for (std::string_view choice : option.choices) {
+    bool on = among.find("," + std::string(choice) + ",") != std::string::npos;
+    changed = ImGui::Checkbox(std::string(choice).c_str(), &on) || changed;
+    if (on) chosen += (chosen.empty() ? "" : ",") + std::string(choice);
+  }
+  ImGui::EndCombo();
+  if (!changed) return {};
+  return chosen.empty() ? "none" : chosen;
+}
+
 std::optional<std::string> editRegion(const std::string& value) {
   int corners[4] = {};
   std::sscanf(value.c_str(), "%d,%d,%d,%d", &corners[0], &corners[1], &corners[2], &corners[3]);
@@ -105,11 +122,6 @@ std::optional<std::string> editRegion(const std::string& value) {
   std::string text;
   for (int corner : corners) text += (text.empty() ? "" : ",") + std::to_string(corner);
   return text;
-}
-
-std::optional<std::string> editText(std::string value) {
-  if (!ImGui::InputText("##value", &value, ImGuiInputTextFlags_EnterReturnsTrue)) return {};
-  return value;
 }
 
 std::optional<std::string> edit(const Option& option, const std::string& value) {
@@ -122,9 +134,10 @@ std::optional<std::string> edit(const Option& option, const std::string& value) 
     case Option::Kind::integer: return editInteger(option, value);
     case Option::Kind::real: return editReal(option, value);
     case Option::Kind::choice: return editChoice(option, value);
+    case Option::Kind::choices: return editChoices(option, value);
     case Option::Kind::region: return editRegion(value);
-    default: return editText(value);
   }
+  return {};
 }
 
 void row(Studio& studio, const Option& option, const Settings& defaults) {

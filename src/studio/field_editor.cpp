@@ -2,6 +2,8 @@
 
 #include <imgui_stdlib.h>
 
+#include <cstdio>
+
 #include "studio/theme.h"
 
 namespace trace::studio {
@@ -12,7 +14,8 @@ const char* kFormat = "%.4g";
 /// Drags by a hundredth of what it is; typed numbers are clamped too.
 bool drag(const FieldFacts& facts, double* values, int count) {
   double largest = 0;
-  for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
+  for (int i = 0; i < count; ++i)
+    if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
   // Dear ImGui takes no infinite bounds.
@@ -58,6 +61,48 @@ bool editValue(const FieldFacts&, std::string& value) {
   return ImGui::InputText("##value", &value);
 }
 
+bool editNumbers(const FieldFacts& facts, double* values, std::size_t count) {
+  constexpr std::size_t kMost = 4, kInLongList = 3;  // in a row; of long ones the first three are a place
+  const std::size_t most = count <= kMost ? kMost : kInLongList;
+  bool changed = false;
+  for (std::size_t i = 0; i < count; i += most) {
+    ImGui::PushID(static_cast<int>(i));
+    changed = drag(facts, values + i, static_cast<int>(std::min(most, count - i))) || changed;
+    ImGui::PopID();
+  }
+  return changed;
+}
+
+bool editChoice(const std::string_view* names, std::size_t count, std::size_t& value) {
+  bool changed = false;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##value", std::string(names[value]).c_str())) return false;
+  for (std::size_t i = 0; i < count; ++i)
+    if (ImGui::Selectable(std::string(names[i]).c_str(), i == value)) value = i, changed = true;
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool beginList(std::size_t count) {
+  constexpr std::size_t kMostUnfolded = 8;
+  char label[40];
+  std::snprintf(label, sizeof label, "%zu###list", count);
+  return ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
+                                      (count <= kMostUnfolded ? ImGuiTreeNodeFlags_DefaultOpen : 0));
+}
+
+void listButtons(std::size_t index, ListEdit& edit) {
+  const float side = ImGui::GetFrameHeight();
+  if (ImGui::Button("x", {side, 0})) edit = {ListEdit::What::remove, index};
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("take it out of the list");
+  ImGui::SameLine(0, 1);
+  if (ImGui::Button("+", {side, 0})) edit = {ListEdit::What::repeat, index};
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the same once more");
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+}
+
+bool addButton() { return ImGui::SmallButton("Add"); }
+
 bool beginFields(const char* id) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) return false;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.34f);
@@ -86,6 +131,7 @@ void fieldName(std::string_view name, std::string_view help, const std::string& 
 
 std::string rangeText(const FieldFacts& facts) {
   const std::string unit = facts.unit.empty() ? "" : " " + std::string(facts.unit);
+  if (facts.least == facts.most) return "";  // not of numbers
   if (facts.least == -kNoLimit && facts.most == kNoLimit) return "any" + unit;
   if (facts.most == kNoLimit) return toText(facts.least) + unit + " or more";
   return toText(facts.least) + " to " + toText(facts.most) + unit;

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -29,11 +30,26 @@ bool editValue(const FieldFacts& facts, bool& value);
 bool editValue(const FieldFacts& facts, Vec3& value);
 bool editValue(const FieldFacts& facts, Color& value);
 bool editValue(const FieldFacts& facts, std::string& value);
+/// Several numbers, in rows of at most four.
+bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
+/// One of the names.
+bool editChoice(const std::string_view* names, std::size_t count, std::size_t& value);
 
-template <class T>
-concept Editable = requires(const FieldFacts facts, T value) {
-  editValue(facts, value);
-};
+template <std::size_t N>
+bool editValue(const FieldFacts& facts, std::array<Real, N>& value) {
+  return editNumbers(facts, value.data(), N);
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool editValue(const FieldFacts&, Enum& value) {
+  static constexpr auto kNames = names(Enum{});
+  auto index = static_cast<std::size_t>(value);
+  if (!editChoice(kNames.data(), kNames.size(), index)) return false;
+  return value = static_cast<Enum>(index), true;
+}
+/// A list, folded up if it is long. Each element has a button that takes it out and one that repeats it.
+template <class Element>
+bool editValue(const FieldFacts& facts, std::vector<Element>& values);
 
 /// Begins a two-column table of names and values; false if it is not to be seen.
 bool beginFields(const char* id);
@@ -46,17 +62,52 @@ std::string rangeText(const FieldFacts& facts);
 template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
   forEachField<Struct>([&](const auto& field) {
-    const FieldFacts facts{field.unit, field.least, field.most};
-    ImGui::PushID(field.keyword.data());
-    fieldName(field.keyword, field.help, rangeText(facts));
     auto& value = target.*field.member;
-    if constexpr (Editable<std::remove_cvref_t<decltype(value)>>) {
+    if constexpr (!requires { value.list(); }) {  // objects are edited as objects
+      const FieldFacts facts{field.unit, field.least, field.most};
+      ImGui::PushID(field.keyword.data());
+      fieldName(field.keyword, field.help, rangeText(facts));
       if (editValue(facts, value)) changed(field.keyword);
-    } else {
-      ImGui::TextDisabled("edited in the file");
+      ImGui::PopID();
     }
-    ImGui::PopID();
   });
+}
+
+// ------------------------------------------------------------------------------------------------------
+
+/// What a person did to a list.
+struct ListEdit {
+  enum class What { nothing, remove, repeat } what = What::nothing;
+  std::size_t index = 0;
+};
+/// The number of elements, to be unfolded; true if they are to be drawn.
+bool beginList(std::size_t count);
+/// The buttons of element `index`; the element's widget comes after them.
+void listButtons(std::size_t index, ListEdit& edit);
+/// The button of an empty list.
+bool addButton();
+
+template <class Element>
+bool editValue(const FieldFacts& facts, std::vector<Element>& values) {
+  if (values.empty()) {
+    if (!addButton()) return false;
+    return values.emplace_back(), true;
+  }
+  if (!beginList(values.size())) return false;
+  bool changed = false;
+  ListEdit edit;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    listButtons(i, edit);
+    ImGui::BeginGroup();
+    changed = editValue(facts, values[i]) || changed;
+    ImGui::EndGroup();
+    ImGui::PopID();
+  }
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(edit.index);
+  if (edit.what == ListEdit::What::remove) values.erase(at);
+  if (edit.what == ListEdit::What::repeat) values.insert(at + 1, Element(*at));
+  return changed || edit.what != ListEdit::What::nothing;
 }
 
 }  // namespace trace::studio

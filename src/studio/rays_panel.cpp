@@ -18,27 +18,6 @@ constexpr ImGuiTableFlags kTableFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_
 
 const RayNode& nodeAt(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
 
-/// What the table needs of the tree's form.
-void prepare(RaysView& view) {
-  const std::vector<RayNode>& nodes = view.traced->tree().nodes;
-  view.level.assign(nodes.size(), 0);
-  view.hasChildren.assign(nodes.size(), 0);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i].parent >= 0) {
-      const auto parent = static_cast<std::size_t>(nodes[i].parent);
-      view.level[i] = view.level[parent] + 1;
-      view.hasChildren[parent] = 1;
-    }
-}
-
-void updatePairs(RaysView& view) {
-  view.pairs.clear();
-  const auto good = [](const auto& pixel) { return pixel && pixel->problem.empty(); };
-  if (good(view.pinned) && good(view.traced))
-    view.pairs =
-        difference(view.pinned->tree(), view.pinned->scene(), view.traced->tree(), view.traced->scene());
-}
-
 std::string title(const TracedPixel& pixel) {
   return std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
          (pixel.explanation.samples.size() > 1 ? ", sample " + std::to_string(pixel.sample) : "");
@@ -60,9 +39,9 @@ std::string metBy(const TracedPixel& pixel, int index) {
   return term && term->light ? lightName(pixel.scene(), term->light->light) : "";
 }
 
-void drawHead(Studio& studio) {
+void drawHead(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
-  const TracedPixel& pixel = *view.traced;
+  PixelInspector& inspector = studio.workspace.inspector;
   ImGui::AlignTextToFramePadding();
   ImGui::Text("pixel %d, %d", pixel.x, pixel.y);
   const auto samples = static_cast<int>(pixel.explanation.samples.size());
@@ -72,14 +51,7 @@ void drawHead(Studio& studio) {
     ImGui::SliderInt("##sample", &view.sample, 0, samples - 1, "sample %d");
   }
   ImGui::SameLine();
-  if (ImGui::Button(view.pinned ? "Unpin" : "Pin") || view.pinAsked) {
-    view.pinAsked = false;
-    if (view.pinned)
-      view.pinned.reset();
-    else
-      view.pinned = view.traced;
-    updatePairs(view);
-  }
+  if (ImGui::Button(inspector.pinned() ? "Unpin" : "Pin")) inspector.pin(!inspector.pinned());
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
         "keep these rays, then click another pixel or change an option: the tab Difference compares");
@@ -107,16 +79,15 @@ void drawHead(Studio& studio) {
   if (ImGui::Button("All")) view.step = -1;
 }
 
-void drawTree(Studio& studio) {
+void drawTree(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
-  const TracedPixel& pixel = *view.traced;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
   std::vector<int> rows;
   int below = -1;  // the level of a closed node whose children are passed over
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    if (below >= 0 && view.level[n] > below) continue;
-    below = view.closed[n] ? view.level[n] : -1;
+    if (below >= 0 && pixel.level[n] > below) continue;
+    below = view.closed[n] ? pixel.level[n] : -1;
     if (view.inStep(i)) rows.push_back(i);
   }
   if (!ImGui::BeginTable("tree", 4, kTableFlags)) return;
@@ -147,11 +118,11 @@ void drawTree(Studio& studio) {
       if (i == view.hoveredBefore)
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
       ImGui::TableNextColumn();
-      const float indent = static_cast<float>(view.level[n]) * ImGui::GetFontSize() * 0.75f;
+      const float indent = static_cast<float>(pixel.level[n]) * ImGui::GetFontSize() * 0.75f;
       if (indent > 0) ImGui::Indent(indent);
       ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow |
                                  ImGuiTreeNodeFlags_NoTreePushOnOpen;
-      if (!view.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
+      if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
       if (i == view.selected) flags |= ImGuiTreeNodeFlags_Selected;
       ImGui::SetNextItemOpen(!view.closed[n]);
       ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, i));
@@ -177,10 +148,11 @@ void drawTree(Studio& studio) {
   ImGui::EndTable();
 }
 
-void drawBoxes(RaysView& view) {
+void drawBoxes(Studio& studio) {
+  RaysView& view = studio.rays;
   if (view.boxesOf != view.selected) {
     if (!ImGui::Button("Show the hierarchy boxes that it visited")) return;
-    showBoxes(view);
+    showBoxes(studio);
   }
   const auto count = static_cast<int>(view.boxes.size());
   if (count == 0) return ImGui::TextDisabled("it visited no box of a hierarchy");
@@ -196,16 +168,15 @@ void drawBoxes(RaysView& view) {
   if (ImGui::Button("Hide")) view.boxesOf = -1;
 }
 
-void drawNumbers(Studio& studio) {
+void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
   if (view.selected < 0) return ImGui::TextDisabled("select a ray, in space or in the table");
-  const TracedPixel& pixel = *view.traced;
   const RayNode& node = nodeAt(pixel.tree(), view.selected);
   ImGui::PushTextWrapPos();
   ImGui::TextColored(textColour(studio, pixel, view.selected), "%s ray: %s", nameOf(pixel, view.selected),
                      sentence(node, pixel.scene()).c_str());
   ImGui::PopTextWrapPos();
-  drawBoxes(view);
+  drawBoxes(studio);
   if (!ImGui::BeginTable("numbers", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) return;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.6f);
@@ -224,15 +195,16 @@ void drawNumbers(Studio& studio) {
   ImGui::EndTable();
 }
 
-void drawDifference(Studio& studio) {
+void drawDifference(Studio& studio, const TracedPixel& traced) {
   RaysView& view = studio.rays;
-  if (!view.pinned) return ImGui::TextDisabled("Pin keeps these rays, to compare others with them");
-  const auto differ =
-      std::count_if(view.pairs.begin(), view.pairs.end(), [](const RayPair& p) { return p.differs; });
-  const Color before = view.pinned->explanation.pixel, now = view.traced->explanation.pixel;
-  ImGui::Text("pinned %s: %.4f %.4f %.4f", title(*view.pinned).c_str(), before.r, before.g, before.b);
-  ImGui::Text("now %s: %.4f %.4f %.4f", title(*view.traced).c_str(), now.r, now.g, now.b);
-  ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(view.pairs.size()));
+  const TracedPixel* pinned = studio.workspace.inspector.pinned();
+  if (!pinned) return ImGui::TextDisabled("Pin keeps these rays, to compare others with them");
+  const std::vector<RayPair>& pairs = studio.workspace.inspector.pairs();
+  const auto differ = std::count_if(pairs.begin(), pairs.end(), [](const RayPair& p) { return p.differs; });
+  const Color before = pinned->explanation.pixel, now = traced.explanation.pixel;
+  ImGui::Text("pinned %s: %.4f %.4f %.4f", title(*pinned).c_str(), before.r, before.g, before.b);
+  ImGui::Text("now %s: %.4f %.4f %.4f", title(traced).c_str(), now.r, now.g, now.b);
+  ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(pairs.size()));
   if (!ImGui::BeginTable("pairs", 3, kTableFlags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.34f);
@@ -240,11 +212,11 @@ void drawDifference(Studio& studio) {
   ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(view.pairs.size()));
+  clipper.Begin(static_cast<int>(pairs.size()));
   while (clipper.Step())
     for (int r = clipper.DisplayStart; r < clipper.DisplayEnd; ++r) {
-      const RayPair& pair = view.pairs[static_cast<std::size_t>(r)];
-      const TracedPixel& pixel = pair.b >= 0 ? *view.traced : *view.pinned;
+      const RayPair& pair = pairs[static_cast<std::size_t>(r)];
+      const TracedPixel& pixel = pair.b >= 0 ? traced : *pinned;
       const int index = pair.b >= 0 ? pair.b : pair.a;
       ImGui::PushID(r);
       ImGui::TableNextRow();
@@ -270,69 +242,74 @@ void drawDifference(Studio& studio) {
 
 }  // namespace
 
-void showBoxes(RaysView& view) {
-  if (!view.traced || view.selected < 0) return;
-  const Session& session = *view.traced->session;
-  view.boxes = visitedBoxes(session.world(), session.settings(), nodeAt(view.traced->tree(), view.selected));
+const TracedPixel* shownPixel(const Studio& studio) {
+  const TracedPixel* pixel = studio.workspace.inspector.traced();
+  return pixel && pixel->problem.empty() ? pixel : nullptr;
+}
+
+void showBoxes(Studio& studio) {
+  RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel || view.selected < 0) return;
+  const Session& session = *pixel->session;
+  view.boxes = visitedBoxes(session.world(), session.settings(), nodeAt(pixel->tree(), view.selected));
   view.boxesOf = view.selected, view.box = static_cast<int>(view.boxes.size());
 }
 
-void traceSelected(Studio& studio) {
+namespace {
+
+/// Asks for the rays of the pixel that is selected and takes those that have come.
+void updatePixel(Studio& studio) {
   RaysView& view = studio.rays;
   const PictureView& picture = studio.picture;
-  const auto session = studio.workspace.render.session();
-  if (!picture.hasPixel || !session) return;
-  const TracedPixel* now = view.traced ? &*view.traced : nullptr;
-  const bool samePixel = now && now->x == picture.pixelX && now->y == picture.pixelY;
-  if (samePixel && now->session == session && now->sample == view.sample) return;
-  const int grid = gridSize(session->settings());
-  view.sample = std::clamp(view.sample, 0, grid * grid - 1);
-  TracedPixel traced{session, picture.pixelX, picture.pixelY, view.sample, {}, {}, ""};
-  try {
-    traced.explanation = session->explain(traced.x, traced.y, traced.sample);
-    traced.segments = raySegments(traced.tree());
-  } catch (const Error& error) {
-    traced.problem = error.messages().front().what;
-  }
-  const std::size_t before = now ? now->tree().nodes.size() : 0;
-  view.traced = std::move(traced);
-  view.boxesOf = -1;
-  const std::size_t count = view.traced->tree().nodes.size();
-  if (!samePixel || count != before) {
+  PixelInspector& inspector = studio.workspace.inspector;
+  if (const auto session = studio.workspace.render.session(); picture.hasPixel && session)
+    inspector.want(session, picture.pixelX, picture.pixelY, view.sample);
+  if (!inspector.update()) return;
+  const TracedPixel& pixel = *inspector.traced();
+  const std::size_t count = pixel.tree().nodes.size();
+  if (pixel.x != view.x || pixel.y != view.y || count != view.rays) {
     view.step = -1, view.selected = count > 0 ? 0 : -1;
     view.closed.assign(count, 0);
   }
-  prepare(view);
-  updatePairs(view);
+  view.x = pixel.x, view.y = pixel.y, view.rays = count;
+  view.boxesOf = -1;
 }
+
+}  // namespace
 
 void drawRays(Studio& studio) {
   RaysView& view = studio.rays;
   if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");
-  traceSelected(studio);
+  updatePixel(studio);
   view.hovered = -1;
-  const bool rays = view.traced && view.traced->problem.empty();
+  const PixelInspector& inspector = studio.workspace.inspector;
+  const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("space", {0, height * (rays ? 0.52f : 0.88f)}, false, ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::BeginChild("space", {0, height * (pixel ? 0.52f : 0.88f)}, false,
+                    ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
-  if (!view.traced) {
+  if (!inspector.traced()) {
     ImGui::PushTextWrapPos();
-    ImGui::TextDisabled("Click on the picture: the rays of that pixel appear here, in space and as a table.");
+    ImGui::TextDisabled(
+        inspector.busy()
+            ? "The rays of that pixel are being traced."
+            : "Click on the picture: the rays of that pixel appear here, in space and as a table.");
     ImGui::PopTextWrapPos();
-  } else if (!rays) {
+  } else if (!pixel) {
     ImGui::PushTextWrapPos();
-    ImGui::TextColored(studio.palette().error, "%s", view.traced->problem.c_str());
+    ImGui::TextColored(studio.palette().error, "%s", inspector.traced()->problem.c_str());
     ImGui::PopTextWrapPos();
   } else {
-    drawHead(studio);
+    drawHead(studio, *pixel);
     if (ImGui::BeginTabBar("about rays")) {
-      const auto tab = [&](const char* name, void (*draw)(Studio&)) {
+      const auto tab = [&](const char* name, void (*draw)(Studio&, const TracedPixel&)) {
         const ImGuiTabItemFlags flags = studio.raysTab == name ? ImGuiTabItemFlags_SetSelected : 0;
         if (!ImGui::BeginTabItem(name, nullptr, flags)) return;
         if (flags) studio.raysTab.clear();
         ImGui::BeginChild(name);
-        draw(studio);
+        draw(studio, *pixel);
         ImGui::EndChild();
         ImGui::EndTabItem();
       };

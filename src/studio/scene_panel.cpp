@@ -7,6 +7,7 @@
 
 #include "base/match.h"
 #include "studio/field_editor.h"
+#include "studio/object_editor.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -14,20 +15,15 @@ namespace {
 
 using Selected = Studio::Selected;
 
-std::string nameOf(const std::string& name, std::string_view keyword, const Place& place) {
-  if (!name.empty()) return name;
-  std::string text(keyword);
-  if (place.line > 0) text += ", line " + std::to_string(place.line);
-  return text;
+/// With the line where it stands, for what has no name.
+std::string entryName(const std::string& name, const Place& place) {
+  return place.line > 0 ? name + ", line " + std::to_string(place.line) : name;
 }
-std::string nameOf(const Object& object) {
-  return nameOf(object.name, match(object.shape, [](const auto& s) { return s.kKeyword; }), object.place);
+std::string entryName(const Object& object) {
+  return object.name.empty() ? entryName(nameOf("", object.shape), object.place) : object.name;
 }
-std::string nameOf(const LightSource& source) {
-  return nameOf("", match(source.light, [](const auto& l) { return l.kKeyword; }), source.place);
-}
-std::string nameOf(const Material& material, std::size_t index) {
-  return material.name.empty() ? "material " + std::to_string(index + 1) : material.name;
+std::string entryName(const LightSource& source) {
+  return entryName(std::string(match(source.light, [](const auto& l) { return l.kKeyword; })), source.place);
 }
 
 Material newMaterial() {
@@ -36,24 +32,16 @@ Material newMaterial() {
   return {"", grey, {}};
 }
 
-/// An edit of the document in the making: a copy of the scene, handed over when something has changed.
-class Edit {
- public:
-  explicit Edit(Studio& studio) : scene(studio.workspace.document.scene()), studio_(studio) {}
-  Scene scene;
-
-  /// One step for each time a widget is held; GetID() tells the widgets apart.
-  void changed(const std::string& what) {
-    const unsigned id = ImGui::GetID("edit");
-    const bool continues = studio_.editedItem == id;
-    studio_.editedItem = id;
-    studio_.workspace.document.edit(what, scene, continues);
-  }
-  void done(const std::string& what) { studio_.workspace.document.edit(what, scene); }
-
- private:
-  Studio& studio_;
-};
+/// One step, however long the widget is held; GetID() tells widgets apart. apply(Scene&) makes the change.
+template <class Apply>
+void change(Studio& studio, const std::string& what, Apply&& apply) {
+  const unsigned id = ImGui::GetID("edit");
+  const bool continues = studio.editedItem == id;
+  studio.editedItem = id;
+  Scene scene = studio.workspace.document.scene();
+  apply(scene);
+  studio.workspace.document.edit(what, std::move(scene), continues);
+}
 
 // --- the tree -----------------------------------------------------------------------------------------
 
@@ -81,38 +69,37 @@ void branch(Studio& studio, Selected kind, const char* title, std::size_t count,
 void addMenu(Studio& studio) {
   if (ImGui::Button("Add...")) ImGui::OpenPopup("add");
   if (!ImGui::BeginPopup("add")) return;
-  Edit edit(studio);
+  const auto add = [&](Selected kind, const std::string& what, auto&& apply) {
+    change(studio, "add " + what, apply);
+    const Scene& scene = studio.workspace.document.scene();
+    studio.selected = kind;
+    studio.selectedIndex = (kind == Selected::object  ? scene.objects.size()
+                            : kind == Selected::light ? scene.lights.size()
+                                                      : scene.materials.size()) -
+                           1;
+  };
   ImGui::TextDisabled("Objects");
-  forEachType<Shape>([&]<class T>(T*) {
-    if constexpr (!std::is_same_v<T, Mesh>) {
-      if (ImGui::MenuItem(std::string(T::kKeyword).c_str())) {
-        if (edit.scene.materials.empty()) edit.scene.materials.push_back(newMaterial());
-        edit.scene.objects.push_back({"", T{}, {}, 0, {}});
-        studio.selected = Selected::object, studio.selectedIndex = edit.scene.objects.size() - 1;
-        edit.done("add " + std::string(T::kKeyword));
-      }
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(T::kHelp).c_str());
-    }
+  shapeMenu([&](Shape shape) {
+    add(Selected::object, nameOf("", shape), [&](Scene& scene) {
+      if (scene.materials.empty()) scene.materials.push_back(newMaterial());
+      scene.objects.push_back({"", shape, {}, 0, {}});
+    });
   });
   ImGui::Separator();
   ImGui::TextDisabled("Lights");
   forEachType<Light>([&]<class T>(T*) {
-    if (ImGui::MenuItem(std::string(T::kKeyword).c_str())) {
-      T light;
-      light.color = Color(1);
-      if constexpr (requires { light.position; }) light.position = edit.scene.camera.position;
-      edit.scene.lights.push_back({light, {}});
-      studio.selected = Selected::light, studio.selectedIndex = edit.scene.lights.size() - 1;
-      edit.done("add " + std::string(T::kKeyword));
-    }
+    if (ImGui::MenuItem(std::string(T::kKeyword).c_str()))
+      add(Selected::light, std::string(T::kKeyword), [](Scene& scene) {
+        T light;
+        light.color = Color(1);
+        if constexpr (requires { light.position; }) light.position = scene.camera.position;
+        scene.lights.push_back({light, {}});
+      });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(T::kHelp).c_str());
   });
   ImGui::Separator();
-  if (ImGui::MenuItem("material")) {
-    edit.scene.materials.push_back(newMaterial());
-    studio.selected = Selected::material, studio.selectedIndex = edit.scene.materials.size() - 1;
-    edit.done("add material");
-  }
+  if (ImGui::MenuItem("material"))
+    add(Selected::material, "material", [](Scene& scene) { scene.materials.push_back(newMaterial()); });
   ImGui::EndPopup();
 }
 
@@ -129,62 +116,6 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::PopTextWrapPos();
 }
 
-bool dragThree(const char* name, const char* help, double (&values)[3], float speed, const char* format) {
-  fieldName(name, help);
-  ImGui::SetNextItemWidth(-1);
-  return ImGui::DragScalarN(("##" + std::string(name)).c_str(), ImGuiDataType_Double, values, 3, speed,
-                            nullptr, nullptr, format);
-}
-
-/// Moves, turns and scales; each drag multiplies what is there. The twelve numbers are below.
-void editTransform(Edit& edit, Object& object) {
-  Affine& m = object.worldFromObject;
-  const Vec3 at = m.offset;
-  double place[3] = {at.x, at.y, at.z};
-  ImGui::PushID("move");
-  const double size = std::max({length(m.row[0]), length(m.row[1]), length(m.row[2]), 1e-9});
-  if (dragThree("move", "where the object's origin lies in the world", place, static_cast<float>(size / 50),
-                "%.4g")) {
-    m.offset = {place[0], place[1], place[2]};
-    edit.changed("move " + nameOf(object));
-  }
-  ImGui::PopID();
-
-  ImGui::PushID("turn");
-  double angle[3] = {};
-  if (dragThree("turn", "drag to turn about the world's axes, through the object's origin; degrees", angle,
-                0.5f, "%.3g")) {
-    m.offset = {};
-    const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int i = 0; i < 3; ++i)
-      if (angle[i] != 0) m = Affine::rotation(axes[i], angle[i] * kPi / 180) * m;
-    m.offset = at;
-    edit.changed("turn " + nameOf(object));
-  }
-  ImGui::PopID();
-
-  ImGui::PushID("scale");
-  double factor[3] = {1, 1, 1};
-  if (dragThree("scale", "drag to stretch along the object's own axes", factor, 0.005f, "x %.3g")) {
-    const auto sane = [](double f) { return std::isfinite(f) ? std::clamp(f, 0.01, 100.0) : 1; };
-    m = m * Affine::scaling({sane(factor[0]), sane(factor[1]), sane(factor[2])});
-    edit.changed("scale " + nameOf(object));
-  }
-  ImGui::PopID();
-
-  for (int i = 0; i < 3; ++i) {
-    ImGui::PushID(i);
-    double row[3] = {m.row[i].x, m.row[i].y, m.row[i].z};
-    const char* names[] = {"matrix x", "matrix y", "matrix z"};
-    if (dragThree(names[i], "row of the 3 x 3 part of the transform from object to world", row, 0.01f,
-                  "%.4g")) {
-      m.row[i] = {row[0], row[1], row[2]};
-      edit.changed("transform " + nameOf(object));
-    }
-    ImGui::PopID();
-  }
-}
-
 /// True if the thing is to go.
 bool deleteButton() {
   ImGui::SameLine();
@@ -192,63 +123,44 @@ bool deleteButton() {
 }
 
 void editObject(Studio& studio) {
-  Edit edit(studio);
-  auto& objects = edit.scene.objects;
-  Object& object = objects[studio.selectedIndex];
-  match(object.shape, [&](const auto& shape) { heading(studio, nameOf(object), shape.kHelp, object.place); });
+  const std::size_t index = studio.selectedIndex;
+  Object object = studio.workspace.document.scene().objects[index];
+  match(object.shape,
+        [&](const auto& shape) { heading(studio, entryName(object), shape.kHelp, object.place); });
   if (const auto* mesh = std::get_if<Mesh>(&object.shape))
     ImGui::Text("%zu triangles, %zu points", mesh->data->triangles.size(), mesh->data->points.size());
   if (ImGui::Button("Duplicate")) {
-    Object copy = object;
-    copy.place = {};
-    objects.push_back(std::move(copy));
-    studio.selectedIndex = objects.size() - 1;
-    return edit.done("duplicate");
+    object.place = {};
+    change(studio, "duplicate", [&](Scene& scene) { scene.objects.push_back(object); });
+    studio.selectedIndex = studio.workspace.document.scene().objects.size() - 1;
+    return;
   }
-  if (deleteButton()) {
-    const std::string what = "delete " + nameOf(object);
-    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(studio.selectedIndex));
-    return edit.done(what);
-  }
-  if (!beginFields("object")) return;
-  fieldName("name", "what messages and the panels call it");
-  if (editValue({}, object.name)) edit.changed("name");
-  fieldName("material", "click on the name to go there");
-  const auto materialName = [&](std::size_t i) { return nameOf(edit.scene.materials[i], i); };
-  const float jump = ImGui::CalcTextSize("edit").x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextItemWidth(-jump - ImGui::GetStyle().ItemSpacing.x);
-  if (ImGui::BeginCombo("##material", materialName(object.material).c_str())) {
-    for (std::size_t i = 0; i < edit.scene.materials.size(); ++i) {
-      ImGui::PushID(static_cast<int>(i));
-      if (ImGui::Selectable(materialName(i).c_str(), i == object.material)) {
-        object.material = static_cast<std::uint32_t>(i);
-        edit.done("material of " + nameOf(object));
-      }
-      ImGui::PopID();
-    }
-    ImGui::EndCombo();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("edit")) studio.selected = Selected::material, studio.selectedIndex = object.material;
-  match(object.shape, [&](auto& shape) {
-    editFields(shape, [&](std::string_view key) { edit.changed(nameOf(object) + ": " + std::string(key)); });
-  });
-  editTransform(edit, object);
-  endFields();
+  if (deleteButton())
+    return change(studio, "delete " + entryName(object), [&](Scene& scene) {
+      scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(index));
+    });
+  editPlacedShape(studio, {object.name, object.shape, object.worldFromObject, object.material},
+                  [&](const std::string& what) {
+                    change(studio, what, [&](Scene& scene) { scene.objects[index] = object; });
+                  });
 }
 
 void editLight(Studio& studio) {
-  Edit edit(studio);
-  LightSource& source = edit.scene.lights[studio.selectedIndex];
-  match(source.light, [&](const auto& light) { heading(studio, nameOf(source), light.kHelp, source.place); });
+  const std::size_t index = studio.selectedIndex;
+  LightSource source = studio.workspace.document.scene().lights[index];
+  match(source.light,
+        [&](const auto& light) { heading(studio, entryName(source), light.kHelp, source.place); });
   ImGui::NewLine();
-  if (deleteButton()) {
-    edit.scene.lights.erase(edit.scene.lights.begin() + static_cast<std::ptrdiff_t>(studio.selectedIndex));
-    return edit.done("delete light");
-  }
+  if (deleteButton())
+    return change(studio, "delete light", [&](Scene& scene) {
+      scene.lights.erase(scene.lights.begin() + static_cast<std::ptrdiff_t>(index));
+    });
   if (!beginFields("light")) return;
   match(source.light, [&](auto& light) {
-    editFields(light, [&](std::string_view key) { edit.changed(nameOf(source) + ": " + std::string(key)); });
+    editFields(light, [&](std::string_view key) {
+      change(studio, entryName(source) + ": " + std::string(key),
+             [&](Scene& scene) { scene.lights[index] = source; });
+    });
   });
   endFields();
 }
@@ -260,20 +172,24 @@ void fieldWasSet(Phong& phong, std::string_view keyword) {
 [[maybe_unused]] void fieldWasSet(auto&, std::string_view) {}
 
 void editMaterial(Studio& studio) {
-  Edit edit(studio);
-  Material& material = edit.scene.materials[studio.selectedIndex];
-  const std::string name = nameOf(material, studio.selectedIndex);
+  const std::size_t index = studio.selectedIndex;
+  const Scene& scene = studio.workspace.document.scene();
+  Material material = scene.materials[index];
+  const std::string name = nameOf(material, index);
   match(material.model, [&](const auto& model) { heading(studio, name, model.kHelp, {}); });
   std::size_t users = 0;
-  for (const Object& object : edit.scene.objects) users += object.material == studio.selectedIndex;
+  for (const Object& object : scene.objects) users += object.material == index;
   ImGui::TextDisabled("used by %zu %s", users, users == 1 ? "object" : "objects");
+  const auto changed = [&](const std::string& what) {
+    change(studio, what, [&](Scene& next) { next.materials[index] = material; });
+  };
   if (!beginFields("material")) return;
   fieldName("name", "what the panels call it");
-  if (editValue({}, material.name)) edit.changed("name");
+  if (editValue({}, material.name)) changed("name");
   match(material.model, [&](auto& model) {
     editFields(model, [&](std::string_view key) {
       fieldWasSet(model, key);
-      edit.changed(name + ": " + std::string(key));
+      changed(name + ": " + std::string(key));
     });
   });
   endFields();
@@ -282,10 +198,12 @@ void editMaterial(Studio& studio) {
 }
 
 void editCamera(Studio& studio) {
-  Edit edit(studio);
+  Camera camera = studio.workspace.document.scene().camera;
   heading(studio, "camera", Camera::kHelp, {});
   if (!beginFields("camera")) return;
-  editFields(edit.scene.camera, [&](std::string_view key) { edit.changed("camera: " + std::string(key)); });
+  editFields(camera, [&](std::string_view key) {
+    change(studio, "camera: " + std::string(key), [&](Scene& scene) { scene.camera = camera; });
+  });
   endFields();
 }
 
@@ -309,9 +227,9 @@ void drawScene(Studio& studio) {
   ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true);
   entry(studio, Selected::camera, 0, "camera");
   branch(studio, Selected::light, "lights", scene.lights.size(),
-         [&](std::size_t i) { return nameOf(scene.lights[i]); });
+         [&](std::size_t i) { return entryName(scene.lights[i]); });
   branch(studio, Selected::object, "objects", scene.objects.size(),
-         [&](std::size_t i) { return nameOf(scene.objects[i]); });
+         [&](std::size_t i) { return entryName(scene.objects[i]); });
   branch(studio, Selected::material, "materials", scene.materials.size(),
          [&](std::size_t i) { return nameOf(scene.materials[i], i); });
   ImGui::EndChild();

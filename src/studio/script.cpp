@@ -1,5 +1,6 @@
 #include "studio/script.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 
@@ -79,18 +80,32 @@ constexpr std::array kTable{
               s.picture.hasPixel = true, s.picture.pixelX = whole(a[0]), s.picture.pixelY = whole(a[1]);
               return true;
             }},
+    Command{"select", "KIND NUMBER", 2, 2,
+            "in the panel Scene: camera, object, light or material, counted from 0",
+            [](Studio& s, const std::vector<std::string>& a) {
+              const auto kind =
+                  std::find(std::begin(Studio::kSelectedNames), std::end(Studio::kSelectedNames), a[0]);
+              if (kind == std::end(Studio::kSelectedNames))
+                throw Error(Fault::usage, "expected camera, object, light or material, found " + a[0]);
+              s.selected = static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames));
+              s.selectedIndex = static_cast<std::size_t>(std::max(0, whole(a[1])));
+              return true;
+            }},
+    Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",
+            [](Studio& s, const std::vector<std::string>&) { return !s.workspace.inspector.busy(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
-            [](Studio& s, const std::vector<std::string>&) { return s.rays.pinAsked = true; }},
+            [](Studio& s, const std::vector<std::string>&) {
+              return s.workspace.inspector.pin(!s.workspace.inspector.pinned()), true;
+            }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
             [](Studio& s, const std::vector<std::string>& a) {
-              if (!s.rays.traced || whole(a[0]) < 0 ||
-                  whole(a[0]) >= static_cast<int>(s.rays.traced->tree().nodes.size()))
+              if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= s.rays.rays)
                 throw Error(Fault::usage, "the pixel has no ray " + a[0]);
               s.rays.selected = whole(a[0]);
               return true;
             }},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
-            [](Studio& s, const std::vector<std::string>&) { return showBoxes(s.rays), true; }},
+            [](Studio& s, const std::vector<std::string>&) { return showBoxes(s), true; }},
     Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
             [](Studio& s, const std::vector<std::string>& a) { return s.raysTab = a[0], true; }},
     Command{"save", "FILE", 1, 1, "write the picture",

@@ -164,9 +164,9 @@ Lines collect(Studio& studio, const Frustum& frustum) {
       pen.line(frustum.eye, frustum.corners[i], muted, 1, 1.2f);
       pen.line(frustum.corners[i], frustum.corners[(i + 1) % 4], muted, 1, 1.2f);
     }
-  if (view.pinnedShown && view.pinned && view.pinned->problem.empty())
-    addRays(studio, *view.pinned, true, pen);
-  if (view.traced && view.traced->problem.empty()) addRays(studio, *view.traced, false, pen);
+  if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
+    addRays(studio, *pinned, true, pen);
+  if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
   if (view.hierarchyShown && view.boxesOf >= 0)
     for (int i = 0; i < view.box; ++i) {
       const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];
@@ -202,11 +202,13 @@ float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2
   return static_cast<float>(std::hypot(p.x + t * wx - mouse.x, p.y + t * wy - mouse.y));
 }
 
-int rayUnderCursor(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size, float scale) {
+int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
+  const RaysView& view = studio.rays;
   int nearest = -1;
-  float least = kNear * scale;
-  if (!view.traced || !view.traced->problem.empty()) return -1;
-  for (const RaySegment& segment : view.traced->segments) {
+  float least = kNear * studio.theme.scale;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel) return -1;
+  for (const RaySegment& segment : pixel->segments) {
     const int i = segment.node;
     if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || !view.inStep(i)) continue;
     const float d = distanceTo(view, matrix, low, size, segment);
@@ -273,9 +275,10 @@ void drawSwitches(Studio& studio) {
 /// The classes that occur, each a switch, over the lower left corner.
 void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   RaysView& view = studio.rays;
-  if (!view.traced || !view.traced->problem.empty()) return;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel) return;
   std::array<int, kRayLooks.size()> count{};
-  for (const RaySegment& segment : view.traced->segments) ++count[static_cast<std::size_t>(segment.looks)];
+  for (const RaySegment& segment : pixel->segments) ++count[static_cast<std::size_t>(segment.looks)];
   const auto rows = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
   const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y * 0.5f;
   const float pad = ImGui::GetStyle().FramePadding.x;
@@ -367,7 +370,7 @@ void drawSpace(Studio& studio) {
   ImGui::GetWindowDrawList()->AddImage(drawer.end(), low, {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
 
   if (hovered && !ImGui::IsMouseDown(0)) {
-    const int under = rayUnderCursor(view, matrix, low, size, studio.theme.scale);
+    const int under = rayUnderCursor(studio, matrix, low, size);
     if (under >= 0) view.hovered = under;
     if (clicked && under >= 0) view.selected = under, view.scrollToSelected = true;
     if (clicked && under < 0) selectObjectUnderCursor(studio, world, low, size);

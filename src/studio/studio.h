@@ -47,6 +47,7 @@ struct Studio {
 
   // The scene panel's selection: what kind of thing, and its index.
   enum class Selected { camera, object, light, material };
+  static constexpr std::string_view kSelectedNames[] = {"camera", "object", "light", "material"};
   Selected selected = Selected::camera;
   std::size_t selectedIndex = 0;
   unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go

@@ -201,6 +201,98 @@ TEST(World, MeshesNamedTwiceShareTheirTree) {
   EXPECT_EQ(mesh.data.use_count(), 8);  // here, three objects of the scene and three of the world, one tree
 }
 
+/// Meshes, with and without generated normals, in front of balls and solids that cost something to prepare.
+Scene sceneToEdit() {
+  Random random(7);
+  Scene scene = randomScene(random, 30);
+  const auto generated = ballMesh(9, random);
+  generated->generateNormals = true;
+  addObject(scene, Mesh{generated}, Affine::translation({-1, 0, 1}), {});
+  addObject(scene, Mesh{ballMesh(12, random)}, Affine::translation({1, 0, 1}), {});
+  return scene;
+}
+
+constexpr std::uint32_t kGenerated = 30, kBall = 31;  // in sceneToEdit()
+
+TEST(World, AfterAnEditOnlyWhatChangedIsMadeAnew) {
+  const Scene scene = sceneToEdit();
+  const Settings settings{.width = 60};
+  const World world = build(scene, settings);
+  Messages messages;
+  const Compiled before{scene, settings, world};
+  const auto edited = [&](auto&& edit) {
+    Scene other = scene;
+    edit(other);
+    World now = compile(other, settings, messages, &before);
+    EXPECT_EQ(picture(now, settings, other.camera), picture(other, settings));
+    return now;
+  };
+  const auto keepsTrees = [&](const World& now) {
+    for (std::uint32_t i = 0; i < now.objectCount(); ++i)
+      if (now.meshTree(i) != world.meshTree(i)) return false;
+    return true;
+  };
+
+  const World painted = edited([](Scene& s) {
+    std::get<Phong>(s.materials[3].model).transmissive = Color(0.5);
+    std::get<Phong>(s.materials[kBall].model).diffuse = {1, 0, 0};
+    s.lights.pop_back();
+    s.camera.position.x += 1;
+  });
+  EXPECT_TRUE(keepsTrees(painted));
+  EXPECT_EQ(&painted.hierarchy(), &world.hierarchy());
+
+  const World moved = edited([](Scene& s) { s.objects[kBall].worldFromObject.offset.x -= 0.5; });
+  EXPECT_TRUE(keepsTrees(moved));
+  EXPECT_NE(&moved.hierarchy(), &world.hierarchy());
+
+  const World fewer = edited([](Scene& s) { s.objects.erase(s.objects.begin() + 4); });
+  EXPECT_EQ(fewer.meshTree(kBall - 1), world.meshTree(kBall));
+
+  const World swapped = edited([](Scene& s) { std::swap(s.objects[2], s.objects[kBall]); });
+  EXPECT_EQ(swapped.meshTree(2), world.meshTree(kBall));
+
+  const World other = edited([](Scene& s) {
+    auto data = std::make_shared<MeshData>(*std::get<Mesh>(s.objects[kBall].shape).data);
+    data->points[0].x += 0.25f;
+    s.objects[kBall].shape = Mesh{data};
+    s.objects[0].shape = Torus{};
+  });
+  EXPECT_NE(other.meshTree(kBall), world.meshTree(kBall));
+  EXPECT_EQ(other.meshTree(kGenerated), world.meshTree(kGenerated));
+
+  const World readAgain = edited([](Scene& s) {  // equal data elsewhere in memory
+    s.objects[kBall].shape =
+        Mesh{std::make_shared<const MeshData>(*std::get<Mesh>(s.objects[kBall].shape).data)};
+  });
+  EXPECT_TRUE(keepsTrees(readAgain));
+}
+
+TEST(World, OptionsThatConcernHierarchiesMakeThemAnew) {
+  const Scene scene = sceneToEdit();
+  const World world = build(scene, {.width = 60});
+  const Settings settings{.width = 60};
+  Messages messages;
+  const Compiled before{scene, settings, world};
+  const auto under = [&](const Settings& changed) {
+    World now = compile(scene, changed, messages, &before);
+    EXPECT_EQ(picture(now, changed, scene.camera), picture(scene, changed));
+    return now;
+  };
+  const World slow = under({.width = 60, .accel = Accel::none});
+  EXPECT_NE(slow.meshTree(kBall), world.meshTree(kBall));
+  EXPECT_NE(&slow.hierarchy(), &world.hierarchy());
+
+  const World normals = under({.width = 60, .vertexNormals = VertexNormals::mean});
+  EXPECT_NE(normals.meshTree(kGenerated), world.meshTree(kGenerated));
+  EXPECT_EQ(normals.meshTree(kBall), world.meshTree(kBall));
+
+  EnumSet<ShapeKind> meshes;
+  meshes.add(static_cast<ShapeKind>(Shape(Mesh{}).index()));
+  const World fewer = under({.width = 60, .omit = meshes});
+  EXPECT_EQ(fewer.meshTree(kBall), nullptr);
+}
+
 TEST(World, FlatTransformsAreLeftOutWithAWarning) {
   Scene scene;
   addObject(scene, Sphere{}, Affine::scaling({1, 0, 1}), {});

@@ -40,6 +40,8 @@ wait
 action Undo
 wait
 pixel 40 50
+rays
+ray 1
 panel Scene
 panel Controls
 screenshot window.png

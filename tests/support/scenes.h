@@ -21,14 +21,18 @@ inline World build(const Scene& scene, const Settings& settings = {}) {
   return compile(scene, settings, messages);
 }
 
-inline Picture picture(const Scene& scene, const Settings& settings, Statistics* statistics = nullptr) {
-  const World world = build(scene, settings);
-  const Size size = pictureSize(settings, scene.camera);
+inline Picture picture(const World& world, const Settings& settings, const Camera& camera,
+                       Statistics* statistics = nullptr) {
+  const Size size = pictureSize(settings, camera);
   Film film(size.width, size.height);
   Job job;
   const RenderResult result = render(world, settings, film, job);
   if (statistics) *statistics = result.statistics;
   return film.picture();
+}
+
+inline Picture picture(const Scene& scene, const Settings& settings, Statistics* statistics = nullptr) {
+  return picture(build(scene, settings), settings, scene.camera, statistics);
 }
 
 /// Objects of every shape, and meshes, under random transforms; some glass, some mirrors; three lights.

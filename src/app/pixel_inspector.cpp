@@ -1,0 +1,62 @@
+#include "app/pixel_inspector.h"
+
+#include <algorithm>
+
+namespace trace {
+
+TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
+                       const Cancelled& cancelled) {
+  const int grid = gridSize(session->settings());
+  TracedPixel pixel{std::move(session), x, y, std::clamp(sample, 0, grid * grid - 1)};
+  try {
+    pixel.explanation = pixel.session->explain(x, y, pixel.sample, cancelled);
+    pixel.segments = raySegments(pixel.tree());
+    const std::vector<RayNode>& rays = pixel.tree().nodes;
+    pixel.level.assign(rays.size(), 0);
+    pixel.hasChildren.assign(rays.size(), 0);
+    for (std::size_t i = 1; i < rays.size(); ++i) {
+      const auto parent = static_cast<std::size_t>(rays[i].parent);
+      pixel.level[i] = pixel.level[parent] + 1;
+      pixel.hasChildren[parent] = 1;
+    }
+  } catch (const Error& error) {
+    pixel.problem = error.messages().front().what;
+  } catch (const std::exception& error) {
+    pixel.problem = error.what();
+  }
+  return pixel;
+}
+
+void PixelInspector::want(const std::shared_ptr<const Session>& session, int x, int y, int sample) {
+  if (session == session_ && x == x_ && y == y_ && sample == sample_) return;
+  session_ = session, x_ = x, y_ = y, sample_ = sample;
+  ask();
+}
+
+void PixelInspector::pin(bool on) {
+  pinned_ = on ? shown_.traced : nullptr;
+  if (pinned_ && !pinned_->problem.empty()) pinned_.reset();
+  if (session_) ask();
+}
+
+void PixelInspector::ask() {
+  task_.start([session = session_, x = x_, y = y_, sample = sample_, pinned = pinned_,
+               before = shown_.traced](const Cancelled& cancelled) {
+    Shown answer{before, pinned, {}};
+    if (!before || before->session != session || before->x != x || before->y != y || before->sample != sample)
+      answer.traced = std::make_shared<const TracedPixel>(tracePixel(session, x, y, sample, cancelled));
+    if (pinned && answer.traced->problem.empty() && !cancelled())
+      answer.pairs =
+          difference(pinned->tree(), pinned->scene(), answer.traced->tree(), answer.traced->scene());
+    return answer;
+  });
+}
+
+bool PixelInspector::update() {
+  std::optional<Shown> answer = task_.take();
+  if (!answer) return false;
+  shown_ = std::move(*answer);
+  return true;
+}
+
+}  // namespace trace

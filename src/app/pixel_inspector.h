@@ -1,0 +1,68 @@
+// The rays of the pixel that was clicked, traced in the background, and how they differ from those of a
+// pinned one. A window asks in every frame and shows what is there.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/background_task.h"
+#include "app/ray_segments.h"
+#include "app/ray_view.h"
+#include "app/session.h"
+
+namespace trace {
+
+/// A pixel's rays with the scene and World that they belong to.
+struct TracedPixel {
+  std::shared_ptr<const Session> session;
+  int x = 0, y = 0, sample = 0;
+  Explanation explanation{};
+  std::vector<RaySegment> segments{};  ///< one for each ray
+  std::vector<int> level{};            ///< of each ray in the tree; the camera ray's is 0
+  std::vector<char> hasChildren{};
+  std::string problem{};  ///< why there are no rays; "" if there are
+
+  const RayTree& tree() const { return explanation.tree; }
+  const Scene& scene() const { return session->scene(); }
+  RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
+};
+
+/// Of sample `sample` of the pixel; the last sample of a pixel that has fewer. Keeps errors as the problem.
+TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
+                       const Cancelled& cancelled = {});
+
+class PixelInspector {
+ public:
+  /// Wants the rays of that sample; to be called often. Returns at once.
+  void want(const std::shared_ptr<const Session>& session, int x, int y, int sample);
+  /// Keeps the rays that are there, to compare others with; or keeps them no longer.
+  void pin(bool on);
+  /// Takes what has come in the meantime; true if there is something new.
+  bool update();
+
+  /// Null if there is none yet.
+  const TracedPixel* traced() const { return shown_.traced.get(); }
+  const TracedPixel* pinned() const { return shown_.pinned.get(); }
+  /// How the pinned rays and the traced ones differ; empty without both.
+  const std::vector<RayPair>& pairs() const { return shown_.pairs; }
+  /// What was wanted last has not come yet.
+  bool busy() const { return task_.busy(); }
+
+ private:
+  struct Shown {
+    std::shared_ptr<const TracedPixel> traced, pinned;
+    std::vector<RayPair> pairs;
+  };
+
+  /// Asks for the rays wanted, or for those that are there if they are the same, and the difference.
+  void ask();
+
+  Shown shown_;
+  std::shared_ptr<const TracedPixel> pinned_;  // as asked for
+  std::shared_ptr<const Session> session_;     // of what was asked for
+  int x_ = 0, y_ = 0, sample_ = 0;
+  BackgroundTask<Shown> task_;
+};
+
+}  // namespace trace

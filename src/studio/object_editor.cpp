@@ -1,0 +1,184 @@
+#include "studio/object_editor.h"
+
+#include <imgui.h>
+
+#include "base/match.h"
+#include "geometry/csg_tree.h"
+#include "studio/field_editor.h"
+#include "studio/studio.h"
+
+namespace trace::studio {
+namespace {
+
+using Changed = std::function<void(const std::string& what)>;
+
+bool dragThree(const char* name, const char* help, double (&values)[3], float speed, const char* format) {
+  fieldName(name, help);
+  ImGui::SetNextItemWidth(-1);
+  return ImGui::DragScalarN("##three", ImGuiDataType_Double, values, 3, speed, nullptr, nullptr, format);
+}
+
+/// Moves, turns and scales; each drag multiplies what is there. The twelve numbers are below.
+void editTransform(Affine& m, const std::string& name, const Changed& changed) {
+  const Vec3 at = m.offset;
+  double place[3] = {at.x, at.y, at.z};
+  ImGui::PushID("move");
+  const double size = std::max({length(m.row[0]), length(m.row[1]), length(m.row[2]), 1e-9});
+  if (dragThree("move", "where the object's origin lies in what it belongs to", place,
+                static_cast<float>(size / 50), "%.4g")) {
+    m.offset = {place[0], place[1], place[2]};
+    changed("move " + name);
+  }
+  ImGui::PopID();
+
+  ImGui::PushID("turn");
+  double angle[3] = {};
+  if (dragThree("turn", "drag to turn about the axes x, y, z through the object's origin; degrees", angle,
+                0.5f, "%.3g")) {
+    m.offset = {};
+    const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; ++i)
+      if (angle[i] != 0) m = Affine::rotation(axes[i], angle[i] * kPi / 180) * m;
+    m.offset = at;
+    changed("turn " + name);
+  }
+  ImGui::PopID();
+
+  ImGui::PushID("scale");
+  double factor[3] = {1, 1, 1};
+  if (dragThree("scale", "drag to stretch along the object's own axes", factor, 0.005f, "x %.3g")) {
+    const auto sane = [](double f) { return std::isfinite(f) ? std::clamp(f, 0.01, 100.0) : 1; };
+    m = m * Affine::scaling({sane(factor[0]), sane(factor[1]), sane(factor[2])});
+    changed("scale " + name);
+  }
+  ImGui::PopID();
+
+  for (int i = 0; i < 3; ++i) {
+    ImGui::PushID(i);
+    double row[3] = {m.row[i].x, m.row[i].y, m.row[i].z};
+    const char* names[] = {"matrix x", "matrix y", "matrix z"};
+    if (dragThree(names[i], "row of the 3 x 3 part of the transform out of the object's space", row, 0.01f,
+                  "%.4g")) {
+      m.row[i] = {row[0], row[1], row[2]};
+      changed("transform " + name);
+    }
+    ImGui::PopID();
+  }
+}
+
+void editMaterialOf(Studio& studio, const std::string& name, std::uint32_t& material,
+                    const Changed& changed) {
+  const std::vector<Material>& materials = studio.workspace.document.scene().materials;
+  fieldName("material", "of the scene's materials; the button goes there");
+  const float jump = ImGui::CalcTextSize("edit").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-jump - ImGui::GetStyle().ItemSpacing.x);
+  if (ImGui::BeginCombo("##material", nameOf(materials[material], material).c_str())) {
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Selectable(nameOf(materials[i], i).c_str(), i == material)) {
+        material = static_cast<std::uint32_t>(i);
+        changed("material of " + name);
+      }
+      ImGui::PopID();
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("edit")) studio.selected = Studio::Selected::material, studio.selectedIndex = material;
+}
+
+/// The objects of a solid of solids, each folded up.
+void editOperands(Studio& studio, Operands& operands, std::uint32_t material, const Changed& changed) {
+  const std::vector<Operand>& now = operands.list();
+  const auto become = [&](std::vector<Operand> list, const std::string& what) {
+    operands = Operands(std::move(list));
+    changed(what);
+  };
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const std::string name = nameOf(now[i].name, now[i].shape);
+    const bool open =
+        ImGui::TreeNodeEx("operand", ImGuiTreeNodeFlags_SpanAvailWidth, "%zu: %s", i + 1, name.c_str());
+    bool gone = false;
+    if (open) {
+      if (ImGui::SmallButton("Delete")) {
+        std::vector<Operand> list = now;
+        list.erase(list.begin() + static_cast<std::ptrdiff_t>(i));
+        become(std::move(list), "delete " + name);
+        gone = true;
+      }
+      ImGui::SameLine();
+      ImGui::BeginDisabled(i == 0);
+      if (!gone && ImGui::SmallButton("Up")) {
+        std::vector<Operand> list = now;
+        std::swap(list[i], list[i - 1]);
+        become(std::move(list), "order of " + name);
+        gone = true;
+      }
+      ImGui::EndDisabled();
+      if (!gone) {
+        Operand operand = now[i];
+        editPlacedShape(studio, {operand.name, operand.shape, operand.wholeFromOperand, operand.material},
+                        [&](const std::string& what) {
+                          gone = true;
+                          std::vector<Operand> list = operands.list();
+                          list[i] = operand;
+                          become(std::move(list), what);
+                        });
+      }
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+    if (gone) return;  // the list is another now
+  }
+  if (ImGui::SmallButton("Add to it...")) ImGui::OpenPopup("add operand");
+  if (!ImGui::BeginPopup("add operand")) return;
+  shapeMenu([&](Shape shape) {
+    std::vector<Operand> list = operands.list();
+    const std::string name = nameOf("", shape);
+    list.push_back({"", std::move(shape), {}, material});
+    become(std::move(list), "add " + name);
+  });
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+std::string nameOf(const std::string& name, const Shape& shape) {
+  return name.empty() ? std::string(match(shape, [](const auto& s) { return s.kKeyword; })) : name;
+}
+
+std::string nameOf(const Material& material, std::size_t index) {
+  return material.name.empty() ? "material " + std::to_string(index + 1) : material.name;
+}
+
+void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed) {
+  const std::string name = nameOf(placed.name, placed.shape);
+  if (beginFields("placed")) {
+    fieldName("name", "what messages and the panels call it");
+    if (editValue({}, placed.name)) changed("name");
+    editMaterialOf(studio, name, placed.material, changed);
+    match(placed.shape, [&](auto& shape) {
+      editFields(shape, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
+    });
+    editTransform(placed.transform, name, changed);
+    endFields();
+  }
+  match(placed.shape, [&](auto& shape) {
+    if constexpr (requires { shape.objects.list(); }) {
+      ImGui::TextDisabled("%s", std::string(std::get<0>(shape.fields()).help).c_str());
+      editOperands(studio, shape.objects, placed.material, changed);
+    }
+  });
+}
+
+void shapeMenu(const std::function<void(Shape)>& chosen) {
+  forEachType<Shape>([&]<class T>(T*) {
+    if constexpr (!std::is_same_v<T, Mesh>) {
+      if (ImGui::MenuItem(std::string(T::kKeyword).c_str())) chosen(T{});
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(T::kHelp).c_str());
+    }
+  });
+}
+
+}  // namespace trace::studio
