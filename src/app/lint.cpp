@@ -4,8 +4,11 @@
 #include <array>
 #include <set>
 
+#include "app/coplanar.h"
 #include "app/lint_rays.h"
 #include "base/text.h"
+#include "geometry/csg_tree.h"
+#include "geometry/mesh_repair.h"
 
 namespace trace {
 
@@ -14,6 +17,7 @@ struct LintScene {
   const Scene& scene;
   const Settings& settings;
   const World& world;
+  const std::vector<Message>& warnings;
   Survey survey;
   std::vector<std::uint32_t> aroundCamera{};  ///< the objects that enclose it
 };
@@ -179,10 +183,31 @@ void normalsAgainstFaces(const LintScene& s, Findings& findings) {
   });
 }
 
+bool isOfArea(const Message& message) { return message.what.starts_with(kWithoutArea); }
+
+void zeroArea(const LintScene& s, Findings& findings) {
+  for (const Message& message : s.warnings)
+    if (isOfArea(message))
+      warn(findings, "zero-area", message.place, message.what,
+           "their corners lie on one line, or are one point: take them out of the file, or mend their "
+           "corners");
+}
+
 void coplanarFaces(const LintScene& s, Findings& findings) {
   constexpr int kFew = 3;
-  for (const auto& [pair, places] : s.survey.coplanar) {
-    if (places < kFew) continue;
+  // Flat faces wherever they are; others, such as those of prisms, where the camera sees them.
+  Statistics statistics;
+  const auto isSeen = [&](const Vec3& place) {  // whichever way the camera looks
+    constexpr Real kThere = 1 - 1e-6;           // of the way
+    const Vec3& eye = s.world.camera().eye;
+    const auto found = s.world.closest({eye, place - eye}, Faces::both, statistics);
+    return found && found->t > kThere;
+  };
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs = overlappingFaces(s.scene, isSeen);
+  for (const auto& [pair, places] : s.survey.coplanar)
+    if (places >= kFew) pairs.insert(pair);
+  for (const auto& pair : pairs) {
+    if (s.world.opaque(pair.first) && materialOf(s, pair.first) == materialOf(s, pair.second)) continue;
     warn(findings, "coplanar", placeOf(s, pair.second),
          "a face of " + quoted(s, pair.second) + " lies in the same plane as one of " +
              quoted(s, pair.first) + " and covers it: which of them is seen is left to rounding",
@@ -192,11 +217,36 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
 
 // --- materials ----------------------------------------------------------------------------------------
 
+void addMaterials(const Shape& shape, std::set<std::uint32_t>& used) {
+  match(shape, Overloaded{[&](const Mesh& mesh) {
+                            used.insert(mesh.data->materials.begin(), mesh.data->materials.end());
+                          },
+                          [&](const auto& s) {
+                            if constexpr (requires { s.objects.list(); })
+                              for (const Operand& operand : s.objects.list()) {
+                                used.insert(operand.material);
+                                addMaterials(operand.shape, used);
+                              }
+                          }});
+}
+
+/// Some readers keep the materials that the file names and leave to nothing in the scene, others beside it.
 void unusedMaterial(const LintScene& s, Findings& findings) {
-  for (const UnusedMaterial& unused : s.scene.unusedMaterials)
-    warn(findings, "unused-material", unused.place,
-         "the material \"" + unused.name + "\" is given to nothing",
-         "name it in an object, as in sphere { material = \"" + unused.name + "\"; }, or take it out");
+  const bool inRay = s.scene.format == "ray";
+  const auto unused = [&](const std::string& name, const Place& place) {
+    warn(findings, "unused-material", place, "the material \"" + name + "\" is given to nothing",
+         inRay ? "name it in an object, as in sphere { material = \"" + name + "\"; }, or take it out"
+               : "give it to an object, or take it out");
+  };
+  for (const UnusedMaterial& material : s.scene.unusedMaterials) unused(material.name, material.place);
+  std::set<std::uint32_t> used;
+  for (const Object& object : s.scene.objects) {
+    used.insert(object.material);
+    addMaterials(object.shape, used);
+  }
+  for (std::uint32_t i = 0; i < s.scene.materials.size(); ++i)
+    if (!s.scene.materials[i].name.empty() && !used.contains(i))
+      unused(s.scene.materials[i].name, Place{.file = s.scene.file});
 }
 
 void indexBelowOne(const LintScene& s, Findings& findings) {
@@ -239,7 +289,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"inside-out", "a closed mesh whose faces look inward", insideOut},
       LintCheck{"turned-faces", "neighbouring faces of a mesh turned opposite ways", turnedFaces},
       LintCheck{"normals-against-faces", "vertex normals that point against the faces", normalsAgainstFaces},
-      LintCheck{"coplanar", "faces of two objects in one plane, where they are seen", coplanarFaces},
+      LintCheck{"zero-area", "triangles of a mesh without area", zeroArea},
+      LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
       LintCheck{"depth-too-low", "glass that is black for too small a depth", depthTooLow},
@@ -247,10 +298,13 @@ std::span<const LintCheck> lintChecks() {
   return kTable;
 }
 
-std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world) {
-  LintScene s{scene, settings, world, survey(scene, settings, world)};
+std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
+                              const std::vector<Message>& warnings) {
+  LintScene s{scene, settings, world, warnings, survey(scene, settings, world)};
   s.aroundCamera = objectsAround(world, world.camera().eye);
   std::vector<LintFinding> findings;
+  for (const Message& message : warnings)
+    if (!isOfArea(message)) findings.push_back({"reading", message});
   for (const LintCheck& check : lintChecks()) check.run(s, findings);
   return findings;
 }

@@ -29,7 +29,9 @@ struct LintCheck {
 };
 std::span<const LintCheck> lintChecks();
 
-/// All findings, in the order of the checks. `world` was compiled from the scene with the settings.
-std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world);
+/// What reading and compiling the scene warned of, each as the check `reading` if no other check is about it,
+/// then the findings of the checks in their order. `world` was compiled from the scene with the settings.
+std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
+                              const std::vector<Message>& warnings);
 
 }  // namespace trace

@@ -53,10 +53,7 @@ int lint(const Arguments& arguments, const Console& console) {
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   Messages messages = session.messages();
   const World world = compile(session.scene(), session.settings(), messages);
-  std::vector<LintFinding> findings;
-  for (const Message& message : messages.all()) findings.push_back({"reading", message});
-  for (LintFinding& finding : lint(session.scene(), session.settings(), world))
-    findings.push_back(std::move(finding));
+  const std::vector<LintFinding> findings = lint(session.scene(), session.settings(), world, messages.all());
   const std::string& scene = session.scene().file;
   const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);
   if (arguments.output.empty()) {

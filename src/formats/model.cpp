@@ -52,11 +52,11 @@ void MeshRepairs::check(MeshData& mesh, const Place& place) {
 }
 
 void MeshRepairs::report(const Place& place, Messages& messages) const {
-  const auto warn = [&](const char* what, std::size_t count) {
-    if (count > 0) messages.warn(place, what + (": " + std::to_string(count)));
+  const auto warn = [&](std::string_view what, std::size_t count) {
+    if (count > 0) messages.warn(place, std::string(what) + ": " + std::to_string(count));
   };
   warn("normals or uv that are not finite are replaced", notFinite_);
-  warn("triangles without area are left out", degenerate_);
+  warn(kWithoutArea, degenerate_);
   warn("normals of length 0 are taken from the faces", zeroNormals_);
   if (triangles_ == 0) messages.warn(place, "the file has no triangle that can be seen");
 }
@@ -98,6 +98,11 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
     scene.materials.push_back(material);
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
   });
+  for (const Material& material : model.materials)
+    if (!material.name.empty() &&
+        std::none_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const Material& used) { return used.name == material.name; }))
+      scene.unusedMaterials.push_back({material.name, Place{.file = file}});
   scene.choices = std::move(model.choices);
   scene.camera = model.camera ? *model.camera : framing(bounds(scene));
   scene.lights = model.lights.empty() ? plainLights(scene.camera) : std::move(model.lights);

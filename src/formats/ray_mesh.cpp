@@ -192,7 +192,7 @@ class MeshReader {
 
   void repair(const Item& block) {
     if (const std::size_t n = dropDegenerate(data_); n > 0)
-      findings_.warnOfNumber(faces_.value_or(block), "triangles without area are left out", n);
+      findings_.warnOfNumber(faces_.value_or(block), std::string(kWithoutArea), n);
     if (const std::size_t n = repairNormals(data_); n > 0)
       findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces", n);
   }

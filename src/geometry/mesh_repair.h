@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "geometry/mesh.h"
 
@@ -13,6 +14,9 @@ namespace trace {
 /// else ears cut off one by one, so that a polygon with dents keeps its shape. Linear in the corners.
 /// Precondition: every corner < mesh.points.size().
 void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners);
+
+/// What readers warn of, with a place and the number, when dropDegenerate() has removed some.
+inline constexpr std::string_view kWithoutArea = "triangles without area are left out";
 
 /// Removes triangles without area; returns how many.
 std::size_t dropDegenerate(MeshData& mesh);

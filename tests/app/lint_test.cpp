@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 
+#include "app/coplanar.h"
 #include "app/session.h"
+#include "base/file.h"
 #include "support/random.h"
+#include "support/scenes.h"
 #include "support/shared.h"
 
 namespace trace::test {
@@ -18,7 +22,10 @@ std::vector<LintFinding> lintFile(const std::string& file) {
   Session session;
   session.open(file, {});
   Messages messages;
-  return lint(session.scene(), session.settings(), compile(session.scene(), session.settings(), messages));
+  const World world = compile(session.scene(), session.settings(), messages);
+  std::vector<Message> warnings = session.messages().all();
+  warnings.insert(warnings.end(), messages.all().begin(), messages.all().end());
+  return lint(session.scene(), session.settings(), world, warnings);
 }
 
 std::string names(const std::vector<LintFinding>& findings) {
@@ -58,8 +65,62 @@ TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
 
 TEST(Lint, OurOwnExamplesAreClean) {
   for (const std::string& scene : filesUnder(std::string(TRACE_SOURCE) + "/scenes", ".ray"))
-    if (scene.find("infinity") == std::string::npos)  // its depth of 2 is that of the program it is from
+    if (scene.find("infinity") == std::string::npos) {  // its depth of 2 is that of the program it is from
       EXPECT_EQ(names(lintFile(scene)), "") << scene;
+    }
+}
+
+/// A scene of boxes, squares, disks and meshes on a floor; the last two objects share a plane if `coplanar`.
+Scene stacked(bool coplanar) {
+  Scene scene;
+  addObject(scene, Square{}, Affine::scaling({20, 20, 1}), {});      // the floor
+  addObject(scene, Cube{}, Affine::translation({0, 0, 0.5}), {});    // stands on it
+  addObject(scene, Cube{}, Affine::translation({0.2, 0, 1.5}), {});  // on the other
+  addObject(scene, Cube{}, Affine::translation({1, 0, 0.5}), {});    // beside it
+  addObject(scene, Cylinder{}, Affine::translation({4, 0, 0}), {});  // on the floor
+  addObject(scene, Disk{}, Affine::translation({4.5, 0.3, coplanar ? 1 : 1.001}), {});
+  scene.camera.position = {0, 0, 9}, scene.camera.viewdir = {0, 0, 1}, scene.camera.updir = {0, 1, 0};
+  return scene;
+}
+
+bool everywhere(const Vec3&) { return true; }
+
+TEST(Lint, OverlappingFacesAreFoundWhereNobodyLooksAndFacesThatTouchAreNot) {
+  EXPECT_TRUE(overlappingFaces(stacked(false), everywhere).empty());
+  const auto pairs = overlappingFaces(stacked(true), everywhere);
+  EXPECT_TRUE(overlappingFaces(stacked(true), [](const Vec3&) { return false; }).empty());
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(*pairs.begin(), (std::pair<std::uint32_t, std::uint32_t>{4, 5}));
+
+  for (const Real size : {1e-4, 1.0, 1e5}) {  // a mesh in the plane of a square, turned any way
+    Scene scene;
+    const Affine turned = Affine::rotation({1, 2, 3}, 0.7) * Affine::scaling({size, size, size});
+    MeshData mesh;
+    mesh.points = {{-0.1f, -0.1f, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {3, 3, 0}};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {1, 4, 3}};
+    addObject(scene, Square{}, turned, {});
+    addObject(scene, Mesh{std::make_shared<const MeshData>(mesh)}, turned, {});
+    addObject(scene, Plane{}, turned * Affine::translation({0, 0, -0.01}), {});
+    scene.camera.position = turned * Vec3{0, 0, 5};
+    EXPECT_EQ(overlappingFaces(scene, everywhere).size(), 1u) << size;
+    scene.camera.position = turned * Vec3{0, 0, -5};  // the mesh shows its back
+    EXPECT_EQ(overlappingFaces(scene, everywhere).size(), 0u) << size;
+  }
+}
+
+TEST(Lint, FindsUnusedMaterialsOfOtherFormats) {
+  const std::string folder = testing::TempDir() + "trace_lint_obj";
+  std::filesystem::create_directories(folder);
+  writeFile(folder + "/m.mtl", "newmtl gold\nKd 1 1 0\nnewmtl red\nKd 1 0 0\n");
+  writeFile(folder + "/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  int found = 0;
+  for (const LintFinding& finding : lintFile(folder + "/m.obj"))
+    if (finding.check == "unused-material") {
+      ++found;
+      EXPECT_NE(finding.message.what.find("gold"), std::string::npos);
+    }
+  EXPECT_EQ(found, 1);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Lint, SaysTheSameEveryTime) {
@@ -75,7 +136,7 @@ TEST(Lint, TheDepthItProposesIsEnough) {
   session.open(kScenes + "depth-too-low.bad.ray", std::vector<Choice>{{"depth", depth, {}}});
   Messages messages;
   const auto findings =
-      lint(session.scene(), session.settings(), compile(session.scene(), session.settings(), messages));
+      lint(session.scene(), session.settings(), compile(session.scene(), session.settings(), messages), {});
   EXPECT_EQ(names(findings), "") << depth;
 }
 
