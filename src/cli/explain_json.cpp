@@ -100,7 +100,8 @@ class Writer {
                        {"color", toJson(l.arriving.color)},
                        {"attenuation", l.arriving.attenuation},
                        {"diffuse", toJson(l.scatter.diffuse)},
-                       {"specular", toJson(l.scatter.specular)}};
+                       {"specular", toJson(l.scatter.specular)},
+                       {"extraHighlight", toJson(l.arriving.extraHighlight)}};
     }
     return json;
   }

@@ -109,7 +109,7 @@ class TreeText {
     for (const Term& term : node.terms) {
       const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
       if (term.light) {
-        light(term);
+        light(term, node);
         continue;
       }
       const Color value = term.factor * term.value;
@@ -125,16 +125,25 @@ class TreeText {
     line("= " + text(node.radiance));
   }
 
-  void light(const Term& term) {
+  void light(const Term& term, const RayNode& node) {
     const LightTerm& light = *term.light;
+    const bool away = isBlack(term.factor), always = term.ray < 0;
     line("+ " + lightName(scene_, light.light) + " " + text(term.factor * term.value) +
-         (term.ray < 0 ? "; faces away, no shadow ray" : ""));
+         (away     ? "; faces away, no shadow ray"
+          : always ? "; the part that no shadow takes away"
+                   : ""));
     const Illumination& from = light.arriving;
     const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
-    if (term.ray < 0) return;
-    line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) +
-         " + specular " + text(light.scatter.specular) + ")");
-    line("      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
+    if (away) return;
+    std::string highlight = " + specular " + text(light.scatter.specular);
+    if (!isBlack(from.extraHighlight))
+      highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
+    line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
+         ")");
+    const Real shadow = node.hit->material.shadow;
+    if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
+    line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +
+         "      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
   }
 
   void shadow(const RayNode& node) {

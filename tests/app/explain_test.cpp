@@ -44,9 +44,20 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   return rays;
 }
 
-std::vector<std::string> examples() { return filesUnder(std::string(TRACE_SOURCE) + "/scenes", ".ray"); }
+/// In every format of which there are some.
+std::vector<std::string> examples() {
+  std::vector<std::string> files;
+  for (const SceneFormat& format : sceneFormats())
+    for (const std::string_view suffix : format.suffixes)
+      for (const std::string& file : filesUnder(std::string(TRACE_SOURCE) + "/scenes", std::string(suffix)))
+        if (file.find("/meshes/") == std::string::npos) files.push_back(file);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
 
 TEST(Explain, EverySampleOfOurScenesSumsToThePicture) {
+  EXPECT_GT(examples().size(), 26u);
   for (const std::string& scene : examples())
     EXPECT_GT(explainAll(scene, {{"spp", "4", {}}}, 20), 800u) << scene;
 }
@@ -59,6 +70,8 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::integer:
       return {std::to_string(static_cast<int>(std::clamp(4.0, option.least, option.most)))};
     case Option::Kind::real: return {std::to_string(std::clamp(0.25, option.least, option.most))};
+    case Option::Kind::choices:
+      return {std::string(option.choices.front()), std::string(option.choices.back())};
     case Option::Kind::region: return {};
   }
   return {};
