@@ -4,7 +4,9 @@
 
 #include "app/output.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "formats/format.h"
+#include "formats/ray_format.h"
 
 namespace trace {
 namespace {
@@ -41,14 +43,17 @@ Document::Reading Document::read(const std::string& file, const std::vector<Choi
   return reading;
 }
 
-void Document::take(const Reading& reading) {
+void Document::take(const Reading& reading, bool anew) {
+  if (anew) moments_.clear();
+  moments_.insert(reading.scene);
   onDisk_ = reading.scene, written_ = reading.written;
   messages_ = reading.messages, fingerprint_ = reading.fingerprint;
+  ++readings_;
 }
 
 void Document::open(const std::string& file, std::vector<Choice> commandLine) {
   const Reading reading = read(file, commandLine, {});
-  take(reading);
+  take(reading, true);
   file_ = file, commandLine_ = std::move(commandLine);
   editions_ = {{"", reading.scene, {}}};
   current_ = 0;
@@ -91,9 +96,15 @@ void Document::choose(const std::string& option, const std::string& value, bool 
 
 void Document::pushChoice(Edition edition, const std::string& option, bool continues) {
   if (findOption(option).repeats == Repeats::scene) {  // the file says something else now
+    const bool wasEdited = edited();
+    const std::shared_ptr<const Scene> before = onDisk_;
     const Reading reading = read(file_, commandLine_, edition.choices);
-    take(reading);
+    if (*reading.scene == *before) return push(std::move(edition), continues);  // and keep what was edited
+    take(reading, false);
     edition.scene = reading.scene;
+    if (wasEdited)
+      messages_.warn(Place{.file = file_}, option + " read the file again, without what was edited here",
+                     "undo brings it back");
   }
   push(std::move(edition), continues);
 }
@@ -147,8 +158,16 @@ bool Document::changedOnDisk() const {
 void Document::reload() {
   written_ = timeOf(file_);
   const Reading reading = read(file_, commandLine_, editions_[current_].choices);
-  take(reading);
+  take(reading, true);
   push({"reload", reading.scene, editions_[current_].choices}, false);
+}
+
+bool Document::changesWithTime() const {
+  try {
+    return trace::changesWithTime(file_, readFile(file_));
+  } catch (const Error&) {  // no longer what it was
+    return false;
+  }
 }
 
 std::vector<Message> Document::save(const std::string& file) {
@@ -158,9 +177,15 @@ std::vector<Message> Document::save(const std::string& file) {
     return findOption(choice.option).repeats == Repeats::nothing;
   });
   Messages messages;
+  if (changesWithTime())
+    messages.warn(Place{.file = file},
+                  "the keys of " + std::filesystem::path(file_).filename().string() +
+                      " are not kept: the scene is written as it is at " + toText(settings_.time) + " s",
+                  "what changes with time is edited in the file itself");
   for (const NamedBytes& part : writableFormatFor(file).write(scene, file, {}, messages))
     writeFile(part.file, part.bytes);
   file_ = file, written_ = timeOf(file), onDisk_ = sharedScene();
+  moments_ = {onDisk_};
   fingerprint_ = fingerprint(readFile(file), *onDisk_);
   return messages.all();
 }

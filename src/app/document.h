@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ class Document {
   std::shared_ptr<const Scene> sharedScene() const { return editions_[current_].scene; }
   const Settings& settings() const { return settings_; }
   const Messages& messages() const { return messages_; }  ///< warnings of the last reading
+  std::uint64_t readings() const { return readings_; }    ///< how often a file was read
   /// Grows with every change of scene or settings.
   std::uint64_t revision() const { return revision_; }
 
@@ -52,7 +54,7 @@ class Document {
   std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
 
   /// The scene differs from the file.
-  bool edited() const { return isOpen() && !(scene() == *onDisk_); }
+  bool edited() const { return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_); }
   /// fingerprint() of what the file says (app/output.h); "" if the scene was edited.
   std::string fileFingerprint() const { return edited() ? "" : fingerprint_; }
   /// The file was written since it was last read. Asks the file system.
@@ -60,6 +62,9 @@ class Document {
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
   /// changedOnDisk() is false until the file changes once more.
   void reload();
+  /// The file has values that change with time, which save() would not keep: it writes the scene as it is at
+  /// this moment. Reads the file.
+  bool changesWithTime() const;
   /// Writes the scene, with the options that differ from their defaults, as a .ray file, which is the
   /// document's file from now on. Returns warnings of what was lost. Throws Error; the document then stays.
   std::vector<Message> save(const std::string& file);
@@ -82,7 +87,8 @@ class Document {
 
   static Reading read(const std::string& file, const std::vector<Choice>& commandLine,
                       const std::vector<Choice>& choices);
-  void take(const Reading& reading);
+  /// `anew`: the file may say something else than before; else it was read at another moment.
+  void take(const Reading& reading, bool anew);
   void pushChoice(Edition edition, const std::string& option, bool continues);
   void push(Edition edition, bool continues);
   void settle();
@@ -93,10 +99,11 @@ class Document {
   std::vector<Edition> editions_;
   std::size_t current_ = 0;
   std::shared_ptr<const Scene> onDisk_;
+  std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
   std::string fingerprint_;
   Settings settings_;
   Messages messages_;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0, readings_ = 0;
 };
 
 }  // namespace trace

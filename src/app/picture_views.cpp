@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace trace {
 
@@ -20,6 +21,13 @@ Color falseColour(double value) {
   const double at = (value < 1 ? std::max(value, 0.0) : 1.0) * kSteps;  // NaN counts as 1
   const int step = std::min(static_cast<int>(at), kSteps - 1);
   return lerp(at - step, kStops[step], kStops[step + 1]);
+}
+
+std::string pixelText(const Color& linear, const Color& toned, Rounding rounding) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%.4g  %.4g  %.4g   (%d %d %d)", linear.r, linear.g, linear.b,
+                toLevel(toned.r, rounding), toLevel(toned.g, rounding), toLevel(toned.b, rounding));
+  return text;
 }
 
 Picture differences(const Picture& a, const Picture& b, double magnify) {

@@ -1,6 +1,8 @@
 // Linear pictures made visible: with an exposure, or as their difference in false colours.
 #pragma once
 
+#include <string>
+
 #include "image/picture.h"
 #include "image/tone.h"
 
@@ -8,6 +10,9 @@ namespace trace {
 
 /// Brightened by `stops` powers of two and rounded to levels. 0 stops gives the levels of a file.
 Bytes exposed(const Picture& picture, double stops, Rounding rounding);
+
+/// What a pixel is, in words: its linear colour, and the levels of what the tone makes of it.
+std::string pixelText(const Color& linear, const Color& toned, Rounding rounding);
 
 /// |a - b| * magnify for each channel. Precondition: the same size.
 Picture differences(const Picture& a, const Picture& b, double magnify);

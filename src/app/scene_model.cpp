@@ -8,6 +8,8 @@
 namespace trace {
 namespace {
 
+constexpr int kDivisions = 24;  // of a shape's longest side
+constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 constexpr int kLooks = 24;        // rays across and down, to find what a camera sees
 constexpr double kAside = 0.2;    // share of the picture on each side that is not asked
 constexpr double kFarOut = 0.15;  // share of the points seen that is left out on each side
@@ -20,40 +22,74 @@ Color lookOf(const MaterialModel& model) {
   });
 }
 
+/// Around the objects that have an end, and the camera; with room to spare if some have none.
+Box3 frameOf(const Scene& scene) {
+  Box3 frame;
+  bool endless = false;
+  for (const Object& object : scene.objects) {
+    if (!invertible(object.worldFromObject)) continue;
+    const Box3 box = drawnBounds(object.shape, kEverywhere);
+    if (box.unbounded())
+      endless = true;
+    else
+      frame.extend(object.worldFromObject * box);
+  }
+  if (frame.empty() || !endless) return frame;
+  frame.extend(scene.camera.position);
+  const Vec3 room = frame.size() / 2;
+  return {frame.low - room, frame.high + room};
+}
+
 }  // namespace
 
-SceneModel modelOf(const Scene& scene) {
+SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& within,
+                                              std::vector<Made>& kept) const {
+  const bool lasts = !drawnBounds(shape, kEverywhere).unbounded() && !std::holds_alternative<Mesh>(shape);
+  if (lasts) {
+    const auto in = [&](const std::vector<Made>& list) {
+      const auto found =
+          std::find_if(list.begin(), list.end(), [&](const Made& made) { return made.shape == shape; });
+      return found == list.end() ? nullptr : found->corners;
+    };
+    if (Corners corners = in(kept)) return corners;
+    if (Corners corners = in(made_)) return kept.push_back({shape, corners}), corners;
+  }
+  const auto corners =
+      std::make_shared<const std::vector<SurfaceCorner>>(tessellate(shape, kDivisions, within));
+  if (lasts) kept.push_back({shape, corners});
+  return corners;
+}
+
+SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
   SceneModel model;
-  Box3 all;
-  for (const Object& object : scene.objects)
-    if (invertible(object.worldFromObject)) all.extend(object.worldFromObject * drawnBounds(object.shape));
-  if (!all.empty() && isFinite(all.size())) {
-    model.origin = all.center();
-    model.scale = std::max(length(all.size()) / 2, 1e-30);
+  const Box3 frame = frameOf(scene);
+  if (!frame.empty()) {
+    model.origin = frame.center();
+    model.scale = std::max(length(frame.size()) / 2, 1e-30);
   }
 
-  std::vector<std::pair<const Shape*, std::vector<SurfaceCorner>>> made;  // each shape once
-  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+  std::vector<Made> kept;
+  for (std::uint32_t i = 0; i < scene.objects.size() && !(cancelled && cancelled()); ++i) {
     const Object& object = scene.objects[i];
     if (!invertible(object.worldFromObject) || object.material >= scene.materials.size()) continue;
-    auto found =
-        std::find_if(made.begin(), made.end(), [&](const auto& m) { return *m.first == object.shape; });
-    if (found == made.end()) found = made.insert(made.end(), {&object.shape, tessellate(object.shape)});
+    const Affine objectFromWorld = inverse(object.worldFromObject);
+    Box3 within = frame.empty() ? kFarthest : objectFromWorld * frame;
+    within.extend(Vec3{});  // through which a plane goes
+    const Corners corners = cornersOf(object.shape, within, kept);
 
     const MaterialModel& material = scene.materials[object.material].model;
     ScenePart part{i,
                    lookOf(material),
                    match(material, [](const auto& m) { return m.transmits(); }),
                    model.corners.size() / 6,
-                   found->second.size(),
+                   corners->size(),
                    {}};
-    const Box3 bounds = drawnBounds(object.shape);
+    const Box3 bounds = drawnBounds(object.shape, within);
     for (std::size_t corner = 0; corner < 8; ++corner)
       part.box[corner] = object.worldFromObject * Vec3{corner & 1 ? bounds.high.x : bounds.low.x,
                                                        corner & 2 ? bounds.high.y : bounds.low.y,
                                                        corner & 4 ? bounds.high.z : bounds.low.z};
-    const Affine objectFromWorld = inverse(object.worldFromObject);
-    for (const SurfaceCorner& corner : found->second) {
+    for (const SurfaceCorner& corner : *corners) {
       const auto p = model.local(object.worldFromObject * corner.point);
       const Vec3 n = normalize(transposed(objectFromWorld, corner.normal));
       for (const float x : p) model.corners.push_back(x);
@@ -61,12 +97,16 @@ SceneModel modelOf(const Scene& scene) {
     }
     model.parts.push_back(part);
   }
+  made_ = std::move(kept);
   return model;
 }
 
 Box3 seenBy(const World& world) {
   std::vector<Real> seen[3];
   Statistics statistics;
+  Box3 near = world.bounds();  // beyond it there is only what has no end, up to the horizon
+  const Vec3 room = near.size() / 2;
+  near = {near.low - room, near.high + room};
   const auto place = [](int i) { return kAside + (1 - 2 * kAside) * (i + 0.5) / kLooks; };
   for (int y = 0; y < kLooks; ++y)
     for (int x = 0; x < kLooks; ++x) {
@@ -74,6 +114,7 @@ Box3 seenBy(const World& world) {
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;
       const Vec3 p = ray.at(found->t);
+      if (!near.empty() && !near.contains(p)) continue;
       for (int axis = 0; axis < 3; ++axis) seen[axis].push_back(p[axis]);
     }
   Box3 box;

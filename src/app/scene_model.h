@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "app/background_task.h"
+#include "geometry/tessellate.h"
 #include "math/box.h"
 #include "render/world.h"
 #include "scene/scene.h"
@@ -33,14 +36,31 @@ struct SceneModel {
   }
 };
 
-/// Of all objects; those whose transform cannot be undone are left out, as in a render.
-SceneModel modelOf(const Scene& scene);
+/// Makes models of a scene that is edited, and keeps the triangles of shapes that stay as they are.
+class SceneModeler {
+ public:
+  /// Of all objects; those whose transform cannot be undone are left out, as in a render. Objects without end
+  /// are cut off some way around the others and the camera. `cancelled`, if any, is asked after every object;
+  /// then the rest is left out.
+  SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
+
+ private:
+  using Corners = std::shared_ptr<const std::vector<SurfaceCorner>>;
+  struct Made {
+    Shape shape;
+    Corners corners;
+  };
+
+  Corners cornersOf(const Shape& shape, const Box3& within, std::vector<Made>& kept) const;
+
+  std::vector<Made> made_;  // the shapes of the last model, each once
+};
 
 /// What the camera looks at: a box around most of the points in the middle of its picture. Empty if it sees
 /// nothing.
 Box3 seenBy(const World& world);
 
-/// Whether modelOf() would give the same model, but for colours.
+/// Whether a modeler would make the same model, but for colours.
 bool sameSurfaces(const Scene& a, const Scene& b);
 
 }  // namespace trace

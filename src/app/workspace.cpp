@@ -50,7 +50,7 @@ bool Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
   recent_.insert(recent_.begin(), path);
   recent_.resize(std::min(recent_.size(), kMostRecent));
   note("opened " + path);
-  report(document.messages().all());
+  reportReading();
   seen_ = document.revision();
   startRender();
   return true;
@@ -70,6 +70,7 @@ bool Workspace::stale() const {
 void Workspace::update() {
   if (document.isOpen()) {
     reloadIfChanged();
+    reportReading();
     if (seen_ != document.revision()) {
       seen_ = document.revision();
       if (automatic && stale()) startRender();
@@ -77,6 +78,12 @@ void Workspace::update() {
   }
   report(render.takeMessages());
   noteEnd();
+}
+
+void Workspace::reportReading() {
+  if (reading_ == document.readings()) return;
+  reading_ = document.readings();
+  report(document.messages().all());
 }
 
 void Workspace::reloadIfChanged() {
@@ -87,7 +94,6 @@ void Workspace::reloadIfChanged() {
   try {
     document.reload();
     note(document.file() + " changed on disk and was read again; undo takes that back");
-    report(document.messages().all());
   } catch (const Error& error) {
     report(error.messages());
   }
@@ -112,6 +118,7 @@ void Workspace::noteEnd() {
 bool Workspace::openReference(const std::string& file) {
   try {
     reference_ = readPicture(file);
+    referenceIsLinear_ = pictureFormatFor(file).keepsBright;
   } catch (const Error& error) {
     report(error.messages());
     return false;

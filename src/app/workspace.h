@@ -35,6 +35,8 @@ class Workspace {
   bool openReference(const std::string& file);
   const std::optional<Picture>& reference() const { return reference_; }
   const std::string& referenceFile() const { return referenceFile_; }
+  /// It holds colours as they were rendered, before any tone.
+  bool referenceIsLinear() const { return referenceIsLinear_; }
   std::uint64_t referenceVersion() const { return referenceVersion_; }
   void closeReference() { reference_.reset(), referenceFile_.clear(), ++referenceVersion_; }
 
@@ -66,13 +68,16 @@ class Workspace {
 
   void noteEnd();
   void reloadIfChanged();
+  void reportReading();  // its warnings, once
 
   std::optional<Picture> reference_;
   std::string referenceFile_;
+  bool referenceIsLinear_ = false;
   std::uint64_t referenceVersion_ = 0;
   std::vector<LogEntry> log_;
   std::vector<std::string> recent_;
   std::uint64_t seen_ = 0;      // revision of the document that update() looked at last
+  std::uint64_t reading_ = 0;   // that is in the log
   std::uint64_t reported_ = 0;  // number of the render whose end is in the log
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;

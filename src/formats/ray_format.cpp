@@ -568,6 +568,10 @@ class Reader {
 
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
 
+bool changesWithTime(const std::string& file, std::string_view bytes) {
+  return recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+}
+
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   Scene scene;
   scene.file = file;

@@ -12,6 +12,9 @@ namespace trace {
 /// Does the content begin, after white space and comments, with the word SBT-raytracer?
 bool recognisesRay(std::string_view bytes);
 
+/// Whether it holds values that change with time, of which a Scene has those of one moment.
+bool changesWithTime(const std::string& file, std::string_view bytes);
+
 /// The scene at `time`, in seconds (ray_keys.h). Throws Error(Fault::scene) with up to twenty errors; one, if
 /// the syntax is wrong.
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);

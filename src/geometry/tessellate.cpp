@@ -174,9 +174,8 @@ auto withForm(const ShapeType& shape, Visit&& visit) {
   }
 }
 
-Box3 cutOff(Box3 box) {
-  constexpr Vec3 kCorner{kFarthest, kFarthest, kFarthest};
-  if (!isFinite(box.size())) box.low = max(box.low, -kCorner), box.high = min(box.high, kCorner);
+Box3 cutOff(Box3 box, const Box3& within) {
+  if (!isFinite(box.size())) box.low = max(box.low, within.low), box.high = min(box.high, within.high);
   return box;
 }
 
@@ -197,15 +196,16 @@ std::vector<SurfaceCorner> meshCorners(const MeshData& given) {
 
 }  // namespace
 
-Box3 drawnBounds(const Shape& shape) {
+Box3 drawnBounds(const Shape& shape, const Box3& within) {
   return match(shape, Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
-                                 [](const auto& s) {
-                                   return withForm(s, [](const auto& form) { return cutOff(form.bounds()); });
+                                 [&](const auto& s) {
+                                   return withForm(
+                                       s, [&](const auto& form) { return cutOff(form.bounds(), within); });
                                  }});
 }
 
-std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions) {
-  const Box3 box = drawnBounds(shape);
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within) {
+  const Box3 box = drawnBounds(shape, within);
   const auto sampled = [&](const auto& form) {
     if (!(maxComponent(box.size()) > 0)) return std::vector<SurfaceCorner>{};
     Grid grid(box, divisions);

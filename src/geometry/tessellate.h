@@ -17,12 +17,14 @@ struct SurfaceCorner {
   Vec3 point, normal;  ///< in the shape's space; normals are unit and on either side
 };
 
-/// The shape's bounds; of one without end the part within kFarthest of its origin.
-Box3 drawnBounds(const Shape& shape);
-inline constexpr Real kFarthest = 100;
+/// Where a shape without end is cut off, in its own space, unless something else is said.
+inline constexpr Box3 kFarthest{{-100, -100, -100}, {100, 100, 100}};
+
+/// The shape's bounds; of one without end the part that lies in the box.
+Box3 drawnBounds(const Shape& shape, const Box3& within = kFarthest);
 
 /// Three corners for each triangle. A mesh gives its own; other shapes are sampled on a grid of about
 /// `divisions` cells along their longest side.
-std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions = 24);
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions = 24, const Box3& within = kFarthest);
 
 }  // namespace trace

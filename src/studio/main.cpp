@@ -35,7 +35,8 @@ void frame(Studio& studio) {
     studio.window.fontsChanged();
     studio.themeChanged = false;
   }
-  const bool busy = studio.workspace.render.state().working() || studio.workspace.inspector.busy();
+  const bool busy = studio.workspace.render.state().working() || studio.workspace.inspector.busy() ||
+                    studio.rays.modelTask.busy();
   studio.window.beginFrame(busy ? kBusy : kIdle);
   for (const std::string& file : studio.window.takeDropped()) {
     if (!isPicture(file))

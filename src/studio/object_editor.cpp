@@ -161,7 +161,6 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
     match(placed.shape, [&](auto& shape) {
       editFields(shape, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
     });
-    editTransform(placed.transform, name, changed);
     endFields();
   }
   match(placed.shape, [&](auto& shape) {
@@ -170,6 +169,9 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
       editOperands(studio, shape.objects, placed.material, changed);
     }
   });
+  if (!beginFields("place")) return;
+  editTransform(placed.transform, name, changed);
+  endFields();
 }
 
 void shapeMenu(const std::function<void(Shape)>& chosen) {

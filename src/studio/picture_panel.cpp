@@ -33,19 +33,21 @@ void refresh(Studio& studio) {
     view.shown = workspace.render.picture();
     pictureChanged = true;
   }
+  if (pictureChanged || view.tone != settings.tone) view.levels = toned(view.shown, settings.tone);
   if (view.shown.width > 0 && (pictureChanged || toneChanged))
-    view.pictureTexture.set(exposed(toned(view.shown, settings.tone), view.exposure, settings.rounding));
+    view.pictureTexture.set(exposed(view.levels, view.exposure, settings.rounding));
   const auto& reference = workspace.reference();
   const bool referenceChanged = view.referenceVersion != workspace.referenceVersion();
   if (reference && (referenceChanged || toneChanged))
     view.referenceTexture.set(exposed(*reference, view.exposure, settings.rounding));
   const bool compares = view.view == View::difference || view.view == View::falseColour;
   if (compares && reference && sameSize(view.shown, *reference) &&
-      (pictureChanged || referenceChanged || view.differenceView != view.view ||
+      (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify)) {
     const bool colours = view.view == View::falseColour;
-    const Picture difference = colours ? falseColours(view.shown, *reference, view.magnify)
-                                       : differences(view.shown, *reference, view.magnify);
+    const Picture& picture = workspace.referenceIsLinear() ? view.shown : view.levels;
+    const Picture difference = colours ? falseColours(picture, *reference, view.magnify)
+                                       : differences(picture, *reference, view.magnify);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
     view.differenceView = view.view, view.differenceMagnify = view.magnify;
   }
@@ -152,13 +154,6 @@ void zoomAndPan(PictureView& view, const Frame& frame) {
   }
 }
 
-std::string values(const Color& c, Rounding rounding) {
-  char text[120];
-  std::snprintf(text, sizeof text, "%.4g  %.4g  %.4g   (%d %d %d)", c.r, c.g, c.b, toLevel(c.r, rounding),
-                toLevel(c.g, rounding), toLevel(c.b, rounding));
-  return text;
-}
-
 void drawStatus(Studio& studio, bool hovered, int x, int y) {
   const PictureView& view = studio.picture;
   Workspace& workspace = studio.workspace;
@@ -177,7 +172,7 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
   ImGui::AlignTextToFramePadding();
   if (hovered) {
     ImGui::Text("%d, %d", x, y);
-    const Color c = view.shown.at(x, y);
+    const Color c = view.levels.at(x, y);
     const Rounding rounding = workspace.document.settings().rounding;
     ImGui::SameLine(0, characters(3));
     const Color clamped = clamp01(c);
@@ -187,10 +182,11 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
         {static_cast<float>(clamped.r), static_cast<float>(clamped.g), static_cast<float>(clamped.b), 1},
         ImGuiColorEditFlags_NoTooltip, {side, side});
     ImGui::SameLine();
-    ImGui::TextUnformatted(values(c, rounding).c_str());
+    ImGui::TextUnformatted(pixelText(view.shown.at(x, y), c, rounding).c_str());
     const auto& reference = workspace.reference();
     if (reference && sameSize(*reference, view.shown)) {
-      ImGui::TextDisabled("reference  %s", values(reference->at(x, y), rounding).c_str());
+      ImGui::TextDisabled("reference  %s",
+                          pixelText(reference->at(x, y), reference->at(x, y), rounding).c_str());
     }
   } else if (!state.working() && view.shown.width > 0) {
     const char* how = state.phase == BackgroundRender::Phase::finished ? "finished"

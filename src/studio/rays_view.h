@@ -32,8 +32,10 @@ struct RaysView {
 
   // The view in space.
   std::unique_ptr<SceneDrawer> drawer;
-  SceneModel model;
-  std::shared_ptr<const Scene> modelScene;
+  SceneModel model;                                                          ///< that is drawn
+  std::shared_ptr<const Scene> modelScene;                                   ///< whose model was asked for
+  std::shared_ptr<SceneModeler> modeler = std::make_shared<SceneModeler>();  ///< of modelTask alone
+  BackgroundTask<SceneModel> modelTask;
   std::string orbitFile;  ///< the scene file that `orbit` was set for
   OrbitCamera orbit;
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene

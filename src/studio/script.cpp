@@ -47,11 +47,11 @@ constexpr std::array kTable{
             [](Studio& s, const std::vector<std::string>& a) {
               return s.workspace.document.choose(a[0], a[1]), true;
             }},
-    Command{"wait", "", 0, 0, "until the picture is finished",
+    Command{"wait", "", 0, 0, "until the picture and the view in space are finished",
             [](Studio& s, const std::vector<std::string>&) {
               const auto state = s.workspace.render.state();
               if (state.phase == BackgroundRender::Phase::failed) must(false, s);
-              return !state.working() && !s.workspace.stale();
+              return !state.working() && !s.workspace.stale() && !s.rays.modelTask.busy();
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
             [](Studio& s, const std::vector<std::string>& a) {

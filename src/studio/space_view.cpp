@@ -44,17 +44,27 @@ class Pen {
 
 Color toColor(const ImVec4& c) { return {c.x, c.y, c.z}; }
 
+/// Asks for the scene's triangles when they have changed, and takes those that have come.
 void updateModel(Studio& studio) {
   RaysView& view = studio.rays;
   const auto scene = studio.workspace.document.sharedScene();
-  if (view.modelScene == scene) return;
-  const bool same = view.modelScene && sameSurfaces(*view.modelScene, *scene) &&
-                    view.modelScene->materials == scene->materials;
-  if (!same) {
-    view.model = modelOf(*scene);
+  if (view.modelScene != scene) {
+    const bool same = view.modelScene && sameSurfaces(*view.modelScene, *scene) &&
+                      view.modelScene->materials == scene->materials;
+    if (!same)
+      view.modelTask.start([scene, modeler = view.modeler](const Cancelled& cancelled) {
+        try {
+          return modeler->model(*scene, cancelled);
+        } catch (const std::exception&) {  // the render says what is wrong
+          return SceneModel{};
+        }
+      });
+    view.modelScene = scene;
+  }
+  if (auto model = view.modelTask.take()) {
+    view.model = std::move(*model);
     view.drawer->setCorners(view.model.corners);
   }
-  view.modelScene = scene;
 }
 
 /// Looks at what the scene's camera sees, once for each file.

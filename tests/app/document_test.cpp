@@ -164,6 +164,92 @@ TEST_F(DocumentTest, SavedScenesAreReadAsTheyWereEdited) {
   EXPECT_EQ(document.file(), path("saved.ray"));
 }
 
+TEST_F(DocumentTest, PointsOfASweepAndObjectsOfASolidAreEditedUndoneAndSaved) {
+  write("solids.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,8); viewdir=(0,0,-1); updir=(0,1,0); }
+sphere_sweep { points = ((0,0,0,1), (1,0,0,0.5), (2,1,0,0.2)); }
+difference { box { } sphere { name = "hole"; } }
+)");
+  Document document;
+  document.open(path("solids.ray"));
+  Scene scene = document.scene();
+  auto& sweep = std::get<SphereSweep>(scene.objects.at(0).shape);
+  sweep.points.push_back({3, 1, 0, 0.1}), sweep.spline = Spline::catmull;
+  auto& whole = std::get<Difference>(scene.objects.at(1).shape);
+  std::vector<Operand> operands = whole.objects.list();
+  operands.at(1).wholeFromOperand = Affine::translation({0.5, 0, 0});
+  operands.push_back({"bite", Torus{}, {}, operands.at(0).material});
+  whole.objects = Operands(operands);
+  document.edit("solids", scene);
+  document.undo();
+  EXPECT_EQ(std::get<Difference>(document.scene().objects.at(1).shape).objects.list().size(), 2u);
+  document.redo();
+  document.save(path("saved.ray"));
+  Document again;
+  again.open(path("saved.ray"));
+  EXPECT_EQ(again.scene().objects.at(0).shape, scene.objects.at(0).shape);
+  EXPECT_EQ(std::get<Difference>(again.scene().objects.at(1).shape).objects.list().size(), 3u);
+  EXPECT_EQ(again.scene().objects.at(1).shape, scene.objects.at(1).shape);
+}
+
+constexpr const char* kAnimated = R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { direction=(0,0,-1); color=(1,1,1); }
+translate(key((0, 0), (2, 1)), 0, 0, sphere { name = "ball"; })
+)";
+
+TEST_F(DocumentTest, TheOptionTimeReadsTheSceneOfThatMoment) {
+  write("animated.ray", kAnimated);
+  Document document;
+  document.open(path("animated.ray"));
+  const auto x = [&] { return document.scene().objects.at(0).worldFromObject.offset.x; };
+  EXPECT_EQ(x(), 0);
+  document.choose("time", "1");
+  EXPECT_EQ(x(), 0.5);
+  EXPECT_FALSE(document.edited());
+  document.choose("time", "2", true);
+  EXPECT_EQ(x(), 1);
+  document.undo();
+  EXPECT_EQ(x(), 0);
+  EXPECT_FALSE(document.edited());
+  document.redo();
+  document.reset("time");
+  EXPECT_EQ(x(), 0);
+
+  document.edit("name", renamed(document.scene(), "moon"));
+  document.choose("time", "1");
+  EXPECT_EQ(document.scene().objects.at(0).name, "ball");
+  ASSERT_EQ(document.messages().all().size(), 1u);  // which says so
+  document.undo();
+  EXPECT_EQ(document.scene().objects.at(0).name, "moon");
+}
+
+TEST_F(DocumentTest, TheOptionTimeKeepsEditsOfASceneThatDoesNotChange) {
+  Document document;
+  document.open(path("scene.ray"));
+  document.edit("name", renamed(document.scene(), "moon"));
+  document.choose("time", "1");
+  EXPECT_EQ(document.scene().objects.at(0).name, "moon");
+  EXPECT_EQ(document.settings().time, 1);
+  EXPECT_TRUE(document.messages().all().empty());
+}
+
+TEST_F(DocumentTest, SavingAnAnimatedSceneWarnsThatItsKeysAreNotKept) {
+  write("animated.ray", kAnimated);
+  Document document;
+  document.open(path("scene.ray"));
+  EXPECT_FALSE(document.changesWithTime());
+  EXPECT_TRUE(document.save(path("plain.ray")).empty());
+  document.open(path("animated.ray"));
+  document.choose("time", "1");
+  EXPECT_TRUE(document.changesWithTime());
+  const std::vector<Message> warnings = document.save(path("moment.ray"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].what.find("keys of animated.ray"), std::string::npos);
+  EXPECT_FALSE(document.changesWithTime());
+  EXPECT_TRUE(document.save(path("moment.ray")).empty());
+}
+
 // --- the background render ----------------------------------------------------------------------------
 
 void waitFor(BackgroundRender& render) {
@@ -212,6 +298,28 @@ TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {
   workspace.update();
   EXPECT_EQ(workspace.render.state().number, number);
   EXPECT_TRUE(workspace.stale());
+}
+
+TEST_F(WorkspaceTest, AnEditOfAMaterialKeepsTheTreesOfMeshes) {
+  write("mesh.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { direction=(0,0,-1); color=(1,1,1); }
+polymesh { material = { diffuse = (1,0,0); } points = ((-1,-1,0), (1,-1,0), (0,1,0)); faces = ((0,1,2)); }
+)");
+  Workspace workspace;
+  ASSERT_TRUE(workspace.open(path("mesh.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  const auto before = workspace.render.session();
+  Scene scene = workspace.document.scene();
+  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  workspace.document.edit("diffuse", scene);
+  workspace.document.choose("depth", "2");
+  workspace.update();
+  waitFor(workspace.render);
+  const auto now = workspace.render.session();
+  ASSERT_NE(now, before);
+  EXPECT_EQ(now->world().meshTree(0), before->world().meshTree(0));
+  EXPECT_EQ(&now->world().hierarchy(), &before->world().hierarchy());
 }
 
 TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
@@ -305,6 +413,14 @@ TEST(PictureViews, ExposureIsInStopsAndZeroStopsAreTheLevelsOfAFile) {
   picture.at(0, 0) = {0.25, 0.5, 2};
   EXPECT_EQ(exposed(picture, 0, Rounding::truncate), toBytes(picture, Rounding::truncate));
   EXPECT_EQ(exposed(picture, 1, Rounding::truncate).rgb, (std::vector<std::uint8_t>{127, 255, 255}));
+}
+
+TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {
+  Picture picture(2, 1);
+  picture.at(0, 0) = Color(1), picture.at(1, 0) = Color(3);
+  const Picture stretched = toned(picture, Tone::stretch);
+  EXPECT_EQ(pixelText(picture.at(1, 0), stretched.at(1, 0), Rounding::nearest), "3  3  3   (255 255 255)");
+  EXPECT_EQ(pixelText(picture.at(0, 0), stretched.at(0, 0), Rounding::nearest), "1  1  1   (0 0 0)");
 }
 
 TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {

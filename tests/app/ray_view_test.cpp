@@ -114,7 +114,8 @@ TEST(RayView, WhatALightNoLongerReachesIsSaid) {
 TEST(SceneModel, HasEveryObjectInItsPlace) {
   Random random(7);
   const Scene scene = randomScene(random, 25);
-  const SceneModel model = modelOf(scene);
+  SceneModeler modeler;
+  const SceneModel model = modeler.model(scene);
   ASSERT_EQ(model.parts.size(), scene.objects.size());
   std::size_t corners = 0;
   for (const ScenePart& part : model.parts) {
@@ -140,6 +141,42 @@ TEST(SceneModel, HasEveryObjectInItsPlace) {
   EXPECT_FALSE(sameSurfaces(scene, moved));
 }
 
+TEST(SceneModel, AfterAnEditItIsThatOfANewModeler) {
+  Random random(8);
+  Scene scene = randomScene(random, 25);
+  SceneModeler kept;
+  kept.model(scene);
+  scene.objects[2].shape = Torus{};
+  scene.objects[4].worldFromObject.offset.x += 1;
+  scene.objects.erase(scene.objects.begin() + 7);
+  const SceneModel model = kept.model(scene), fresh = SceneModeler{}.model(scene);
+  EXPECT_EQ(model.corners, fresh.corners);
+  EXPECT_EQ(model.parts.size(), fresh.parts.size());
+  EXPECT_TRUE(SceneModeler{}.model(scene, [] { return true; }).parts.empty());  // nobody wants it
+}
+
+TEST(SceneModel, APlaneIsCutOffSomeWayAroundTheScene) {
+  for (const Real size : {1e-3, 1.0, 1e5}) {
+    Scene scene;
+    addObject(scene, Sphere{}, Affine::scaling({size, size, size}), {});
+    addObject(scene, Plane{}, Affine::translation({0, 0, -size}) * Affine::rotation({1, 0, 0}, 0.3), {});
+    scene.camera.position = {0, 0, 5 * size};
+    const SceneModel model = SceneModeler{}.model(scene);
+    ASSERT_EQ(model.parts.size(), 2u);
+    const ScenePart& plane = model.parts[1];
+    ASSERT_GT(plane.count, 100u);
+    Box3 drawn;
+    for (std::size_t i = plane.first; i < plane.first + plane.count; ++i) {
+      const float* c = &model.corners[i * 6];
+      for (int k = 0; k < 6; ++k) ASSERT_TRUE(std::isfinite(c[k]));
+      drawn.extend(Vec3(c[0], c[1], c[2]) * model.scale + model.origin);
+    }
+    EXPECT_GT(drawn.size().x, 2 * size);
+    EXPECT_LT(maxComponent(drawn.size()), 50 * size);
+    for (const Vec3& corner : plane.box) EXPECT_TRUE(isFinite(corner));
+  }
+}
+
 TEST(SceneModel, WhatTheCameraSeesIsWithoutTheFarEndsOfAFloor) {
   const Scene scene = mirrorScene();
   const World world = build(scene);
@@ -147,6 +184,9 @@ TEST(SceneModel, WhatTheCameraSeesIsWithoutTheFarEndsOfAFloor) {
   EXPECT_TRUE(seen.low.x < -0.5 && seen.high.x > 0.5 && seen.low.y < 0 && seen.high.y > 0);
   EXPECT_LT(maxComponent(seen.size()), 0.9 * maxComponent(world.bounds().size()));
   EXPECT_TRUE(seenBy(build(Scene{})).empty());
+  Scene endless = scene;
+  endless.objects[1].shape = Plane{};  // the floor, up to the horizon
+  EXPECT_LT(maxComponent(seenBy(build(endless)).size()), 40);
 }
 
 TEST(OrbitCamera, SeesItsTargetAndTheSceneCameraAndTurnsAboutTheTarget) {

@@ -43,6 +43,7 @@ pixel 40 50
 rays
 ray 1
 panel Scene
+select object 1
 panel Controls
 screenshot window.png
 END
