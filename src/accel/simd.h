@@ -1,5 +1,6 @@
-// Thin types for four and eight floats, as far as the traversal, the triangle filter and the builder need
-// them. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for plain C++.
+// Thin types for four and eight floats and four doubles, as far as the traversal, the triangle test and the
+// builder need them. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for
+// plain C++.
 //
 // Each instruction set has its own inline namespace, so that code compiled for one is never linked in place
 // of another's. Comparisons give masks with bit i for lane i.
@@ -85,6 +86,29 @@ inline unsigned lessEqual(Float8 a, Float8 b) {
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
 }
 
+struct Double4 {
+  __m256d v;
+  static Double4 widen(const float* p) { return {_mm256_cvtps_pd(_mm_load_ps(p))}; }
+  static Double4 all(double x) { return {_mm256_set1_pd(x)}; }
+  void store(double* p) const { _mm256_store_pd(p, v); }
+};
+inline Double4 operator+(Double4 a, Double4 b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Double4 operator-(Double4 a, Double4 b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Double4 operator*(Double4 a, Double4 b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Double4 operator/(Double4 a, Double4 b) { return {_mm256_div_pd(a.v, b.v)}; }
+inline Double4 min(Double4 a, Double4 b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Double4 max(Double4 a, Double4 b) { return {_mm256_max_pd(a.v, b.v)}; }
+/// -a where the sign bit of `sign` is set, else a.
+inline Double4 timesSign(Double4 a, Double4 sign) {
+  return {_mm256_xor_pd(a.v, _mm256_and_pd(_mm256_set1_pd(-0.0), sign.v))};
+}
+inline unsigned less(Double4 a, Double4 b) {
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LT_OQ)));
+}
+inline unsigned lessEqual(Double4 a, Double4 b) {
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ)));
+}
+
 }  // namespace avx2
 
 #elif defined(__SSE2__)
@@ -108,6 +132,34 @@ inline unsigned lessEqual(Float8 a, Float8 b) {
                                _mm_movemask_ps(_mm_cmple_ps(a.hi, b.hi)) << 4);
 }
 
+struct Double4 {
+  __m128d lo, hi;
+  static Double4 widen(const float* p) {
+    const __m128 f = _mm_load_ps(p);
+    return {_mm_cvtps_pd(f), _mm_cvtps_pd(_mm_movehl_ps(f, f))};
+  }
+  static Double4 all(double x) { return {_mm_set1_pd(x), _mm_set1_pd(x)}; }
+  void store(double* p) const { _mm_store_pd(p, lo), _mm_store_pd(p + 2, hi); }
+};
+inline Double4 operator+(Double4 a, Double4 b) { return {_mm_add_pd(a.lo, b.lo), _mm_add_pd(a.hi, b.hi)}; }
+inline Double4 operator-(Double4 a, Double4 b) { return {_mm_sub_pd(a.lo, b.lo), _mm_sub_pd(a.hi, b.hi)}; }
+inline Double4 operator*(Double4 a, Double4 b) { return {_mm_mul_pd(a.lo, b.lo), _mm_mul_pd(a.hi, b.hi)}; }
+inline Double4 operator/(Double4 a, Double4 b) { return {_mm_div_pd(a.lo, b.lo), _mm_div_pd(a.hi, b.hi)}; }
+inline Double4 min(Double4 a, Double4 b) { return {_mm_min_pd(a.lo, b.lo), _mm_min_pd(a.hi, b.hi)}; }
+inline Double4 max(Double4 a, Double4 b) { return {_mm_max_pd(a.lo, b.lo), _mm_max_pd(a.hi, b.hi)}; }
+inline Double4 timesSign(Double4 a, Double4 sign) {
+  const __m128d minus = _mm_set1_pd(-0.0);
+  return {_mm_xor_pd(a.lo, _mm_and_pd(minus, sign.lo)), _mm_xor_pd(a.hi, _mm_and_pd(minus, sign.hi))};
+}
+inline unsigned less(Double4 a, Double4 b) {
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd(a.lo, b.lo)) |
+                               _mm_movemask_pd(_mm_cmplt_pd(a.hi, b.hi)) << 2);
+}
+inline unsigned lessEqual(Double4 a, Double4 b) {
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(a.lo, b.lo)) |
+                               _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi)) << 2);
+}
+
 }  // namespace sse2
 
 #else  // lanes as arrays: compilers turn these loops into NEON or WebAssembly SIMD where it is switched on
@@ -128,6 +180,7 @@ struct Lanes {
     return r;
   }
   static Lanes loadAnywhere(const float* p) { return load(p); }
+  static Lanes widen(const float* p) { return load(p); }
   static Lanes narrow(double x, double y, double z) {
     return {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z), static_cast<T>(z)};
   }
@@ -178,6 +231,12 @@ Lanes<T, N> abs(const Lanes<T, N>& a) {
   return map(a, a, [](T x, T) { return x < 0 ? -x : x; });
 }
 template <class T, int N>
+unsigned less(const Lanes<T, N>& a, const Lanes<T, N>& b) {
+  unsigned mask = 0;
+  for (int i = 0; i < N; ++i) mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
+  return mask;
+}
+template <class T, int N>
 unsigned lessEqual(const Lanes<T, N>& a, const Lanes<T, N>& b) {
   unsigned mask = 0;
   for (int i = 0; i < N; ++i) mask |= (a.v[i] <= b.v[i] ? 1u : 0u) << i;
@@ -186,6 +245,10 @@ unsigned lessEqual(const Lanes<T, N>& a, const Lanes<T, N>& b) {
 template <class T, int N>
 Lanes<T, N> withSign(const Lanes<T, N>& size, const Lanes<T, N>& sign) {
   return map(abs(size), sign, [](T x, T y) { return __builtin_signbit(y) ? -x : x; });
+}
+template <class T, int N>
+Lanes<T, N> timesSign(const Lanes<T, N>& a, const Lanes<T, N>& sign) {
+  return map(a, sign, [](T x, T y) { return __builtin_signbit(y) ? -x : x; });
 }
 template <class T, int N>
 unsigned signs(const Lanes<T, N>& a) {
@@ -207,6 +270,7 @@ Lanes<T, N> timesMinus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T
 }
 using Float4 = Lanes<float, 4>;
 using Float8 = Lanes<float, 8>;
+using Double4 = Lanes<double, 4>;
 
 }  // namespace plain
 

@@ -74,12 +74,11 @@ constexpr float kShortest = 1e-9f, kLongest = 1e9f;  // direction that need not 
   return true;
 }
 
-/// Calls visit(leaf, limit), which returns true to end, for each leaf whose box the ray may meet before
-/// tMost, which may shrink during the calls, and visitNode(node) for each node; `limit` is tMost along the
-/// slab ray, rounded up. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
-template <bool kNearestFirst, class VisitNode, class VisitLeaf>
-[[gnu::always_inline]] inline void traverse(const BvhNode* nodes, const SlabRay& ray, const double& tMost,
-                                            VisitNode& visitNode, VisitLeaf& visit) {
+/// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
+/// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else in any order.
+template <bool kNearestFirst, class VisitLeaf>
+[[gnu::always_inline]] inline void traverse(const BvhNode* nodes, const SlabRay& ray, float limit,
+                                            NodeCount& visited, const VisitLeaf& visit) {
   struct Pending {
     std::uint32_t child;
     float near;  // where the ray enters its box
@@ -96,16 +95,14 @@ template <bool kNearestFirst, class VisitNode, class VisitLeaf>
   // Where the planes that the ray meets first lie in a node, in floats.
   const unsigned backward = signs(ray.inverse);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
-  float limit = ray.fromT(tMost);
-
   Pending next{0, 0};
   for (;;) {
     if (next.child & BvhNode::kLeaf) {
       if (visit(next.child & ~BvhNode::kLeaf, limit)) return;
-      limit = ray.fromT(tMost);
     } else {
       const BvhNode& node = nodeAt(nodes, next.child);
-      visitNode(node);
+      ++visited.count;
+      if (__builtin_expect(visited.note != nullptr, 0)) visited.note(visited.context, node, visited.owner);
       const float* planes = &node.plane[0][0][0];
       Float8 enter = Float8::all(0), leave = Float8::all(limit);
       for (int axis = 0; axis < 3; ++axis) {
@@ -152,34 +149,21 @@ template <bool kNearestFirst, class VisitNode, class VisitLeaf>
   }
 }
 
-/// The same, counting the nodes. Noting them has a loop of its own, so that it costs the others nothing.
-template <bool kNearestFirst, class VisitLeaf>
-void traverseCounting(const BvhNode* nodes, const SlabRay& ray, const double& tMost, NodeCount& visited,
-                      VisitLeaf& visit) {
-  std::uint64_t count = 0;
-  auto add = [&](const BvhNode&) { ++count; };
-  auto note = [&](const BvhNode& node) {
-    ++count;
-    visited.note(visited.context, node, visited.owner);
-  };
-  if (visited.note == nullptr)
-    traverse<kNearestFirst>(nodes, ray, tMost, add, visit);
-  else
-    traverse<kNearestFirst>(nodes, ray, tMost, note, visit);
-  visited.count += count;
-}
-
 /// What a BvhKernel does: the same with the visitor as a function and its context.
 inline void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const double* origin,
                         const double* direction, const double& tMost, bool nearestFirst, NodeCount& visited,
                         bool (*visit)(void*, std::uint32_t), void* context) {
   SlabRay ray;
   if (!prepare(extent, origin, direction, tMost, ray)) return;
-  auto visitLeaf = [=](std::uint32_t leaf, float) { return visit(context, leaf); };
+  const auto visitLeaf = [&](std::uint32_t leaf, float& limit) {
+    const bool ended = visit(context, leaf);
+    limit = ray.fromT(tMost);
+    return ended;
+  };
   if (nearestFirst)
-    traverseCounting<true>(nodes, ray, tMost, visited, visitLeaf);
+    traverse<true>(nodes, ray, ray.fromT(tMost), visited, visitLeaf);
   else
-    traverseCounting<false>(nodes, ray, tMost, visited, visitLeaf);
+    traverse<false>(nodes, ray, ray.fromT(tMost), visited, visitLeaf);
 }
 
 }  // namespace

@@ -22,30 +22,8 @@ std::span<const MeshKernel> meshKernels() {
 #endif
 }
 
-bool MeshQuery::meets(std::uint32_t block, std::size_t lane, bool sure, MeshHit& met) const {
-  const Corners corners = mesh.blocks[block].corners(lane);
-  if (!locate(ray, corners, best.hit.t, met.hit)) return false;
-  if (!sure && !TriangleRay(ray).passes(corners)) return false;
-  met.triangle = mesh.triangles[Bvh::kLeafSize * block + lane];
-  return true;
-}
-
-void MeshQuery::keepClosest(std::uint32_t block, unsigned lanes, unsigned sure) {
-  for (MeshHit met; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-    if (!meets(block, lane, sure >> lane & 1, met)) continue;
-    if (met.hit.t == best.hit.t && met.triangle >= best.triangle) continue;
-    if (accept == nullptr || accept(context, met)) best = met;
-  }
-}
-
-bool MeshQuery::visitCrossings(std::uint32_t block, unsigned lanes, unsigned sure) {
-  for (MeshHit met; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-    if (meets(block, lane, sure >> lane & 1, met) && met.hit.t < best.hit.t && accept(context, met))
-      return true;
-  }
-  return false;
+bool MeshQuery::passes(std::uint32_t block, std::size_t lane) const {
+  return TriangleRay(ray).passes(mesh.blocks[block].corners(lane));
 }
 
 MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, const MeshKernel& kernel)
@@ -69,8 +47,7 @@ MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, const 
                                        : data_->points[data_->triangles[triangle][corner]][axis];
     }
   if (blocks_.empty()) return;
-  arrays_ = {bvh_.nodes().data(), blocks_.data(), bvh_.leaf(0).data(), bvh_.extent(),
-             bvh_.extent().reach / 4};
+  arrays_ = {bvh_.nodes().data(), blocks_.data(), bvh_.leaf(0).data(), bvh_.extent()};
 }
 
 }  // namespace trace

@@ -1,7 +1,7 @@
 // A mesh as rays meet it: its triangles in the leaves of a hierarchy, four to a block.
 //
-// A block's four lanes are tested in float, loosely, which rules out nearly all that the ray does not meet.
-// What is left, TriangleRay::intersect decides, alone and in double. So the hit is the one that testing every
+// A block's four lanes are tested at once, in double; where a weight is so near zero that rounding might have
+// given it the wrong sign, the exact test decides (triangle.h). So the hit is the one that testing every
 // triangle finds.
 #pragma once
 
@@ -37,7 +37,6 @@ struct MeshArrays {
   const TriangleBlock* blocks;
   const std::uint32_t* triangles;  ///< four for each block
   BvhExtent extent;
-  float largest;  ///< coordinate
 };
 
 /// A ray's way through a mesh.
@@ -51,14 +50,10 @@ struct MeshQuery {
   void* context = nullptr;
   std::uint64_t blocks = 0;  ///< tested
 
-  /// Decides about lanes (bit i for lane i) of a block that the ray may meet; of those in `sure` only the
-  /// distance is in question. For the closest hit: updates `best`. For all crossings, at t < best.hit.t: true
-  /// if `accept` wants no more.
-  void keepClosest(std::uint32_t block, unsigned lanes, unsigned sure);
-  bool visitCrossings(std::uint32_t block, unsigned lanes, unsigned sure);
+  MeshHit candidate{};
 
- private:
-  bool meets(std::uint32_t block, std::size_t lane, bool sure, MeshHit&) const;
+  /// The exact test of a lane of a block.
+  bool passes(std::uint32_t block, std::size_t lane) const;
 };
 
 /// The way through a mesh, compiled for one instruction set.
