@@ -5,12 +5,14 @@
 #include <limits>
 
 #include "accel/simd.h"
+#include "base/parallel.h"
 
 namespace trace {
 namespace {
 
 constexpr int kMostBins = 16;  // fewer where there are few items: most of the time goes into small nodes
-constexpr int kDepthOfHeuristic = 60;  // deeper, nodes are halved by count: 32 more levels hold 2^32 items
+constexpr int kDepthOfHeuristic = 60;     // deeper, nodes are halved by count: 32 more levels hold 2^32 items
+constexpr std::uint32_t kSubtree = 8192;  // references that one thread takes at a time
 constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;  // of visiting one; a leaf's items are tested together
 
 float roundDown(Real x) {
@@ -52,6 +54,13 @@ struct Branch {
 }  // namespace
 
 struct Bvh::Builder {
+  /// A part of the binary tree that a thread builds for itself: below branches[index], over these references.
+  struct Subtree {
+    std::uint32_t index, first, count;
+    int depth;
+    std::vector<Branch> branches{};
+  };
+
   std::vector<Reference> references;
   std::vector<Branch> branches;
   Bvh& bvh;
@@ -116,14 +125,21 @@ struct Bvh::Builder {
     return best;
   }
 
-  void branch(std::uint32_t index, std::uint32_t first, std::uint32_t count, int depth) {
+  /// Builds tree[index] and what is below; subtrees of up to kSubtree references go to `later`, if
+  /// there is one.
+  void branch(std::vector<Branch>& tree, std::uint32_t index, std::uint32_t first, std::uint32_t count,
+              int depth, std::vector<Subtree>* later = nullptr) {
+    if (later != nullptr && count <= kSubtree) {
+      later->push_back({index, first, count, depth});
+      return;
+    }
     Bounds box, centers;  // twice the centres
     for (std::uint32_t i = first; i < first + count; ++i) {
       const Bounds b = references[i].box();
       box.extend(b);
       centers.extend({b.low + b.high, b.low + b.high});
     }
-    branches[index].box = box;
+    tree[index].box = box;
 
     alignas(16) float low[4], high[4], scale[4] = {};
     centers.low.store(low), centers.high.store(high);
@@ -137,7 +153,7 @@ struct Bvh::Builder {
     const Split split = depth < kDepthOfHeuristic && count > 1 ? cheapestSplit(first, count, bins) : Split{};
     const float asLeaf = box.halfArea() * leafCost(count), asNode = box.halfArea() * kCostOfNode + split.cost;
     if (count == 1 || (count <= leafSize && !(asNode < asLeaf))) {
-      branches[index].first = first, branches[index].count = count;
+      tree[index].first = first, tree[index].count = count;
       return;
     }
     const auto begin = references.begin() + first, end = begin + count;
@@ -149,11 +165,37 @@ struct Bvh::Builder {
         return number[split.axis] <= split.bin;
       });
     const auto leftCount = static_cast<std::uint32_t>(middle - begin);
-    const auto children = static_cast<std::uint32_t>(branches.size());
-    branches[index].first = children, branches[index].count = 0;
-    branches.resize(branches.size() + 2);
-    branch(children, first, leftCount, depth + 1);
-    branch(children + 1, first + leftCount, count - leftCount, depth + 1);
+    const auto children = static_cast<std::uint32_t>(tree.size());
+    tree[index].first = children, tree[index].count = 0;
+    tree.resize(tree.size() + 2);
+    branch(tree, children, first, leftCount, depth + 1, later);
+    branch(tree, children + 1, first + leftCount, count - leftCount, depth + 1, later);
+  }
+
+  /// The whole binary tree: its top, then the subtrees, which are the same whoever builds them.
+  void buildBinary(int threads) {
+    std::vector<Subtree> subtrees;
+    branches.reserve(references.size());
+    branches.resize(1);
+    branch(branches, 0, 0, static_cast<std::uint32_t>(references.size()), 0, &subtrees);
+    Job job;
+    parallelChunks(static_cast<std::int64_t>(subtrees.size()), threads, job, [&](std::int64_t i, int) {
+      Subtree& part = subtrees[static_cast<std::size_t>(i)];
+      part.branches.reserve(part.count);
+      part.branches.resize(1);
+      branch(part.branches, 0, part.first, part.count, part.depth);
+    });
+    for (const Subtree& part : subtrees) {  // a part's root takes its place, the others are appended
+      const auto shift = static_cast<std::uint32_t>(branches.size()) - 1;
+      for (std::size_t i = 0; i < part.branches.size(); ++i) {
+        Branch moved = part.branches[i];
+        if (moved.count == 0) moved.first += shift;
+        if (i == 0)
+          branches[part.index] = moved;
+        else
+          branches.push_back(moved);
+      }
+    }
   }
 
   // --- eight to a node ---
@@ -202,7 +244,7 @@ struct Bvh::Builder {
   }
 };
 
-Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
+Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves, int threads) {
   Box3 whole;
   for (const Box3& box : boxes)
     if (!box.empty()) whole.extend(box);
@@ -233,9 +275,7 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves) {
     *this = bruteForce(boxes);
     return;
   }
-  builder.branches.reserve(builder.references.size());
-  builder.branches.resize(1);
-  builder.branch(0, 0, static_cast<std::uint32_t>(builder.references.size()), 0);
+  builder.buildBinary(threads);
   builder.collapse(0);
   nodes_.shrink_to_fit(), items_.shrink_to_fit();
 }

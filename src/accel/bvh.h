@@ -3,8 +3,8 @@
 // knows boxes and item numbers only, so one structure serves the objects of a scene and the triangles of a
 // mesh.
 //
-// The same boxes give the same tree, always. Boxes are float, and padded by far more than a query's rounding:
-// a query finds what testing every item would find.
+// The same boxes give the same tree, for any number of threads. Boxes are float, and padded by far more than
+// a query's rounding: a query finds what testing every item would find.
 #pragma once
 
 #include <cmath>
@@ -29,8 +29,9 @@ class Bvh {
   enum class Leaves { single, together };
 
   Bvh() = default;
-  /// Over items 0 .. boxes.size() - 1. Empty boxes are left out.
-  explicit Bvh(std::span<const Box3> boxes, Leaves leaves = Leaves::single);
+  /// Over items 0 .. boxes.size() - 1. Empty boxes are left out. The tree is the same for any number of
+  /// threads; 0 means all the hardware has.
+  explicit Bvh(std::span<const Box3> boxes, Leaves leaves = Leaves::single, int threads = 1);
 
   /// Item i is called names[i] from now on; several may have the same name.
   void rename(std::span<const std::uint32_t> names) {

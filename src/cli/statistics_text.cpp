@@ -64,6 +64,7 @@ std::string statisticsTable(const Run& run) {
     text += row(kRayKindNames[i], std::to_string(s.rays[i]), "",
                 orDash("%.1f %%", ratio(100 * s.rays[i], s.allRays())));
   text += row("all", std::to_string(s.allRays()), "", "");
+  text += row("mean depth", orDash("%.2f", ratio(s.depths, s.pathRays())));
   text += row("shapes", "tests", "hits", "hits/test");
   forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
     if (tests > 0)
@@ -102,6 +103,7 @@ std::string statisticsJson(const Run& run) {
   json["seconds"] = run.seconds;
   for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][std::string(kRayKindNames[i])] = s.rays[i];
   json["rays"]["all"] = s.allRays();
+  json["meanDepth"] = orNull(ratio(s.depths, s.pathRays()));
   json["raysPerSecond"] = orNull(raysPerSecond(run));
   forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
     json["shapes"][std::string(name)] = {{"tests", tests}, {"hits", hits}};

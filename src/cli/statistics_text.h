@@ -9,6 +9,7 @@
 //   threads                          that traced
 //   seconds                          from the program's start to the written picture
 //   rays.{camera, reflection, refraction, shadow, all}             counts
+//   meanDepth                        of all but shadow rays, a camera ray having depth 0; null without rays
 //   raysPerSecond                    all rays / wall time of the phase "trace"; null when that is 0
 //   shapes.NAME.{tests, hits}        per shape of the scene format, by keyword
 //   nodes, nodesPerRay               of the hierarchies, visited; per ray null without rays

@@ -26,14 +26,15 @@ bool MeshQuery::passes(std::uint32_t block, std::size_t lane) const {
   return TriangleRay(ray).passes(mesh.blocks[block].corners(lane));
 }
 
-MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, const MeshKernel& kernel)
+MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int threads,
+                   const MeshKernel& kernel)
     : data_(std::move(data)), kernel_(kernel) {
   const std::vector<TrianglePart> parts = triangleParts(*data_, bruteForce);
   std::vector<Box3> boxes;
   std::vector<std::uint32_t> triangles;
   boxes.reserve(parts.size()), triangles.reserve(parts.size());
   for (const TrianglePart& part : parts) boxes.push_back(part.box), triangles.push_back(part.triangle);
-  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes, Bvh::Leaves::together);
+  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes, Bvh::Leaves::together, threads);
   bvh_.rename(triangles);
 
   blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());

@@ -76,7 +76,8 @@ struct MeshCounts {
 
 class MeshTree {
  public:
-  MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce,
+  /// Built by so many threads; 0 means all the hardware has.
+  MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int threads = 1,
            const MeshKernel& kernel = meshKernels().front());
 
   const MeshData& data() const { return *data_; }

@@ -11,8 +11,10 @@ namespace trace {
 class Gather {
  public:
   /// Casts the ray. Rays that are cast while this lives are its children.
-  Gather(Tracer& tracer, const Ray& ray, RayKind kind)
-      : tracer_(tracer), hit_(tracer.cast(ray, kind)), node_(tracer.enter()) {}
+  Gather(Tracer& tracer, const Ray& ray, RayKind kind, int depth)
+      : tracer_(tracer), hit_(tracer.cast(ray, kind)), node_(tracer.enter()) {
+    tracer.statistics().depths += static_cast<std::uint64_t>(depth);
+  }
   ~Gather() { tracer_.leave(node_); }
   Gather(const Gather&) = delete;
   Gather& operator=(const Gather&) = delete;

@@ -19,6 +19,7 @@ struct Statistics {
   static constexpr std::size_t kShapes = std::variant_size_v<Shape>;
 
   std::array<std::uint64_t, kRayKindNames.size()> rays{};
+  std::uint64_t depths = 0;  ///< of all but shadow rays, summed: a camera ray has depth 0
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of the list of shapes
   NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
@@ -28,10 +29,12 @@ struct Statistics {
     for (std::uint64_t n : rays) sum += n;
     return sum;
   }
+  /// All but shadow rays.
+  std::uint64_t pathRays() const { return allRays() - rays[static_cast<std::size_t>(RayKind::shadow)]; }
   Statistics& operator+=(const Statistics& other) {
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += other.rays[i];
     for (std::size_t i = 0; i < kShapes; ++i) tests[i] += other.tests[i], hits[i] += other.hits[i];
-    nodes.count += other.nodes.count, badSamples += other.badSamples;
+    depths += other.depths, nodes.count += other.nodes.count, badSamples += other.badSamples;
     return *this;
   }
   bool operator==(const Statistics&) const = default;

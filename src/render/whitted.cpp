@@ -21,7 +21,7 @@ struct Path {
 };
 
 Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
-  Gather sum(tracer, ray, path.kind);
+  Gather sum(tracer, ray, path.kind, path.depth);
   const std::optional<Hit>& hit = sum.hit();
   const World& world = tracer.world();
   if (!hit) {

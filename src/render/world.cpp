@@ -103,8 +103,10 @@ Phong bake(const Material& material, const Settings& settings) {
   return phong;
 }
 
-std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, Accel accel) {
-  return std::make_shared<const Bvh>(accel == Accel::none ? Bvh::bruteForce(boxes) : Bvh(boxes));
+std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
+  return std::make_shared<const Bvh>(settings.accel == Accel::none
+                                         ? Bvh::bruteForce(boxes)
+                                         : Bvh(boxes, Bvh::Leaves::single, settings.threads));
 }
 
 }  // namespace
@@ -189,6 +191,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   world.camera_ = frame(camera, settings.cameraAxes);
   world.background_ = scene.background;
 
+  const bool bruteForce = settings.accel == Accel::none;
   std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees;
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
@@ -227,7 +230,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                          if (data->generateNormals)
                            data = std::make_shared<const MeshData>(
                                withGeneratedNormals(*data, settings.vertexNormals == VertexNormals::unit));
-                         tree = std::make_shared<const MeshTree>(data, settings.accel == Accel::none);
+                         tree = std::make_shared<const MeshTree>(data, bruteForce, settings.threads);
                        }
                        instance.mesh = tree;
                        for (std::uint32_t m : tree->data().materials)
@@ -254,7 +257,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     world.objects_.push_back(std::move(instance));
   }
   world.bvh_ = earlier.hierarchy(boxes);
-  if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings.accel);
+  if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   return world;
 }
 

@@ -234,10 +234,10 @@ TEST_F(Cli, StatisticsKeys) {
   const json stats = json::parse(r.out);
   std::vector<std::string> keys;
   for (const auto& item : stats.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys,
-            (std::vector<std::string>{"badSamples", "end", "fraction", "height", "nodes", "nodesPerRay",
-                                      "output", "peakMemory", "phases", "rays", "raysPerSecond", "scene",
-                                      "seconds", "settings", "shapes", "threads", "version", "width"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"badSamples", "end", "fraction", "height", "meanDepth", "nodes",
+                                            "nodesPerRay", "output", "peakMemory", "phases", "rays",
+                                            "raysPerSecond", "scene", "seconds", "settings", "shapes",
+                                            "threads", "version", "width"}));
   EXPECT_EQ(stats["rays"]["camera"], 50 * 40 * 9);
   EXPECT_EQ(stats["shapes"]["sphere"]["hits"], 50 * 40 * 9);
   for (const char* phase : {"read", "build", "trace", "write"})

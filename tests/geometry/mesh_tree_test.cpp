@@ -69,7 +69,7 @@ TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
     const MeshTree every(mesh, true);
     std::vector<std::unique_ptr<MeshTree>> trees;
     for (const MeshKernel& kernel : meshKernels())
-      trees.push_back(std::make_unique<MeshTree>(mesh, false, kernel));
+      trees.push_back(std::make_unique<MeshTree>(mesh, false, 1, kernel));
     for (int k = 0; k < (kSanitized ? 200 : 2000); ++k) {
       // From near and from very far, through the ball, along axes, and exactly at vertices.
       const Real away = scale * std::pow(10, random.uniform(-1, 6));
@@ -118,7 +118,7 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
   Random random(2);
   const auto ball = ballMesh(20, random);
   for (const MeshKernel& kernel : meshKernels()) {
-    const MeshTree tree(ball, false, kernel);
+    const MeshTree tree(ball, false, 1, kernel);
     int calls = 0;
     Counts counts;
     tree.crossings(
