@@ -29,13 +29,11 @@ bool MeshQuery::passes(std::uint32_t block, std::size_t lane) const {
 MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int threads,
                    const MeshKernel& kernel)
     : data_(std::move(data)), kernel_(kernel) {
-  const std::vector<TrianglePart> parts = triangleParts(*data_, bruteForce);
-  std::vector<Box3> boxes;
-  std::vector<std::uint32_t> triangles;
-  boxes.reserve(parts.size()), triangles.reserve(parts.size());
-  for (const TrianglePart& part : parts) boxes.push_back(part.box), triangles.push_back(part.triangle);
-  bvh_ = bruteForce ? Bvh::bruteForce(boxes) : Bvh(boxes, Bvh::Leaves::together, threads);
-  bvh_.rename(triangles);
+  {
+    const TriangleParts parts = triangleParts(*data_, bruteForce);
+    bvh_ = bruteForce ? Bvh::bruteForce(parts.boxes) : Bvh(parts.boxes, Bvh::Leaves::together, threads);
+    bvh_.rename(parts.triangles);
+  }
 
   blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
   for (std::uint32_t block = 0; block < blocks_.size(); ++block)

@@ -7,7 +7,7 @@
 namespace trace {
 namespace {
 
-constexpr Real kMostParts = 0.5;  // added, of the number of triangles
+constexpr Real kMostParts = 0.25;  // added, of the number of triangles
 constexpr Real kUneven = 8;  // splits pay from this spread of sizes on (measured: scans 1 to 3, buildings 50)
 constexpr int kGridBits = 20;  // planes lie on a grid of 2^20 cells over the mesh
 
@@ -68,10 +68,10 @@ Cut coarsestCut(const Box3& box, const Box3& grid) {
 
 /// Cuts the piece `times` times; appends the boxes.
 void split(const Piece& piece, const Box3& box, int times, const Box3& grid, std::uint32_t triangle,
-           std::vector<TrianglePart>& parts) {
+           TriangleParts& parts) {
   const Cut cut = times > 0 ? coarsestCut(box, grid) : Cut{};
   if (cut.axis < 0) {
-    parts.push_back({box, triangle});
+    parts.add(box, triangle);
     return;
   }
   const std::array<Piece, 2> pieces{clip(piece, cut.axis, cut.plane, true),
@@ -85,43 +85,45 @@ void split(const Piece& piece, const Box3& box, int times, const Box3& grid, std
 
 }  // namespace
 
-std::vector<TrianglePart> triangleParts(const MeshData& mesh, bool wholeOnly) {
-  std::vector<TrianglePart> whole;
+TriangleParts triangleParts(const MeshData& mesh, bool wholeOnly) {
+  TriangleParts whole;
   whole.reserve(mesh.triangles.size());
   Box3 grid;
   Real sum = 0, sumOfSquares = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     if (faceNormal(mesh, i) == Vec3{}) continue;
-    whole.push_back({bounds(mesh, i), i});
-    grid.extend(whole.back().box);
-    const Real area = halfArea(whole.back().box);
+    const Box3 box = bounds(mesh, i);
+    whole.add(box, i);
+    grid.extend(box);
+    const Real area = halfArea(box);
     sum += area, sumOfSquares += area * area;
   }
   // How uneven the sizes are: 1 if all boxes are alike.
-  const auto count = static_cast<Real>(whole.size());
+  const std::size_t wholes = whole.boxes.size();
+  const auto count = static_cast<Real>(wholes);
   if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return whole;
 
   // What cutting a triangle gains: empty space in its box, more at the tree's coarse planes.
-  std::vector<Real> gain(whole.size());
+  std::vector<Real> gain(wholes);
   Real allGains = 0;
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    const Cut cut = coarsestCut(whole[i].box, grid);
+  for (std::size_t i = 0; i < wholes; ++i) {
+    const Cut cut = coarsestCut(whole.boxes[i], grid);
     if (cut.axis < 0) continue;
-    const Vec3 n = abs(faceNormal(mesh, whole[i].triangle));
-    const Real empty = max(0.0, halfArea(whole[i].box) - 0.5 * (n.x + n.y + n.z));
+    const Vec3 n = abs(faceNormal(mesh, whole.triangles[i]));
+    const Real empty = max(0.0, halfArea(whole.boxes[i]) - 0.5 * (n.x + n.y + n.z));
     gain[i] = std::cbrt(empty * std::ldexp(1.0, cut.bit - kGridBits));
     allGains += gain[i];
   }
   if (!(allGains > 0)) return whole;
-  std::vector<TrianglePart> parts;
-  parts.reserve(whole.size() + static_cast<std::size_t>(kMostParts * count) + 1);
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    const Corners v = corners(mesh, whole[i].triangle);
+  TriangleParts parts;
+  parts.reserve(wholes + static_cast<std::size_t>(kMostParts * count) + 1);
+  for (std::size_t i = 0; i < wholes; ++i) {
+    const Corners v = corners(mesh, whole.triangles[i]);
     const int times = static_cast<int>(min(gain[i] / allGains * kMostParts * count * 1.5, 1000.0));
     if (times == 0)
-      parts.push_back(whole[i]);
+      parts.add(whole.boxes[i], whole.triangles[i]);
     else
-      split({{v.a, v.b, v.c}, 3}, whole[i].box, times, grid, whole[i].triangle, parts);
+      split({{v.a, v.b, v.c}, 3}, whole.boxes[i], times, grid, whole.triangles[i], parts);
   }
   return parts;
 }

@@ -13,14 +13,17 @@
 
 namespace trace {
 
-/// A box that holds a part of a triangle.
-struct TrianglePart {
-  Box3 box;
-  std::uint32_t triangle;
+/// Boxes, and the triangle that each holds a part of.
+struct TriangleParts {
+  std::vector<Box3> boxes;
+  std::vector<std::uint32_t> triangles;
+
+  void reserve(std::size_t count) { boxes.reserve(count), triangles.reserve(count); }
+  void add(const Box3& box, std::uint32_t triangle) { boxes.push_back(box), triangles.push_back(triangle); }
 };
 
 /// The boxes of all triangles with area; some triangles in several parts, if that pays and `whole` is not
 /// asked for.
-std::vector<TrianglePart> triangleParts(const MeshData& mesh, bool whole = false);
+TriangleParts triangleParts(const MeshData& mesh, bool whole = false);
 
 }  // namespace trace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "support/random.h"
@@ -104,6 +106,29 @@ TEST(Bvh, StopsBeyondTheLimitAndWhenTold) {
 TEST(Bvh, BruteForceVisitsEverything) {
   EXPECT_EQ(visited(Bvh::bruteForce(std::vector<Box3>(7, Box3{{8, 8, 8}, {9, 9, 9}})), {}, {1, 0, 0}).size(),
             7u);
+}
+
+TEST(Bvh, TheSameTreeForAnyNumberOfThreads) {
+  Random random(7);
+  std::vector<Box3> boxes(60000);  // more than one thread takes at a time
+  for (Box3& box : boxes) {
+    const Vec3 c = random.inCube(10);
+    box.extend(c), box.extend(c + random.inCube(0.1));
+  }
+  for (const Bvh::Leaves leaves : {Bvh::Leaves::single, Bvh::Leaves::together}) {
+    const Bvh one(boxes, leaves, 1);
+    for (int threads : {2, 7}) {
+      const Bvh many(boxes, leaves, threads);
+      ASSERT_EQ(many.nodes().size(), one.nodes().size());
+      static_assert(sizeof(BvhNode) == 8 * (6 * sizeof(float) + sizeof(std::uint32_t)));  // no padding
+      EXPECT_EQ(std::memcmp(many.nodes().data(), one.nodes().data(), one.nodes().size() * sizeof(BvhNode)),
+                0);
+      ASSERT_EQ(many.leafCount(), one.leafCount());
+      for (std::uint32_t leaf = 0; leaf < one.leafCount(); ++leaf)
+        ASSERT_TRUE(std::equal(one.leaf(leaf).begin(), one.leaf(leaf).end(), many.leaf(leaf).begin()))
+            << threads;
+    }
+  }
 }
 
 }  // namespace
