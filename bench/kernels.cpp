@@ -39,6 +39,7 @@ std::vector<std::string> meshFiles(const std::vector<std::string>& names) {
 int run(int argc, char** argv) {
   CLI::App app{"Trace against Embree: closest and any hit, build time, memory"};
   std::vector<std::string> names, more;
+  std::vector<std::size_t> triangles;
   std::string json;
   Plan plan;
   app.add_option("files", names,
@@ -47,6 +48,9 @@ int run(int argc, char** argv) {
   app.add_option("--passes", plan.passes, "measurements of each number; the median counts")
       ->check(CLI::Range(1, 1000));
   app.add_option("--scale", plan.scale, "make everything this much larger")->check(CLI::PositiveNumber);
+  app.add_option("--builds", plan.builds, "of each structure")->check(CLI::Range(1, 1000));
+  app.add_option("--triangles", triangles, "resize each mesh to about these numbers of triangles")
+      ->delimiter(',');
   app.add_option("--size", plan.size, "pixels on a side of the picture")->check(CLI::Range(1, 16384));
   app.add_option("--embree", plan.embree, "configuration of Embree: isa=avx2 keeps it from AVX-512");
   app.add_option("--json", json, "also write the numbers to this file");
@@ -54,10 +58,11 @@ int run(int argc, char** argv) {
 
   names.insert(names.end(), more.begin(), more.end());
   if (names.empty()) names.push_back(kFolder.string());
+  if (triangles.empty()) triangles.push_back(0);
   std::vector<MeshReport> reports;
   for (const std::string& file : meshFiles(names)) {
     std::cerr << "bench: " << fs::path(file).filename().string() << '\n';
-    reports.push_back(measure(file, plan));
+    for (const std::size_t count : triangles) reports.push_back(measure(file, plan, count));
   }
   if (reports.empty())
     std::cerr << "bench: SKIPPED everything: no mesh was found\n";

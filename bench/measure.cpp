@@ -6,12 +6,12 @@
 
 #include "kernel.h"
 #include "ply.h"
+#include "resize.h"
 #include "stopwatch.h"
 
 namespace trace::bench {
 namespace {
 
-constexpr int kBuilds = 3;
 constexpr double kLeastSeconds = 0.03;  // a measurement repeats short ray sets until it has taken this long
 
 using Kernels = PerKernel<std::unique_ptr<Kernel>>;
@@ -74,14 +74,16 @@ double Samples::spread() const {
   return *high / *low;
 }
 
-MeshReport measure(const std::string& path, const Plan& plan) {
-  const auto mesh = std::make_shared<const MeshData>(readPly(path, plan.scale));
+MeshReport measure(const std::string& path, const Plan& plan, std::size_t triangles) {
+  MeshData read = readPly(path, plan.scale);
+  if (triangles > 0) read = resized(read, triangles);
+  const auto mesh = std::make_shared<const MeshData>(std::move(read));
   MeshReport report;
   report.mesh = std::filesystem::path(path).stem().string();
   report.triangles = mesh->triangles.size();
 
   Kernels kernels;
-  for (int pass = 0; pass < kBuilds; ++pass)
+  for (int pass = 0; pass < plan.builds; ++pass)
     for (int k = 0; k <= robust; ++k) {
       kernels[k].reset();
       kernels[k] = build(k, mesh, plan);

@@ -41,11 +41,13 @@ struct MeshReport {
 
 struct Plan {
   int passes = 5;
-  double scale = 1;      ///< of the mesh and its view
-  int size = 0;          ///< pixels on a side; 0 takes the view's
+  double scale = 1;  ///< of the mesh and its view
+  int size = 0;      ///< pixels on a side; 0 takes the view's
+  int builds = 3;
   std::string embree{};  ///< configuration of its device
 };
 
-MeshReport measure(const std::string& path, const Plan& plan);
+/// Of the mesh resized to about so many triangles, if not 0.
+MeshReport measure(const std::string& path, const Plan& plan, std::size_t triangles = 0);
 
 }  // namespace trace::bench

@@ -53,7 +53,8 @@ class WorldKernel : public Kernel {
     Statistics statistics;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const auto found = closestHit(world_, worldRay(rays[i]), statistics);
-      answers[i] = found ? Answer{static_cast<float>(found->t), found->part} : Answer{};
+      answers[i] =
+          found ? Answer{static_cast<float>(found->t), static_cast<std::uint32_t>(found->part)} : Answer{};
     }
   }
 
