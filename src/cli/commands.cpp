@@ -76,6 +76,8 @@ std::span<const Command> commands() {
       Command{"gui", "[SCENE]",
               "open the studio, a window that renders and shows the rays; ray alone does too", false, gui},
       Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
+      Command{"bench", "SCENE", "how fast the scene's rays are answered, and how large its hierarchies are",
+              false, bench},
       Command{"explain", "SCENE --pixel X,Y", "why a pixel has its colour: every ray, with its numbers",
               false, explain},
       Command{"lint", "SCENE", "look for what is likely a mistake in a scene", false, lint},

@@ -35,6 +35,7 @@ std::string_view chosenFormat(const Arguments& arguments, std::string_view comma
 // The functions of the table; each in its own file.
 int render(const Arguments& arguments, const Console& console);
 int info(const Arguments& arguments, const Console& console);
+int bench(const Arguments& arguments, const Console& console);
 int explain(const Arguments& arguments, const Console& console);
 int lint(const Arguments& arguments, const Console& console);
 int diff(const Arguments& arguments, const Console& console);

@@ -11,8 +11,7 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere =
-    "render gui info explain lint diff grade convert features help";
+constexpr std::string_view kEverywhere = "render gui info bench explain lint diff grade convert features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -166,14 +165,14 @@ std::span<const Flag> flags() {
              a.framesPerSecond = numberOf("fps", value, 0);
              if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
            }},
-      Flag{"quick", 0, Takes::nothing, "", "", "render info explain lint grade", true,
+      Flag{"quick", 0, Takes::nothing, "", "", "render info bench explain lint grade", true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
-      Flag{"enable", 0, Takes::value, "NAME", "", "render info explain lint grade", true,
+      Flag{"enable", 0, Takes::value, "NAME", "", "render info bench explain lint grade", true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
-      Flag{"disable", 0, Takes::value, "NAME", "", "render info explain lint grade", true,
+      Flag{"disable", 0, Takes::value, "NAME", "", "render info bench explain lint grade", true,
            "switch an extra off", disable},
-      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info explain lint grade", false,
+      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info bench explain lint grade", false,
            "give any option a value", set},
       Flag{"stats", 0, Takes::optional, "table|json", "table", "render", true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",
@@ -213,9 +212,9 @@ std::span<const Flag> flags() {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "",
-           "render info explain lint diff grade convert", false, "which messages are shown; default info",
+           "render info bench explain lint diff grade convert", false, "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info explain lint grade convert", true,
+      Flag{"strict", 0, Takes::nothing, "", "", "render info bench explain lint grade convert", true,
            "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
       Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
            "differences up to this do not count as beyond; in levels of 255, or in linear values where a "
@@ -254,7 +253,7 @@ std::span<const Flag> flags() {
       Flag{"sample", 0, Takes::value, "K", "", "explain", true,
            "which of the pixel's camera rays; default 0, the first",
            [](Arguments& a, std::string_view value) { a.sample = value; }},
-      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info explain lint diff grade", true,
+      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info bench explain lint diff grade", true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 5> kNames{"text", "json", "obj", "svg", "png"};
@@ -290,7 +289,8 @@ bool knows(std::string_view command, const Flag& flag) {
 }
 
 bool takesOptions(std::string_view command) {
-  constexpr std::array<std::string_view, 6> kScenes{"render", "gui", "info", "explain", "lint", "grade"};
+  constexpr std::array<std::string_view, 7> kScenes{"render",  "gui",  "info", "bench",
+                                                    "explain", "lint", "grade"};
   return std::find(kScenes.begin(), kScenes.end(), command) != kScenes.end();
 }
 

@@ -242,6 +242,7 @@ TEST_F(Cli, StatisticsKeys) {
   EXPECT_EQ(stats["shapes"]["sphere"]["hits"], 50 * 40 * 9);
   for (const char* phase : {"read", "build", "trace", "write"})
     EXPECT_GE(stats["phases"][phase]["wall"], 0) << phase;
+  EXPECT_EQ(stats["meanDepth"], 0);
   EXPECT_EQ(stats["end"], "finished");
   EXPECT_EQ(stats["output"], "out.png");
   EXPECT_GT(stats["peakMemory"], 1 << 20);
@@ -276,6 +277,23 @@ TEST_F(Cli, Info) {
   EXPECT_EQ(facts["picture"], json({{"width", 400}, {"height", 320}}));
   EXPECT_EQ(run({"info"}).code, 2);
   EXPECT_EQ(run({"info", "white.ray", "--stats"}).code, 2);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, Bench) {
+  const Run r = run({"bench", "white.ray", "-w", "8"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_TRUE(contains(r.out, "Mrays/s"));
+  const json facts = json::parse(run({"bench", "white.ray", "-w", "8", "--format=json"}).out);
+  EXPECT_EQ(facts["triangles"], 0);
+  EXPECT_EQ(facts["bytesPerTriangle"], nullptr);
+  const json primary = facts["rays"]["primary"];
+  EXPECT_EQ(primary["count"], facts["width"].get<int>() * facts["height"].get<int>());
+  EXPECT_EQ(primary["hits"], primary["count"]);
+  EXPECT_EQ(primary["testsPerRay"], 1);
+  EXPECT_GT(primary["raysPerSecond"], 0);
+  EXPECT_EQ(run({"bench"}).code, 2);
   EXPECT_EQ(files(), 1u);
 }
 

@@ -1,0 +1,108 @@
+#include "app/ray_bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "base/match.h"
+#include "render/pixel.h"
+#include "render/render.h"
+
+namespace trace {
+namespace {
+
+struct Query {
+  Ray ray;
+  Real tMost = kInfinity;
+};
+
+double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Cosine-distributed about the normal; the i-th of a sequence that fills the square evenly (Roberts 2018).
+Vec3 aroundNormal(const Vec3& normal, std::uint64_t i) {
+  const auto n = static_cast<Real>(i);
+  const Real u = std::fmod(0.5 + n * 0.7548776662466927, 1.0),
+             v = std::fmod(0.5 + n * 0.5698402909980532, 1.0);
+  const Vec3 helper = std::abs(normal.x) > 0.5 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 x = normalize(cross(helper, normal)), y = cross(normal, x);
+  const Real angle = 2 * kPi * u, r = std::sqrt(v);
+  return normalize(x * (r * std::cos(angle)) + y * (r * std::sin(angle)) + normal * std::sqrt(1 - v));
+}
+
+/// Answers all queries once; closest hits, or whether there is any.
+std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool anyHit,
+                     Statistics& statistics) {
+  std::uint64_t hits = 0;
+  for (const Query& query : queries)
+    if (anyHit)
+      world.crossings(query.ray, query.tMost, Faces::both, statistics,
+                      [&](const Found&) { return ++hits, true; });
+    else
+      hits += world.closest(query.ray, Faces::both, statistics).has_value();
+  return hits;
+}
+
+RayBench::Kind measure(const World& world, std::string_view name, const std::vector<Query>& queries,
+                       bool anyHit, int passes) {
+  constexpr double kLeastSeconds = 0.1;  // of a pass, which repeats the queries if they are few
+  RayBench::Kind kind{.name = name, .rays = queries.size()};
+  Statistics statistics;
+  kind.hits = answer(world, queries, anyHit, statistics);  // also fills the caches
+  const double count = static_cast<double>(queries.size());
+  kind.nodes = static_cast<double>(statistics.nodes.count) / count;
+  for (std::uint64_t tests : statistics.tests) kind.tests += static_cast<double>(tests) / count;
+
+  std::vector<double> seconds;
+  for (int pass = 0; pass < passes; ++pass) {
+    const double begin = cpuSeconds();
+    double spent = 0, rounds = 0;
+    do {
+      answer(world, queries, anyHit, statistics);
+      spent = cpuSeconds() - begin, ++rounds;
+    } while (spent < kLeastSeconds);
+    seconds.push_back(spent / rounds);
+  }
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  kind.seconds = *middle;
+  return kind;
+}
+
+}  // namespace
+
+RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Messages& messages) {
+  RayBench bench;
+  const auto start = std::chrono::steady_clock::now();
+  const double cpu = cpuSeconds();
+  const World world = compile(scene, settings, messages);
+  bench.buildCpu = cpuSeconds() - cpu;
+  bench.buildWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  bench.triangles = world.triangleCount(), bench.bytes = world.bytes();
+
+  const Size size = pictureSize(settings, scene.camera);
+  const PixelTracer pixels(world, settings, size);
+  std::vector<Query> primary, bounce, shadow;
+  Statistics statistics;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const Ray ray = pixels.cameraRay(x, y, 0);
+      primary.push_back({ray});
+      const auto found = world.closest(ray, Faces::both, statistics);
+      if (!found) continue;
+      const SurfacePoint surface = world.surface(ray, *found);
+      const Vec3 facing = dot(surface.normal, ray.direction) > 0 ? -surface.normal : surface.normal;
+      bounce.push_back({spawnRay(surface, aroundNormal(facing, bounce.size()))});
+      for (const Light& light : world.lights()) {
+        const auto arriving = match(light, [&](const auto& l) { return l.illuminate(surface.point); });
+        if (arriving && dot(facing, arriving->toLight) > 0)
+          shadow.push_back({spawnRay(surface, arriving->toLight), arriving->distance});
+      }
+    }
+  const auto add = [&](std::string_view name, const std::vector<Query>& queries, bool anyHit) {
+    if (!queries.empty()) bench.kinds.push_back(measure(world, name, queries, anyHit, passes));
+  };
+  add("primary", primary, false), add("bounce", bounce, false), add("shadow", shadow, true);
+  return bench;
+}
+
+}  // namespace trace
