@@ -96,7 +96,7 @@ TEST(Shapes, NormalsStandOnTheSurface) {
 }
 
 /// Its volume (checks of the courses, E1).
-double volume(const Shape& shape, int n) { return volume(shape, boundsOf(prepare(shape)), n); }
+double volume(const Shape& shape, int n) { return test::volume(shape, boundsOf(prepare(shape)), n); }
 
 TEST(Shapes, VolumeByParallelProjection) {
   EXPECT_NEAR(volume(Sphere{}, 500), 4.18879, 2e-4);
