@@ -151,7 +151,16 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     row("  diffuse", text(term.light->scatter.diffuse));
     row("  specular", text(term.light->scatter.specular));
     row("  light arriving", text(term.light->arriving.intensity()));
-    row("  passes", term.ray < 0 ? "no shadow ray was needed" : text(term.value));
+    if (!isBlack(term.light->arriving.extraHighlight * term.light->scatter.specular))
+      row("  added in highlights", text(term.light->arriving.extraHighlight));
+    const bool sent = term.ray >= 0, needed = !isBlack(term.factor);
+    const Real shadow = node.hit->material.shadow;
+    if (needed && shadow != 1)
+      row("  share of it",
+          sent ? text(shadow) + ": the material's shadow" : text(1 - shadow) + ": always lit");
+    row("  passes", sent     ? text(term.value)
+                    : needed ? "all of it, in shadow too"
+                             : "no shadow ray was needed");
   }
   for (const Filter& filter : node.filters)
     row("filtered by " + objectName(scene, filter.object), text(filter.factor) + " at " + text(filter.t));

@@ -38,14 +38,32 @@ void Workspace::report(const std::vector<Message>& messages) {
   }
 }
 
-bool Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  const std::string path = absolute(file);
+Workspace::Opened Workspace::read(const std::string& path, std::vector<Choice> commandLine) {
+  Opened opened;
   try {
-    document.open(path, std::move(commandLine));
+    opened.document.emplace().open(path, std::move(commandLine));
+    return opened;
   } catch (const Error& error) {
-    report(error.messages());
-    return false;
+    opened.errors = error.messages();
+  } catch (const std::exception& error) {
+    opened.errors = {{.place = {.file = path}, .what = error.what()}};
   }
+  opened.document.reset();
+  return opened;
+}
+
+bool Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
+  return adopt(read(absolute(file), std::move(commandLine)));
+}
+
+void Workspace::openLater(const std::string& file) {
+  opening_.start([path = absolute(file)](const Cancelled&) { return read(path, {}); });
+}
+
+bool Workspace::adopt(Opened opened) {
+  if (!opened.document) return report(opened.errors), false;
+  document = std::move(*opened.document), reading_ = 0;
+  const std::string path = document.file();
   std::erase(recent_, path);
   recent_.insert(recent_.begin(), path);
   recent_.resize(std::min(recent_.size(), kMostRecent));
@@ -68,6 +86,7 @@ bool Workspace::stale() const {
 }
 
 void Workspace::update() {
+  if (std::optional<Opened> opened = opening_.take()) adopt(std::move(*opened));
   if (document.isOpen()) {
     reloadIfChanged();
     reportReading();

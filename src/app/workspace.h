@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/background_render.h"
+#include "app/background_task.h"
 #include "app/document.h"
 #include "app/pixel_inspector.h"
 #include "app/remaining_time.h"
@@ -18,6 +19,10 @@ class Workspace {
  public:
   /// Opens a scene and renders it. Errors go to the log; false then.
   bool open(const std::string& file, std::vector<Choice> commandLine = {});
+  /// The same, but returns at once; update() takes the scene when it is read. Until then, or if that fails,
+  /// the one before stays.
+  void openLater(const std::string& file);
+  bool opening() const { return opening_.busy(); }
   /// Called often: renders after changes, reads the file again when it changed on disk, collects messages.
   void update();
 
@@ -66,6 +71,13 @@ class Workspace {
  private:
   static constexpr std::size_t kMostRecent = 12;
 
+  /// What reading a file came to: a document, or errors.
+  struct Opened {
+    std::optional<Document> document;
+    std::vector<Message> errors;
+  };
+  static Opened read(const std::string& path, std::vector<Choice> commandLine);
+  bool adopt(Opened opened);
   void noteEnd();
   void reloadIfChanged();
   void reportReading();  // its warnings, once
@@ -82,6 +94,7 @@ class Workspace {
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;
   std::chrono::steady_clock::time_point looked_{};
+  BackgroundTask<Opened> opening_;
 };
 
 /// A render with other settings gives another picture, before tone: not so for threads or rounding.

@@ -136,7 +136,7 @@ class TreeText {
     const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
     if (away) return;
     std::string highlight = " + specular " + text(light.scatter.specular);
-    if (!isBlack(from.extraHighlight))
+    if (!isBlack(from.extraHighlight * light.scatter.specular))
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
     line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
          ")");

@@ -37,9 +37,10 @@ std::vector<std::string> sceneSuffixes() {
 }
 
 void openScene(Studio& studio) {
-  studio.dialog.open(
-      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), sceneSuffixes(),
-      [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
+  studio.dialog.open("Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(),
+                     sceneSuffixes(), [&studio](const std::string& file) {
+                       studio.leave([&studio, file] { studio.workspace.openLater(file); });
+                     });
 }
 void openReference(Studio& studio) {
   const std::string near = studio.workspace.referenceFile().empty() ? studio.workspace.document.file()
@@ -137,7 +138,7 @@ void recentMenu(Studio& studio) {
   const auto recent = studio.workspace.recent();  // a copy: opening one changes the list
   if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
   for (const std::string& file : recent)
-    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
+    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.openLater(file); });
   ImGui::EndMenu();
 }
 

@@ -35,12 +35,12 @@ void frame(Studio& studio) {
     studio.window.fontsChanged();
     studio.themeChanged = false;
   }
-  const bool busy = studio.workspace.render.state().working() || studio.workspace.inspector.busy() ||
-                    studio.rays.modelTask.busy();
+  const bool busy = studio.workspace.render.state().working() || studio.workspace.opening() ||
+                    studio.workspace.inspector.busy() || studio.rays.modelTask.busy();
   studio.window.beginFrame(busy ? kBusy : kIdle);
   for (const std::string& file : studio.window.takeDropped()) {
     if (!isPicture(file))
-      studio.leave([&studio, file] { studio.workspace.open(file); });
+      studio.leave([&studio, file] { studio.workspace.openLater(file); });
     else if (studio.workspace.openReference(file))
       studio.picture.view = View::swipe;
   }

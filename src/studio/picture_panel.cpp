@@ -188,6 +188,8 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
       ImGui::TextDisabled("reference  %s",
                           pixelText(reference->at(x, y), reference->at(x, y), rounding).c_str());
     }
+  } else if (workspace.opening()) {
+    ImGui::TextDisabled("reading the file");
   } else if (!state.working() && view.shown.width > 0) {
     const char* how = state.phase == BackgroundRender::Phase::finished ? "finished"
                       : state.phase == BackgroundRender::Phase::failed ? "failed: see the log"
@@ -206,7 +208,7 @@ void drawWelcome(Studio& studio, ImVec2 area) {
     ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(text).x) / 2));
     ImGui::TextDisabled("%s", text);
   };
-  centred("Drop a scene here, or");
+  centred(studio.workspace.opening() ? "The file is being read." : "Drop a scene here, or");
   ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
   if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
   const auto recent = studio.workspace.recent();
@@ -214,7 +216,7 @@ void drawWelcome(Studio& studio, ImVec2 area) {
   for (const std::string& file : recent) {
     ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
-    if (ImGui::SmallButton(file.c_str())) studio.workspace.open(file);
+    if (ImGui::SmallButton(file.c_str())) studio.workspace.openLater(file);
     ImGui::PopStyleColor();
   }
 }

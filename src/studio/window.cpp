@@ -21,8 +21,13 @@ struct Window::State {
   GLFWwindow* window = nullptr;
   std::vector<std::string> dropped;
   std::vector<KeyPress> keys;
-  int width = 0, height = 0;  // of the frame buffer
-  int framesDue = 3;          // what happens in a frame may show only in the next
+  struct Release {
+    int key, scancode, held;
+  };
+  std::vector<int> wentDown;      // since the last frame
+  std::vector<Release> releases;  // of such keys: Dear ImGui 1.86 must not hear of them before the next frame
+  int width = 0, height = 0;      // of the frame buffer
+  int framesDue = 3;              // what happens in a frame may show only in the next
 };
 
 namespace {
@@ -70,6 +75,14 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   });
   ImGui::CreateContext();
   ImGui_ImplGlfw_InitForOpenGL(state_->window, true);
+  glfwSetKeyCallback(state_->window, [](GLFWwindow* window, int key, int scancode, int action, int held) {
+    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+    const auto begin = state.wentDown.begin(), end = state.wentDown.end();
+    if (action == GLFW_RELEASE && std::find(begin, end, key) != end)
+      return state.releases.push_back({key, scancode, held});
+    if (action == GLFW_PRESS) state.wentDown.push_back(key);
+    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, held);
+  });
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -82,6 +95,9 @@ Window::~Window() {
 }
 
 void Window::beginFrame(double mostSeconds) {
+  state_->wentDown.clear();
+  for (const State::Release& release : std::exchange(state_->releases, {}))
+    ImGui_ImplGlfw_KeyCallback(state_->window, release.key, release.scancode, GLFW_RELEASE, release.held);
   if (state_->framesDue > 0) {
     --state_->framesDue;
     glfwPollEvents();

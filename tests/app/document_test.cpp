@@ -341,6 +341,28 @@ TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
   EXPECT_EQ(workspace.render.picture().width, 219);
 }
 
+TEST_F(WorkspaceTest, FilesAreReadInTheBackgroundAndTheSceneBeforeStaysIfThatFails) {
+  Workspace workspace;
+  const auto finish = [&] {
+    while (workspace.opening()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    workspace.update();
+  };
+  workspace.openLater(path("scene.ray"));
+  EXPECT_FALSE(workspace.document.isOpen());
+  finish();
+  ASSERT_TRUE(workspace.document.isOpen());
+  EXPECT_EQ(workspace.recent().front(), path("scene.ray"));
+  waitFor(workspace.render);
+  EXPECT_GT(workspace.render.picture().width, 0);
+  workspace.openLater(path("nothing.ray"));
+  finish();
+  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
+  const auto& log = workspace.log();
+  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const Workspace::LogEntry& entry) {
+    return entry.level == Workspace::LogEntry::Level::error;
+  }));
+}
+
 TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
   Workspace workspace;
   EXPECT_FALSE(workspace.open(path("nothing.ray")));
