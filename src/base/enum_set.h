@@ -6,7 +6,7 @@
 
 namespace trace {
 
-/// Precondition: the values of Enum are from 0 to 31.
+/// Precondition: the values of Enum are from 0 to 63.
 template <class Enum>
 class EnumSet {
  public:
@@ -20,9 +20,9 @@ class EnumSet {
   constexpr bool operator==(const EnumSet&) const = default;
 
  private:
-  static constexpr std::uint32_t bit(Enum value) { return std::uint32_t{1} << static_cast<unsigned>(value); }
+  static constexpr std::uint64_t bit(Enum value) { return std::uint64_t{1} << static_cast<unsigned>(value); }
 
-  std::uint32_t bits_ = 0;
+  std::uint64_t bits_ = 0;
 };
 
 }  // namespace trace

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/file.h"
 #include "base/text.h"
+#include "image/codec.h"
 
 namespace trace::rayfile {
 
@@ -87,6 +89,38 @@ std::string written(const std::string& value, int) {
   for (char c : value) text += c == '"' ? '\'' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   return text.substr(0, Syntax::kLongestWord - 1) + "\"";
 }
+
+namespace {
+
+/// Of linear Rec. 709: its luminance.
+float brightness(const Color& c) { return static_cast<float>(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b); }
+
+}  // namespace
+
+bool read(Findings& findings, std::string_view name, const Item& value, Heights& to) {
+  constexpr int kMostSide = 4096;
+  std::string file;
+  if (!read(findings, name, value, file)) return false;
+  if (file.empty()) return to = {}, true;
+  try {
+    const Picture picture = decodePicture(readBeside(findings.syntax().file(), file), file);
+    if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide)
+      return findings.error(value, std::string(name) + ": expected a picture of 2 to " +
+                                       std::to_string(kMostSide) + " pixels along each side"),
+             false;
+    auto grid = std::make_shared<HeightGrid>(picture.width, picture.height);
+    for (int y = 0; y < picture.height; ++y)  // the picture's first row is the farthest
+      for (int x = 0; x < picture.width; ++x)
+        grid->at(x, picture.height - 1 - y) = brightness(picture.at(x, y));
+    to = {file, std::move(grid)};
+    return true;
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    return findings.error(value, error.messages().front().what, error.messages().front().hint), false;
+  }
+}
+
+std::string written(const Heights& value, int digits) { return written(value.file, digits); }
 
 std::string_view canonical(std::string_view word) {
   if (word == "colour") return "color";

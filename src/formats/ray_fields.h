@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
+#include "geometry/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
 
@@ -26,6 +27,9 @@ bool read(Findings& findings, std::string_view name, const Item& value, Color& t
 /// A word, or a number as written.
 bool read(Findings& findings, std::string_view name, const Item& value, std::string& to);
 
+/// The name of a picture beside the scene, which is read.
+bool read(Findings& findings, std::string_view name, const Item& value, Heights& to);
+
 /// What read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
 std::string written(bool value, int digits);
@@ -33,6 +37,7 @@ std::string written(int value, int digits);
 std::string written(const Vec3& value, int digits);
 std::string written(const Color& value, int digits);
 std::string written(const std::string& value, int digits);
+std::string written(const Heights& value, int digits);
 template <class Enum>
 requires std::is_enum_v<Enum> std::string written(Enum value, int) {
   return std::string(names(Enum{})[static_cast<std::size_t>(value)]);
@@ -69,6 +74,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, Enum& to
 }
 
 /// What an element of a list looks like.
+inline std::string form(const std::string&) { return "\"text\""; }
 template <std::size_t N>
 std::string form(const std::array<Real, N>&) {
   std::string numbers = "(a";

@@ -28,6 +28,7 @@
 #include "formats/ray_syntax.h"
 #include "geometry/csg_tree.h"
 #include "scene/options.h"
+#include "scene/particles.h"
 
 namespace trace {
 namespace rayfile {
@@ -75,7 +76,8 @@ const TransformForm* findTransform(const Item& item) {
 
 std::vector<std::string_view> knownWords() {
   std::vector<std::string_view> words{
-      "trimesh", "mesh", Camera::kKeyword, Phong::kKeyword, Background::kKeyword, kSettings};
+      "trimesh",          "mesh", Camera::kKeyword, Phong::kKeyword, Background::kKeyword, kSettings,
+      Particles::kKeyword};
   addKeywords<Shape>(words);
   addKeywords<Light>(words);
   for (const TransformForm& transform : kTransforms) words.push_back(transform.name);
@@ -159,8 +161,9 @@ std::string_view repair(Conic& conic, Affine&) {
 
 class Reader {
  public:
-  Reader(const Syntax& syntax, Scene& scene, Messages& messages)
+  Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time)
       : syntax_(syntax),
+        time_(time),
         scene_(scene),
         messages_(messages),
         findings_(syntax, scene, messages),
@@ -280,6 +283,7 @@ class Reader {
 
   void otherNode(const Item& call, const Affine& worldFromObject) {
     const std::string_view key = call.key();
+    if (key == Particles::kKeyword) return particles(call, worldFromObject);
     const bool topLevelOnly = withKeyword<Light>(key, [](auto*) {}) || key == Camera::kKeyword ||
                               key == Background::kKeyword || key == kSettings || key == Phong::kKeyword;
     if (topLevelOnly)
@@ -406,6 +410,63 @@ class Reader {
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.
+  void particles(const Item& call, const Affine& worldFromObject) {
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return;
+    Particles system;
+    Material material = materials_.current;
+    std::vector<Item> shown;
+    for (const Item item : *block) {
+      if (isObject(item)) {
+        shown.push_back(item);
+      } else if (!isField(item, call.key())) {
+        continue;
+      } else if (item.key() == Phong::kKeyword) {
+        material = materials_.read(item.value(), materials_.current);
+      } else if (assignField(findings_, system, item)) {
+        checkRange(findings_, system, item);
+      } else {
+        findings_.unknownField(Particles::kKeyword, item, keywords<Particles>({"material"}));
+      }
+    }
+    std::vector<Particle> alive;
+    try {
+      alive = particlesAt(system, time_);
+    } catch (const Error& error) {
+      return findings_.error(call, error.messages().front().what, error.messages().front().hint);
+    }
+    // The objects are read once for each shade, so that they take it as they take the material.
+    constexpr int kShades = 32;
+    std::array<std::vector<Object>, kShades + 1> shades;
+    const Material outside = materials_.current;
+    for (const Particle& particle : alive) {
+      const auto shade = static_cast<std::size_t>(std::lround(particle.age * kShades));
+      std::vector<Object>& objects = shades[shade];
+      if (objects.empty()) {
+        materials_.current = material;
+        tint(materials_.current, lerp(static_cast<Real>(shade) / kShades, system.color, system.endColor));
+        std::vector<Object> found = std::exchange(scene_.objects, {});
+        for (const Item& item : shown) object(item, {});
+        if (shown.empty()) add(call, {}, Sphere{}, {}, materials_.current);
+        found.swap(scene_.objects);
+        objects = std::move(found);
+        if (objects.empty()) break;  // nothing to show, and that is reported
+      }
+      const Real size = system.size + particle.age * (system.endSize - system.size);
+      const Affine place = Affine::translation(particle.place) * Affine::scaling({size, size, size});
+      for (const Object& o : objects)
+        add(call, o.name, o.shape, worldFromObject * place * o.worldFromObject, o.material);
+    }
+    materials_.current = outside;
+  }
+
+  static void tint(Material& material, const Color& color) {
+    auto& phong = *std::get_if<Phong>(&material.model);
+    phong.emissive = phong.emissive * color, phong.ambient = phong.ambient * color;
+    phong.diffuse = phong.diffuse * color;
   }
 
   /// Not a field of the block it stands in.
@@ -555,6 +616,7 @@ class Reader {
   }
 
   const Syntax& syntax_;
+  Real time_;  ///< of the frame
   Scene& scene_;
   Messages& messages_;
   Findings findings_;
@@ -578,7 +640,7 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
   scene.format = "ray";
   rayfile::Syntax syntax(file, bytes);
   rayfile::settleKeys(syntax, time);
-  rayfile::Reader(syntax, scene, messages).read();
+  rayfile::Reader(syntax, scene, messages, time).read();
   return scene;
 }
 

@@ -31,6 +31,27 @@ Number hypercomplexProduct(const Number& a, const Number& b) {
 /// |a b| <= kStretch |a| |b| for hypercomplex numbers, which have divisors of zero.
 constexpr Real kStretch = 1.4142135623730951;
 
+/// A quaternion as a + b n, with b >= 0 and n an imaginary unit: functions of it are those of a + b i.
+struct Polar {
+  Real a, b;
+  Vec3 n;
+};
+Polar polar(const Number& q) {
+  const Vec3 v{q[1], q[2], q[3]};
+  const Real b = length(v);
+  return {q[0], b, b > 0 ? v / b : Vec3{1, 0, 0}};
+}
+Number composed(Real a, const Vec3& v) { return {a, v.x, v.y, v.z}; }
+
+/// The change of a function of quaternions with real coefficients: f = (fa, fb) at q, g its complex
+/// derivative.
+Number functionSlope(const Polar& q, Real fb, Real ga, Real gb, const Number& change) {
+  const Vec3 v{change[1], change[2], change[3]};
+  const Real da = change[0], db = dot(v, q.n);
+  const Vec3 across = (v - q.n * db) * (q.b > 0 ? fb / q.b : ga);
+  return composed(ga * da - gb * db, q.n * (ga * db + gb * da) + across);
+}
+
 }  // namespace
 
 std::shared_ptr<const TracedJulia> Julia::prepared() const {
@@ -67,6 +88,14 @@ TracedJulia::Number TracedJulia::step(const Number& q) const {
     case Iteration::square: return quaternionProduct(q, q);
     case Iteration::cube: return quaternionProduct(quaternionProduct(q, q), q);
     case Iteration::hypercomplex: return hypercomplexProduct(q, q);
+    case Iteration::sine: {
+      const Polar p = polar(q);
+      return composed(std::sin(p.a) * std::cosh(p.b), p.n * (std::cos(p.a) * std::sinh(p.b)));
+    }
+    case Iteration::exponential: {
+      const Polar p = polar(q);
+      return composed(std::exp(p.a) * std::cos(p.b), p.n * (std::exp(p.a) * std::sin(p.b)));
+    }
   }
   return q;
 }
@@ -80,11 +109,89 @@ TracedJulia::Number TracedJulia::stepSlope(const Number& q, const Number& d) con
              quaternionProduct(square, d);
     }
     case Iteration::hypercomplex: return hypercomplexProduct(q, d) * 2;
+    case Iteration::sine: {
+      const Polar p = polar(q);
+      const Real c = std::cos(p.a), s = std::sin(p.a), ch = std::cosh(p.b), sh = std::sinh(p.b);
+      return functionSlope(p, c * sh, c * ch, -s * sh, d);
+    }
+    case Iteration::exponential: {
+      const Polar p = polar(q);
+      const Real a = std::exp(p.a) * std::cos(p.b), b = std::exp(p.a) * std::sin(p.b);
+      return functionSlope(p, b, a, b, d);
+    }
   }
   return d;
 }
 
+Real TracedJulia::escape(const Number& q) const {
+  switch (shape_.iteration) {
+    case Iteration::sine: return polar(q).b;
+    case Iteration::exponential: return q[0];
+    default: return size(q);
+  }
+}
+
+Real TracedJulia::escapeSlope(const Number& q, const Number& change) const {
+  const Polar p = polar(q);
+  switch (shape_.iteration) {
+    case Iteration::sine: return dot(p.n, {change[1], change[2], change[3]});
+    case Iteration::exponential: return change[0];
+    default: return dot(q, change) / size(q);
+  }
+}
+
+Real TracedJulia::stretch(const Number& q, Real r) const {
+  const Real s = size(q) + r;
+  switch (shape_.iteration) {
+    case Iteration::square: return 2 * s;
+    case Iteration::cube: return 3 * s * s;
+    case Iteration::hypercomplex: return 2 * kStretch * s;
+    case Iteration::sine: return std::cosh(polar(q).b + r);
+    case Iteration::exponential: return std::exp(q[0] + r);
+  }
+  return kInfinity;
+}
+
+Jet TracedJulia::functionValue(const Vec3& p, const Vec3& direction) const {
+  const Number start = lift(p), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
+  const Number along = axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z;
+  Number q = shape_.mandelbrot ? Number{} : start, d = shape_.mandelbrot ? Number{} : along;
+  const Real l = length(p);
+  Jet most{l - kReach, l > 0 ? dot(p, direction) / l : 0};
+  for (int i = 0; i < shape_.iterations; ++i) {  // to the last: only so it is continuous
+    d = stepSlope(q, d);
+    if (shape_.mandelbrot) d = d + along;
+    q = step(q) + c;
+    const Real excess = escape(q) - kEscaped;
+    constexpr Real kHuge = 100;
+    if (!(excess < kHuge)) return {kHuge, 0};
+    if (excess > most.value) most = {excess, escapeSlope(q, d)};
+  }
+  return most;
+}
+
+Interval TracedJulia::functionSigns(const Vec3& center, Real radius) const {
+  constexpr Real kRounding = 1 + gammaError(64), kHuge = 100;
+  const Number start = lift(center), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
+  Number q = shape_.mandelbrot ? Number{} : start;
+  Real r = shape_.mandelbrot ? 0 : radius;
+  bool inside = (length(center) + radius) * kRounding < kReach;
+  if (length(center) - radius > kReach * kRounding) return {1, 1};
+  for (int i = 0; i < shape_.iterations; ++i) {
+    r = (r * stretch(q, r) + (shape_.mandelbrot ? radius : 0)) * kRounding;
+    q = step(q);
+    r += size(q) * gammaError(64);
+    q = q + c;
+    const Real escaped = escape(q), rounding = size(q) * gammaError(64);
+    if (escaped - r > kEscaped + rounding) return {1, 1};
+    if (!(r < kHuge)) return {-1, 1};
+    inside = inside && escaped + r < kEscaped - rounding;
+  }
+  return inside ? Interval{-1, -1} : Interval{-1, 1};
+}
+
 Jet TracedJulia::value(const Vec3& p, const Vec3& direction) const {
+  if (!power()) return functionValue(p, direction);
   const Number start = lift(p), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
   const Number along = axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z;
   Number q = shape_.mandelbrot ? Number{} : start, d = shape_.mandelbrot ? Number{} : along;
@@ -100,6 +207,7 @@ Jet TracedJulia::value(const Vec3& p, const Vec3& direction) const {
 Along<Interval> TracedJulia::over(const Vec3& center, Real radius, const Vec3& direction) const {
   constexpr Real kRounding = 1 + gammaError(64), kHuge = 1e60;
   const Interval outside{1, 1}, inside{-1, -1}, either{-1, 1};
+  if (!power()) return {functionSigns(center, radius), Interval::everything()};
   const Number start = lift(center), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
   const Number along = axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z;
   const Real more = shape_.mandelbrot ? radius : 0;
@@ -120,6 +228,7 @@ Along<Interval> TracedJulia::over(const Vec3& center, Real radius, const Vec3& d
         e = 2 * kStretch * (s * e + r * (l + e));
         r = kStretch * (2 * s + r) * r;
         break;
+      default: return {either, Interval::everything()};
     }
     d = stepSlope(q, d);
     if (shape_.mandelbrot) d = d + along;
@@ -135,12 +244,13 @@ Along<Interval> TracedJulia::over(const Vec3& center, Real radius, const Vec3& d
 }
 
 void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-  // Within a ball: what is farther out escapes.
+  // Within a ball: what is farther out escapes, or is cut off; which the value tells just inside of its ends.
+  const Real reach = power() ? kReach : kReach * (1 + std::ldexp(1.0, -40));
   const Vec3& direction = ray.direction;
   const Real a = dot(direction, direction), b = dot(ray.origin, direction);
   const Vec3 nearest = ray.origin - direction * (b / a);
-  const Roots2 ball = solveQuadratic(a, b, dot(ray.origin, ray.origin) - kReach * kReach,
-                                     a * (kReach * kReach - dot(nearest, nearest)));
+  const Roots2 ball = solveQuadratic(a, b, dot(ray.origin, ray.origin) - reach * reach,
+                                     a * (reach * reach - dot(nearest, nearest)));
   if (!ball.count) return;
   const Real speed = std::sqrt(a);
   const auto bounds = [&](const Interval& t) {
@@ -148,9 +258,12 @@ void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing vi
                 direction);
   };
   const auto at = [&](Real t) { return value(ray.at(t), direction); };
-  intervalCrossings<28, false>({ball.t0, ball.t1}, range, bounds, at, [&](Real t, bool) {
-    visit(Crossing{t, 0});
-  });
+  const auto found = [&](Real t, bool) { visit(Crossing{t, 0}); };
+  // Functions fold space everywhere: looking as closely as at powers would take seconds.
+  if (power())
+    intervalCrossings<28, false>({ball.t0, ball.t1}, range, bounds, at, found);
+  else
+    intervalCrossings<14, false>({ball.t0, ball.t1}, range, bounds, at, found);
 }
 
 SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) const {
@@ -160,28 +273,43 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   std::array<Number, 3> by = axes_;
   if (shape_.mandelbrot) by = {};
   Real off = gammaError(8) * (length(p) + size(shift_));  // how far rounding has moved q
+  // Of the powers the last number tells how the surface lies; else that which passes the limit most.
+  Real most = length(p) - kReach, error = off;
+  Vec3 gradient = p;
   for (int i = 0; i < shape_.iterations; ++i) {
     const Real s = size(q);
-    const Real stretch = shape_.iteration == Iteration::cube ? 3 * s * s : 2 * kStretch * s;
+    const Real longer = stretch(q, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       by[axis] = stepSlope(q, by[axis]);
       if (shape_.mandelbrot) by[axis] = by[axis] + axes_[axis];
     }
-    off = stretch * off + gammaError(32) * (s * s * max(s, 1) + size(c));
-    q = step(q) + c;
-    if (dot(q, q) > kEscaped * kEscaped) break;
+    q = step(q);
+    off = longer * off + gammaError(32) * (s * s * max(s, 1) + size(q) + size(c));
+    q = q + c;
+    const Real excess = escape(q) - kEscaped;
+    if (power() || excess > most) {
+      most = excess, error = off;
+      gradient = {escapeSlope(q, by[0]), escapeSlope(q, by[1]), escapeSlope(q, by[2])};
+    }
+    if (!(excess <= 0)) break;
   }
-  const Vec3 gradient{dot(q, by[0]), dot(q, by[1]), dot(q, by[2])};
   const Real l = length(gradient);
   const Vec3 n = l > 0 && std::isfinite(l) ? gradient / l : normalize(-ray.direction);
   constexpr Real kMost = 1e-9;  // where the set is too folded for rounding to tell
-  const Real e = min(2 * off * size(q) / l, kMost) + maxComponent(abs(p)) * gammaError(8);
-  const Vec3 d = normalize(p);
-  return {p,
-          {e, e, e},
-          n,
-          n,
-          {0.5 + std::atan2(d.y, d.x) / (2 * kPi), 0.5 + std::asin(std::clamp(d.z, -1.0, 1.0)) / kPi}};
+  const Real e = min(2 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
+  return {p, {e, e, e}, n, n, shape_.trap == Trap::none ? sphereUv(p) : trapUv(p)};
+}
+
+Vec2 TracedJulia::trapUv(const Vec3& p) const {
+  OrbitTrap trap(shape_.trap, kEscaped);
+  const Number start = lift(p), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
+  Number q = shape_.mandelbrot ? Number{} : start;
+  for (int i = 0; i < shape_.iterations && escape(q) <= kEscaped; ++i) {
+    q = step(q) + c;
+    const Vec3 across{q[1], q[2], q[3]};
+    trap.visit(q[0], length(across));
+  }
+  return trap.uv();
 }
 
 }  // namespace trace

@@ -5,6 +5,9 @@
 // Not found by estimates of distance: whole stretches of the ray, as balls in four dimensions, are followed
 // through the repetitions. A ball that is all outside at some step, or all inside at the last, needs no more
 // looking at; others are halved. So no detail is missed that is thicker than some 1e-8 of the set.
+//
+// Under a sine or an exponential a point may come back from anywhere. There the set is of the points whose
+// imaginary part, or real part, stays below a limit, within a ball.
 #pragma once
 
 #include <array>
@@ -12,6 +15,7 @@
 #include <string_view>
 
 #include "base/field.h"
+#include "geometry/orbit_trap.h"
 #include "geometry/span.h"
 #include "math/expression.h"
 
@@ -22,8 +26,12 @@ enum class Iteration {
   square,        ///< of quaternions
   cube,          ///< of quaternions
   hypercomplex,  ///< the square of commutative hypercomplex numbers, i^2 = j^2 = -1, k = ij
+  sine,          ///< of quaternions
+  exponential,   ///< of quaternions
 };
-constexpr std::array<std::string_view, 3> names(Iteration) { return {"square", "cube", "hypercomplex"}; }
+constexpr std::array<std::string_view, 5> names(Iteration) {
+  return {"square", "cube", "hypercomplex", "sine", "exponential"};
+}
 
 class TracedJulia;
 
@@ -37,6 +45,7 @@ struct Julia {
   int iterations = 10;
   Iteration iteration = Iteration::square;
   bool mandelbrot = false;
+  Trap trap = Trap::none;
 
   static constexpr auto fields() {
     return std::tuple{
@@ -46,7 +55,8 @@ struct Julia {
         Field{"iterations", &Julia::iterations, "", 1, 50,
               "how often the step is repeated: more show more detail"},
         Field{"iteration", &Julia::iteration, "", 0, 0, "the step: f in q -> f(q) + c"},
-        Field{"mandelbrot", &Julia::mandelbrot, "", 0, 1, "c is the point itself, plus `constant`"}};
+        Field{"mandelbrot", &Julia::mandelbrot, "", 0, 1, "c is the point itself, plus `constant`"},
+        Field{"trap", &Julia::trap, "", 0, 0, "what the texture coordinates tell"}};
   }
   bool operator==(const Julia&) const = default;
 
@@ -64,12 +74,23 @@ class TracedJulia {
 
  private:
   using Number = std::array<Real, 4>;
-  static constexpr Real kReach = 2.5, kEscaped = 4;  ///< kEscaped: from here on it only grows
+  static constexpr Real kReach = 2.5, kEscaped = 4;  ///< kEscaped: from here on powers only grow
 
   Number lift(const Vec3& p) const;
   Number step(const Number& q) const;
   /// The change of step(q) with q.
   Number stepSlope(const Number& q, const Number& change) const;
+  /// Is the step a power? A point that has escaped from it never comes back.
+  bool power() const { return shape_.iteration < Iteration::sine; }
+  /// What of a number is held against the limit, and how it changes with the number.
+  Real escape(const Number& q) const;
+  Real escapeSlope(const Number& q, const Number& change) const;
+  /// How many times farther apart the step takes numbers within r of q, at most.
+  Real stretch(const Number& q, Real r) const;
+  Vec2 trapUv(const Vec3& p) const;
+  /// value() and the sign over a ball where the step is no power.
+  Jet functionValue(const Vec3& p, const Vec3& direction) const;
+  Interval functionSigns(const Vec3& center, Real radius) const;
   /// Negative inside; the slope is along the direction.
   Jet value(const Vec3& p, const Vec3& direction) const;
   /// Of the value over a ball, and of its slope along the direction: bounds. Of the value only the sign

@@ -1,6 +1,7 @@
 #include "geometry/lathe.h"
 
 #include <algorithm>
+#include <span>
 
 namespace trace {
 
@@ -64,16 +65,48 @@ Real TracedLathe::Arc::at(Real z) const {
   return u0 < u1 ? rootBetween(height, u0, u1, true) : rootBetween(height, u1, u0, false);
 }
 
-void TracedLathe::crossings(const Ray& ray, VisitCrossing visit) const {
+void TracedLathe::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
   if (bounds_.empty()) return;
   const Span span = spanIn(roomy(bounds_), ray);
   if (span.empty()) return;
-  for (std::size_t i = 0; i < arcs_.size(); ++i)
-    meetArc(arcs_[i], static_cast<std::int64_t>(i), ray, span, visit);
+  // Roughly from the near end, so that what lies behind a place already found need not be looked at.
+  const bool forward = (ray.direction.z >= 0) == (arcs_.front().z0 <= arcs_.back().z0);
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const std::size_t number = forward ? i : arcs_.size() - 1 - i;
+    meetArc(arcs_[number], static_cast<std::int64_t>(number), ray, span, range, visit);
+  }
 }
 
+namespace {
+
+/// How often the sign changes among the Bernstein coefficients of a polynomial over [a, b]: at least as often as
+/// the polynomial has roots there. 2 if rounding hides it.
+int signVariations(std::span<const Real, 7> coefficients, Real a, Real b) {
+  std::array<Real, 7> c;
+  std::copy(coefficients.begin(), coefficients.end(), c.begin());
+  Real size = 0, power = 1;
+  for (const Real k : c) size += std::abs(k) * power, power *= max(1, max(std::abs(a), std::abs(b)));
+  for (std::size_t i = 0; i < 6; ++i)  // around a
+    for (std::size_t k = 6; k-- > i;) c[k] += a * c[k + 1];
+  power = 1;
+  for (Real& k : c) k *= power, power *= b - a;
+  // b_i = sum of binomial(i, k) / binomial(6, k) c_k
+  constexpr Real kBinomial[] = {1, 6, 15, 20, 15, 6, 1};
+  for (std::size_t k = 0; k < 7; ++k) c[k] /= kBinomial[k];
+  for (std::size_t i = 1; i < 7; ++i)
+    for (std::size_t k = 6; k >= i; --k) c[k] += c[k - 1];
+  int variations = 0;
+  for (std::size_t i = 0; i < 7; ++i) {
+    if (!(std::abs(c[i]) > 64 * size * gammaError(64))) return 2;
+    variations += i > 0 && (c[i] < 0) != (c[i - 1] < 0);
+  }
+  return variations;
+}
+
+}  // namespace
+
 void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span,
-                          VisitCrossing visit) const {
+                          const Range& range, VisitCrossing visit) const {
   const Vec3 &o = ray.origin, &d = ray.direction;
   const auto square = [&](Real t) {
     const Real x = o.x + d.x * t, y = o.y + d.y * t;
@@ -96,7 +129,8 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     if (a >= begin) begin = a, beginIsEnd = true;
     if (b <= end) end = b, endIsEnd = true;
   }
-  if (!(begin <= end)) return;
+  if (begin < range.from) begin = range.from, beginIsEnd = false;
+  if (!(begin <= end && begin < range.to)) return;
   const Real dd = d.x * d.x + d.y * d.y;
   const Real closest = dd > 0 ? std::clamp(-(o.x * d.x + o.y * d.y) / dd, begin, end) : begin;
   if (!(square(closest) <= arc.most * arc.most * (1 + gammaError(32))))
@@ -112,16 +146,19 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
   // Where the distance may turn: along the arc it is a polynomial of degree six.
   std::array<Real, 16> nodes{};
   std::size_t count = 0;
-  nodes[count++] = closest;
   if (begin < 0 && 0 < end) nodes[count++] = 0;
+  std::array<Real, 7> polynomial{};
+  const Real low = min(arc.u0, arc.u1), high = max(arc.u0, arc.u1);
+  bool helps = false;  // the polynomial, as a first guess
   const auto &r = arc.curve.c[0], &z = arc.curve.c[1];
   const bool straight = r[2] == 0 && r[3] == 0 && z[2] == 0 && z[3] == 0;
   if (d.z != 0 && straight) {  // a cone: the distance turns once
     const Real slope = r[1] / z[1], at0 = r[0] + slope * (o.z - z[0]);
     const Real t = -(o.x * d.x + o.y * d.y - at0 * slope * d.z) / (dd - slope * slope * d.z * d.z);
+    nodes[count++] = closest;
     if (begin < t && t < end) nodes[count++] = t;
   } else if (d.z != 0) {
-    std::array<Real, 7> polynomial{};
+    helps = true;
     for (const auto& [start, slope] : {std::pair{o.x, d.x}, std::pair{o.y, d.y}}) {
       std::array<Real, 4> place{};
       for (std::size_t i = 0; i < 4; ++i) place[i] = slope * z[i] + (i == 0 ? start * d.z - slope * o.z : 0);
@@ -130,11 +167,19 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) polynomial[i + j] -= d.z * d.z * r[i] * r[j];
-    const Nodes turns = extremaWithEnds(polynomial, min(arc.u0, arc.u1), max(arc.u0, arc.u1));
-    for (std::size_t i = 1; i + 1 < turns.count; ++i) {
-      const Real t = (arc.curve.at(1, turns.at[i]) - o.z) / d.z;
-      if (begin < t && t < end) nodes[count++] = t;
+    // Most lines go in on one side of their place nearest to the axis and out on the other.
+    const bool one = signVariations(polynomial, low, high) <= 1;
+    if (!one) nodes[count++] = closest;
+    const Real middle = one ? low : std::clamp(arc.at(o.z + d.z * closest), low, high);
+    if (!one && (signVariations(polynomial, low, middle) > 1 || signVariations(polynomial, middle, high) > 1)) {
+      const Nodes turns = extremaWithEnds(polynomial, low, high);
+      for (std::size_t i = 1; i + 1 < turns.count; ++i) {
+        const Real t = (arc.curve.at(1, turns.at[i]) - o.z) / d.z;
+        if (begin < t && t < end) nodes[count++] = t;
+      }
     }
+  } else {
+    nodes[count++] = closest;
   }
   std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(count));
   const auto insideAtEnd = [&](Real t, bool exact, bool bottom) {
@@ -144,13 +189,26 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
   };
   bool inside = insideAtEnd(begin, beginIsEnd, bottomFirst);
   Real last = begin;
+  // Between a and b, of which one is inside: the polynomial's root first, since the distance takes longer.
+  const auto root = [&](Real a, Real b) {
+    if (!helps) return rootBetween(distance, a, b, inside);
+    const Real ua = arc.at(o.z + d.z * a), ub = arc.at(o.z + d.z * b);
+    const auto value = [&](Real u) { return evaluate(polynomial, u); };
+    const Real u = rootBetween(value, min(ua, ub), max(ua, ub), (ua < ub) == inside);
+    const Real guess = (arc.curve.at(1, u) - o.z) / d.z;
+    const Real near = std::ldexp(max(std::abs(guess), (b - a)), -44);
+    const Real before = guess - near, behind = guess + near;
+    const bool brackets = a < before && behind < b && (distance(before).value < 0) == inside &&
+                          (distance(behind).value < 0) != inside;
+    return brackets ? rootBetween(distance, before, behind, inside) : rootBetween(distance, a, b, inside);
+  };
   const auto advance = [&](Real t, bool after) {
-    if (after != inside) visit({last < t ? rootBetween(distance, last, t, inside) : t, number});
+    if (after != inside) visit({last < t ? root(last, t) : t, number});
     inside = after, last = t;
   };
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count && last < range.to; ++i)
     if (last < nodes[i] && nodes[i] < end) advance(nodes[i], distance(nodes[i]).value < 0);
-  advance(end, insideAtEnd(end, endIsEnd, !bottomFirst));
+  if (last < range.to) advance(end, insideAtEnd(end, endIsEnd, !bottomFirst));
 }
 
 SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) const {

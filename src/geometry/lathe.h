@@ -44,7 +44,7 @@ class TracedLathe {
 
   bool solid() const { return solid_; }
   Box3 bounds() const { return bounds_; }
-  void crossings(const Ray& ray, VisitCrossing visit) const;
+  void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
 
  private:
@@ -60,7 +60,7 @@ class TracedLathe {
   };
   void add(const Cubic<2>& curve, std::array<Real, 2> from, std::array<Real, 2> to);
   void meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span,
-               VisitCrossing visit) const;
+               const Range& range, VisitCrossing visit) const;
 
   std::vector<Arc> arcs_;
   Box3 bounds_;

@@ -4,6 +4,11 @@
 // In coordinates divided by the scale at its height, a ray runs along a straight line of the outline's plane:
 // it crosses an arc where a cubic changes sign. Neighbouring arcs share their ends to the last bit, so that
 // along a ray entries and exits take turns.
+//
+// In a twisted one the ray runs along a curve of the outline's plane, which stays within a disk over a
+// stretch of the ray. Where the outline is farther away than that disk reaches, the stretch crosses nothing;
+// where it goes towards one arc or away from it all along, the ends of the stretch decide; any other is
+// halved.
 #pragma once
 
 #include <array>
@@ -27,7 +32,7 @@ struct Prism {
   Outline outline{{-1, -0.7}, {1, -0.8}, {0.6, 0.7}, {-0.5, 0.9}};
   std::vector<Outline> holes;
   Spline spline = Spline::linear;
-  Real height = 1, taper = 1;
+  Real height = 1, taper = 1, twist = 0;
 
   static constexpr auto fields() {
     return std::tuple{
@@ -36,7 +41,9 @@ struct Prism {
               "list of outlines; those within holes are solid again"},
         Field{"spline", &Prism::spline, "", 0, 0, "how the points are joined"},
         Field{"height", &Prism::height, "", 0, kNoLimit, "length along z"},
-        Field{"taper", &Prism::taper, "", 0, kNoLimit, "scale of the outline at the top; 0 makes a point"}};
+        Field{"taper", &Prism::taper, "", 0, kNoLimit, "scale of the outline at the top; 0 makes a point"},
+        Field{"twist", &Prism::twist, "degrees", -kNoLimit, kNoLimit,
+              "by how much the top is turned around z, against the clock"}};
   }
   bool operator==(const Prism&) const = default;
 
@@ -49,7 +56,7 @@ class TracedPrism {
 
   bool solid() const { return true; }
   Box3 bounds() const { return bounds_; }
-  void crossings(const Ray& ray, VisitCrossing visit) const;
+  void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   std::int64_t partCount() const {
     return kFirstSide + (static_cast<std::int64_t>(arcs_.size()) << kStepBits);
@@ -62,17 +69,31 @@ class TracedPrism {
   struct Arc {
     Cubic<2> curve;
     std::array<Real, 2> from, to;
-    Real outward = 1;  ///< 1 if outside is to the right
+    Real outward = 1;    ///< 1 if outside is to the right
+    Real curvature = 0;  ///< at most
   };
+  /// The outline's nearest place, and how far all other arcs are at least.
+  struct Nearest {
+    Real distance = kInfinity, others = kInfinity, u = 0;
+    std::size_t arc = 0;
+  };
+  class Twisted;
   void addLoop(Spline spline, Prism::Outline points);
   bool inside(const std::array<Real, 2>& p) const;
   Real scaleAt(Real z) const { return 1 + slope_ * z; }
+  /// A point of space brought down to the outline.
+  std::array<Real, 2> unfolded(const Vec3& p) const;
+  Nearest nearest(const std::array<Real, 2>& p) const;
+  void meetTwisted(const Ray& ray, const Crossing& in, const Crossing& out, const Range& range,
+                   const VisitCrossing& visit) const;
+  SurfacePoint twistedSide(const Vec3& p) const;
   template <class Visit>
   void meetPlane(const Vec3& normal, Visit&& visit) const;
 
   std::vector<Arc> arcs_;
-  Real height_ = 0, slope_ = 0, error_ = 0;
-  Box3 base_, bounds_;  ///< base_: of the outline
+  Real height_ = 0, slope_ = 0, turn_ = 0, error_ = 0;  ///< turn_: radians for each unit of z
+  Real radius_ = 0;                                     ///< farthest of the outline from the axis, if turned
+  Box3 base_, bounds_;                                  ///< base_: of the outline
 };
 
 }  // namespace trace

@@ -28,7 +28,7 @@ struct RoundedBox {
   Box3 bounds() const { return {half() * -1, half()}; }
 
   template <class Visit>
-  void crossings(const Ray& ray, Visit&& visit) const {
+  void crossings(const Ray& ray, const Range& range, Visit&& visit) const {
     const Real r = rounding();
     const Vec3 inner = core();
     const auto distance = [&](Real t) {
@@ -38,7 +38,7 @@ struct RoundedBox {
       return Jet{-r, 0};
     };
     if (r == 0) return flat(ray, visit);
-    convexCrossings(spanIn(roomy(bounds()), ray), distance, [&](Real t, int end) {
+    convexCrossings(spanIn(roomy(bounds()), ray), range, distance, [&](Real t, int end) {
       visit(Crossing{t, end});
     });
   }

@@ -20,18 +20,24 @@
 #include <string_view>
 #include <variant>
 
+#include "geometry/bezier_patches.h"
 #include "geometry/cone.h"
 #include "geometry/conic.h"
+#include "geometry/copies.h"
 #include "geometry/csg.h"
 #include "geometry/cube.h"
 #include "geometry/disk.h"
+#include "geometry/height_field.h"
 #include "geometry/isosurface.h"
 #include "geometry/julia.h"
 #include "geometry/lathe.h"
+#include "geometry/mandelbox.h"
+#include "geometry/mandelbulb.h"
 #include "geometry/menger.h"
 #include "geometry/mesh.h"
 #include "geometry/metaballs.h"
 #include "geometry/plane.h"
+#include "geometry/plant.h"
 #include "geometry/prism.h"
 #include "geometry/quadric.h"
 #include "geometry/rounded_box.h"
@@ -39,13 +45,16 @@
 #include "geometry/sphere_sweep.h"
 #include "geometry/square.h"
 #include "geometry/superellipsoid.h"
+#include "geometry/supertoroid.h"
+#include "geometry/terrain.h"
 #include "geometry/torus.h"
 
 namespace trace {
 
 using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus,
                            Ellipsoid, EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric,
-                           Superellipsoid, Lathe, Prism, SphereSweep, Metaballs, Isosurface, Menger, Julia,
-                           Union, Intersection, Difference, Clip, Mesh>;
+                           Superellipsoid, Supertoroid, Lathe, Prism, SphereSweep, Plant, BezierPatches,
+                           HeightField, Terrain, Metaballs, Isosurface, Menger, Sierpinski, Ifs, Julia,
+                           Mandelbulb, Mandelbox, Union, Intersection, Difference, Clip, Mesh>;
 
 }  // namespace trace

@@ -36,10 +36,11 @@ inline Span spanIn(const Box3& box, const Ray& ray) {
   return span;
 }
 
-/// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1. f is not negative
-/// at the ends of the span. Newton's steps from outside never pass a root of a convex function.
+/// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1, as far as they
+/// are in the range. f is not negative at the ends of the span. Newton's steps from outside never pass a root
+/// of a convex function.
 template <class F, class Visit>
-void convexCrossings(Span span, F&& f, Visit&& visit) {
+void convexCrossings(Span span, const Range& range, F&& f, Visit&& visit) {
   bool inside = false;
   if (span.from < 0 && span.to > 0) {  // the side of the origin is decided at the origin
     const Jet at = f(0.0);
@@ -60,13 +61,21 @@ void convexCrossings(Span span, F&& f, Visit&& visit) {
     }
     return t;
   };
-  Real in = approach(span.from, span.to);
-  if (inside) in = min(in, 0);
-  if (in == kInfinity) return;
+  Real in = 0;
+  if (!inside || range.from < 0) {
+    in = approach(span.from, span.to);
+    if (inside) in = min(in, 0);
+    if (in == kInfinity) return;
+    if (range.from >= 0 && in > range.from) {  // the exit is found only if it is wanted
+      visit(in, 0);
+      if (range.to <= in) return;
+    }
+  }
   Real out = approach(span.to, in);
   if (inside) out = out == kInfinity ? 0 : max(out, 0);
   if (out == kInfinity || out < in) return;
-  visit(in, 0), visit(out, 1);
+  if (range.from < 0) visit(in, 0);
+  visit(out, 1);
 }
 
 }  // namespace trace

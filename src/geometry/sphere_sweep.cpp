@@ -22,6 +22,13 @@ std::array<Real, N - 1> derivative(const std::array<Real, N>& a) {
   return result;
 }
 
+/// Without its highest powers, as far as they are zero: of straight arcs most are.
+std::span<const Real> needed(std::span<const Real> coefficients) {
+  std::size_t n = coefficients.size();
+  while (n > 1 && coefficients[n - 1] == 0) --n;
+  return coefficients.first(n);
+}
+
 /// Least and greatest value of a cubic for u from 0 to 1: between its Bezier ordinates.
 Span hull(const std::array<Real, 4>& c) {
   const Real ordinates[] = {c[0], c[0] + c[1] / 3, c[0] + (2 * c[1] + c[2]) / 3, c[0] + c[1] + c[2] + c[3]};
@@ -38,12 +45,12 @@ Vec3 perpendicular(const Vec3& v, const Vec3& wanted) {
 }  // namespace
 
 std::shared_ptr<const TracedSweep> SphereSweep::prepared() const {
-  return std::make_shared<const TracedSweep>(*this);
+  return std::make_shared<const TracedSweep>(arcsOf<4>(spline, points).arcs);
 }
 
-TracedSweep::TracedSweep(const SphereSweep& shape) {
+TracedSweep::TracedSweep(const std::vector<Cubic<4>>& curves) {
   std::vector<Box3> boxes;
-  for (const Cubic<4>& curve : arcsOf<4>(shape.spline, shape.points).arcs) {
+  for (const Cubic<4>& curve : curves) {
     Box3 box;
     const Span radius = hull(curve.c[3]);
     const Real r = max(std::abs(radius.from), std::abs(radius.to));
@@ -118,7 +125,7 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
       if (!(square > 0)) return touching ? Roots2{2, -middle, -middle} : Roots2{};
       return solveQuadratic(1, middle, c, square);
     };
-    const Nodes ends = rootsWithEnds(D, 0, 1);
+    const Nodes ends = rootsWithEnds(needed(D), 0, 1);
     for (std::size_t i = 0; i + 1 < ends.count; ++i) {
       const Real u0 = ends.at[i], u1 = ends.at[i + 1];
       if (!(evaluate(D, 0.5 * (u0 + u1)).value > 0)) continue;
@@ -129,7 +136,7 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
         if (t.t0 < in.t) in = {t.t0, u};
         if (t.t1 > out.t) out = {t.t1, u};
       };
-      for (const Nodes& nodes : {rootsWithEnds(turns, u0, u1), rootsWithEnds(DSlope, u0, u1)})
+      for (const Nodes& nodes : {rootsWithEnds(needed(turns), u0, u1), rootsWithEnds(needed(DSlope), u0, u1)})
         for (std::size_t n = 0; n < nodes.count; ++n) consider(nodes.at[n], true);
       // The polynomials are not exact enough for grazing rays: Newton's steps on what they stand for,
       // D' -+ 2 b' sqrt(D) = 0, which falls around each extreme; halving where one leaves. A polynomial that

@@ -40,7 +40,8 @@ struct SphereSweep {
 
 class TracedSweep {
  public:
-  explicit TracedSweep(const SphereSweep& shape);
+  /// (x, y, z, radius) along each curve.
+  explicit TracedSweep(const std::vector<Cubic<4>>& curves);
 
   bool solid() const { return true; }
   Box3 bounds() const { return bounds_; }

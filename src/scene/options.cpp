@@ -64,7 +64,7 @@ template <class... T>
 constexpr auto kKeywords<std::variant<T...>> = std::array{T::kKeyword...};
 template <>
 constexpr auto kNames<ShapeKind> = kKeywords<Shape>;
-static_assert(kNames<ShapeKind>.size() <= 32, "more kinds than an EnumSet holds");
+static_assert(kNames<ShapeKind>.size() <= 64, "more kinds than an EnumSet holds");
 
 constexpr std::string_view kNone = "none";  // of a set
 

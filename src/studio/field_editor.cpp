@@ -56,6 +56,11 @@ bool editValue(const FieldFacts& facts, Color& value) {
   return true;
 }
 
+bool editValue(const FieldFacts&, Heights& value) {
+  ImGui::TextDisabled("%s", value.file.empty() ? "none" : value.file.c_str());
+  return false;
+}
+
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);
   return ImGui::InputText("##value", &value);

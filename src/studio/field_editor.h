@@ -12,6 +12,7 @@
 
 #include "base/field.h"
 #include "base/text.h"
+#include "geometry/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
 
@@ -30,6 +31,8 @@ bool editValue(const FieldFacts& facts, bool& value);
 bool editValue(const FieldFacts& facts, Vec3& value);
 bool editValue(const FieldFacts& facts, Color& value);
 bool editValue(const FieldFacts& facts, std::string& value);
+/// Shows the name of the picture: it is read with the scene.
+bool editValue(const FieldFacts& facts, Heights& value);
 /// Several numbers, in rows of at most four.
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
 /// One of the names.

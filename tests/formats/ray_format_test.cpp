@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "formats/ray_format.h"
 #include "geometry/csg_tree.h"
+#include "image/codec.h"
 #include "ray_helpers.h"
 
 namespace trace {
@@ -48,6 +50,29 @@ std::string other(std::vector<std::array<Real, 5>>& v) { return v = {{1, 2, 3, 4
 std::string other(std::vector<std::array<Real, 8>>& v) {
   return v = {{1, 2, 3, 4, 5, 6, 7, 8}}, "((1, 2, 3, 4, 5, 6, 7, 8))";
 }
+std::string other(std::vector<std::array<Real, 12>>& v) {
+  v = {{0.5, 0, 0, 1, 0, 0.5, 0, 0, 0, 0, 0.5, 0}};
+  return "((0.5, 0, 0, 1, 0, 0.5, 0, 0, 0, 0, 0.5, 0))";
+}
+std::string other(std::vector<std::string>& v) {
+  return v = {"F = F[+F]F", "X = "}, "(\"F = F[+F]F\", \"X = \")";
+}
+std::string other(std::vector<BezierPatches::Points>& v) {
+  v = {BezierPatches::Points(16, {1, 2, 3})};
+  std::string points = "(1, 2, 3)";
+  for (int i = 1; i < 16; ++i) points += ", (1, 2, 3)";
+  return "((" + points + "))";
+}
+std::string other(Heights& value) {
+  const std::string file = ::testing::TempDir() + "ray_format_heights.png";
+  Picture picture(3, 2);
+  picture.at(1, 0) = Color(1), picture.at(2, 1) = Color(1);
+  writePicture(file, picture);
+  auto grid = std::make_shared<HeightGrid>(3, 2);
+  grid->at(1, 1) = grid->at(2, 0) = 1;  // the first row of a picture is the farthest
+  value = {file, grid};
+  return "\"" + file + "\"";
+}
 std::string other(std::vector<Prism::Outline>& v) {
   return v = {{{1, 2}, {3, 4}}, {}}, "(((1, 2), (3, 4)), ())";
 }
@@ -85,6 +110,24 @@ TEST(RayFormat, ReadsSolidsOfSolids) {
   EXPECT_EQ(errorsOf("union { square { } }"),
             "2:9: expected a solid, found square { } [an open object can only be the first in a clip { }]");
   EXPECT_EQ(warningsOf("union { }"), "2:1: union without objects is empty");
+}
+
+TEST(RayFormat, MakesObjectsOfParticlesAtTheFramesTime) {
+  const std::string text =
+      "SBT-raytracer 1.0\n translate(0, 0, 1, particles { rate = 10; lifetime = 100; velocity = (1, 0, 0); "
+      "velocity_spread = 0; spread = (0, 0, 0); gravity = (0, 0, 0); lifetime_spread = 0; size = 0.5; "
+      "end_size = "
+      "0.5; end_color = (0, 1, 1); material = { diffuse = (0.5, 0.5, 0.5) }; box { } })";
+  Messages messages;
+  const Scene scene = readRay("test.ray", text, messages, 1.001);
+  ASSERT_EQ(scene.objects.size(), 11u);
+  EXPECT_TRUE(std::holds_alternative<Cube>(scene.objects[0].shape));
+  expectNear(scene.objects[1].worldFromObject * Vec3{0.5, 0, 0}, {0.901 + 0.25, 0, 1});
+  EXPECT_EQ(std::get<Phong>(scene.materials.at(scene.objects[10].material).model).diffuse, Color(0.5));
+  EXPECT_TRUE(readRay("test.ray", text, messages, -1).objects.empty());
+  EXPECT_EQ(onlyShape<Sphere>("particles { rate = 1; duration = 0.5; }"), Sphere{});
+  EXPECT_EQ(errorsOf("particles { rate = 1e9; begin = -5; }"),
+            "2:1: particles: more than 100000 would be alive [give a lower rate or a shorter lifetime]");
 }
 
 TEST(RayFormat, SaysWhatIsWrongWithListsNamesAndFormulas) {

@@ -59,8 +59,25 @@ inline std::vector<Vec3> variations(const Vec3& value) {
 }
 
 inline std::vector<int> variations(int value) { return {value / 2, value + 1}; }
-inline std::vector<std::string> variations(const std::string&) {
+inline std::vector<std::string> variations(const std::string& text) {
+  if (text == Plant{}.axiom) return {"F[+X]FX"};
   return {"z - 0.3 * sin(4 * x) * cos(3 * y)"};
+}
+inline std::vector<std::vector<std::string>> variations(const std::vector<std::string>&) {
+  return {{"X = F[+X]F[-X]", "X = F[^X]F"}};
+}
+inline std::vector<Heights> variations(const Heights&) {
+  auto grid = std::make_shared<HeightGrid>(5, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 5; ++x) grid->at(x, y) = static_cast<float>((3 * x + 5 * y) % 7) / 7;
+  return {{"heights.png", grid}};
+}
+inline std::vector<std::vector<BezierPatches::Points>> variations(
+    const std::vector<BezierPatches::Points>& patches) {
+  auto two = patches;
+  two.push_back(patches[0]);
+  for (auto& point : two.back()) point[0] += 2, point[2] *= -0.5;
+  return {two};
 }
 inline std::vector<std::array<Real, 4>> variations(const std::array<Real, 4>& v) {
   return {{v[0] * 0.75, v[1] * 0.75, v[2] + 0.125, v[3]}};
@@ -83,12 +100,18 @@ inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Pri
 }
 inline std::vector<Operands> variations(const Operands&) { return {}; }
 
-/// Something to see of the shape: its default, where that is not empty.
+/// Something to see of the shape: its default, where that is not empty and soon met.
 template <class S>
 S typical() {
   S shape;
   if constexpr (std::is_same_v<S, Clip>)
     shape.objects = Operands({{"", Sphere{}, {}, 0}, {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0}});
+  else if constexpr (requires { shape.trap; })
+    shape.iterations = 4;
+  else if constexpr (std::is_same_v<S, Plant>)
+    shape.iterations = 3, shape.radius = 0.1;
+  else if constexpr (std::is_same_v<S, Terrain>)
+    shape.points = 33, shape.octaves = 4;
   else if constexpr (requires { shape.objects; })
     shape.objects =
         Operands({{"", Sphere{}, {}, 0},
@@ -119,6 +142,15 @@ inline std::vector<Shape> analyticShapes() {
       for (const S& sample : samplesOf<S>()) shapes.push_back(sample);
   });
   return shapes;
+}
+
+/// Of so many rays, how many a test of the shape sends: fewer where each takes long.
+inline int raysFor(const Shape& shape, int rays) {
+  return match(shape, [&]<class S>(const S& s) {
+    if constexpr (std::is_same_v<S, Mandelbulb> || std::is_same_v<S, Mandelbox>) return rays / 20;
+    if constexpr (std::is_same_v<S, Julia>) return s.iteration >= Iteration::sine ? rays / 50 : rays;
+    return rays;
+  });
 }
 
 inline std::string nameOf(const Shape& shape) {
