@@ -10,11 +10,11 @@ namespace trace::rayfile {
 namespace {
 
 /// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
-constexpr std::array<std::string_view, 26> kRelatives{
-    "area_light", "bump",         "bump_mapping", "checkerboard", "csg",        "displace",  "environment",
-    "fog",        "height_field", "hyperbolic",   "map",          "map_points", "marble",    "metaball",
-    "meteorite",  "noise",        "normal",       "normal_map",   "obj_mesh",   "particles", "shape_light",
-    "skybox",     "texture",      "warn_light",   "warn_model",   "wood"};
+constexpr std::array<std::string_view, 24> kRelatives{
+    "area_light",  "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
+    "environment", "fog",       "hyperbolic",   "map",          "map_points", "marble",
+    "metaball",    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh",
+    "shape_light", "skybox",    "texture",      "warn_light",   "warn_model", "wood"};
 
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;

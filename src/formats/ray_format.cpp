@@ -384,6 +384,7 @@ class Reader {
     S shape;
     std::string name;
     Material material = materials_.current;
+    const std::size_t errors = findings_.errors();
     constexpr bool kOfObjects = requires { shape.objects; };
     for (const Item item : block) {
       if (kOfObjects && (isObject(item) || isListOfObjects(item))) continue;
@@ -399,6 +400,7 @@ class Reader {
     }
     if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
     if constexpr (requires { shape.prepared(); }) {
+      if (findings_.errors() != errors) return;  // what is wrong is said
       try {
         shape.prepared();
       } catch (const Error& error) {

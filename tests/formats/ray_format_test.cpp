@@ -510,12 +510,12 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
       "area_light { position = (0, 0, 1); }\narea_light { }\n"
-      "translate(1, 2, 3, height_field { a = 1; })\ncsg(sphere{}, box{})\n"
+      "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(warningsOf(text),
             "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
-            "4:20: \"height_field\" is not rendered yet\n"
+            "4:20: \"metaball\" is not rendered yet\n"
             "5:1: \"csg\" is not rendered yet\n"
             "6:23: \"bump_mapping\" is not rendered yet\n"
             "6:63: \"marble\" is not rendered yet");
@@ -524,7 +524,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
   EXPECT_EQ(loaded.scene.unrendered[0].text, "area_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
-            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nheight_field { a = 1; })");
+            "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nmetaball { a = 1; })");
   EXPECT_EQ(loaded.scene.objects.size(), 1u);
   EXPECT_EQ(phongOf(loaded.scene, 0).diffuse, Color(1));
 }
