@@ -11,7 +11,8 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere = "render gui info bench explain lint diff grade convert features help";
+constexpr std::string_view kEverywhere =
+    "render gui info bench explain lint diff grade convert features help";
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -212,7 +213,8 @@ std::span<const Flag> flags() {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "",
-           "render info bench explain lint diff grade convert", false, "which messages are shown; default info",
+           "render info bench explain lint diff grade convert", false,
+           "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
       Flag{"strict", 0, Takes::nothing, "", "", "render info bench explain lint grade convert", true,
            "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},

@@ -33,8 +33,8 @@ enum class CsgOperation { unite, intersect, subtract, clip };
 
 class CsgTree {
  public:
-  /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of solids
-  /// are nested too deeply for their parts to be numbered.
+  /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of
+  /// solids are nested too deeply for their parts to be numbered.
   CsgTree(CsgOperation operation, const std::vector<Operand>& operands);
 
   bool solid() const { return operation_ != CsgOperation::clip; }

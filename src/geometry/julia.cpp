@@ -296,7 +296,8 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   const Real l = length(gradient);
   const Vec3 n = l > 0 && std::isfinite(l) ? gradient / l : normalize(-ray.direction);
   constexpr Real kMost = 1e-9;  // where the set is too folded for rounding to tell
-  const Real e = min(2 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
+  // This crossing and that of a ray that starts here are each found by a value that is off by so much.
+  const Real e = min(4 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
   return {p, {e, e, e}, n, n, shape_.trap == Trap::none ? sphereUv(p) : trapUv(p)};
 }
 

@@ -79,8 +79,8 @@ void TracedLathe::crossings(const Ray& ray, const Range& range, VisitCrossing vi
 
 namespace {
 
-/// How often the sign changes among the Bernstein coefficients of a polynomial over [a, b]: at least as often as
-/// the polynomial has roots there. 2 if rounding hides it.
+/// How often the sign changes among the Bernstein coefficients of a polynomial over [a, b]: at least as often
+/// as the polynomial has roots there. 2 if rounding hides it.
 int signVariations(std::span<const Real, 7> coefficients, Real a, Real b) {
   std::array<Real, 7> c;
   std::copy(coefficients.begin(), coefficients.end(), c.begin());
@@ -171,7 +171,8 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     const bool one = signVariations(polynomial, low, high) <= 1;
     if (!one) nodes[count++] = closest;
     const Real middle = one ? low : std::clamp(arc.at(o.z + d.z * closest), low, high);
-    if (!one && (signVariations(polynomial, low, middle) > 1 || signVariations(polynomial, middle, high) > 1)) {
+    if (!one &&
+        (signVariations(polynomial, low, middle) > 1 || signVariations(polynomial, middle, high) > 1)) {
       const Nodes turns = extremaWithEnds(polynomial, low, high);
       for (std::size_t i = 1; i + 1 < turns.count; ++i) {
         const Real t = (arc.curve.at(1, turns.at[i]) - o.z) / d.z;

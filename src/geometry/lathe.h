@@ -59,8 +59,8 @@ class TracedLathe {
     Real at(Real z) const;
   };
   void add(const Cubic<2>& curve, std::array<Real, 2> from, std::array<Real, 2> to);
-  void meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span,
-               const Range& range, VisitCrossing visit) const;
+  void meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span, const Range& range,
+               VisitCrossing visit) const;
 
   std::vector<Arc> arcs_;
   Box3 bounds_;

@@ -26,7 +26,7 @@ struct Sample {
 
 class Grid {
  public:
-  Grid(const Box3& bounds, int divisions) {
+  Grid(const Box3& bounds, int divisions) : bounds_(bounds) {
     const Real longest = maxComponent(bounds.size()), cell = longest / divisions;
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<Real>& at = lines_[axis];
@@ -120,7 +120,7 @@ class Grid {
     }
   }
 
-  /// Where the tangent planes of the cell's crossings meet best, inside the cell.
+  /// Where the tangent planes of the cell's crossings meet best, inside the cell and the bounds.
   Vec3 place(std::size_t cell) const {
     Vec3 middle;
     int count = 0;
@@ -139,7 +139,7 @@ class Grid {
     const std::size_t at[3] = {cell % cells(0), cell / cells(0) % cells(1), cell / (cells(0) * cells(1))};
     Vec3 inside;
     for (int i = 0; i < 3; ++i) inside[i] = std::clamp(p[i], lines_[i][at[i]], lines_[i][at[i] + 1]);
-    return inside;
+    return min(max(inside, bounds_.low), bounds_.high);
   }
 
   /// The mean of those of the cell's normals that belong to the surface with `normal`.
@@ -153,6 +153,7 @@ class Grid {
     return normalize(sum);
   }
 
+  Box3 bounds_;
   std::vector<Real> lines_[3];
   std::vector<std::uint32_t> heads_;  // first sample of each cell
   std::vector<Sample> samples_;

@@ -1,5 +1,5 @@
-// Meshes close to analytic shapes, for formats that have no such shapes. Those of the courses exactly, point by
-// point, with the shape's own normals; any other out of its crossings, as tessellate.h draws it.
+// Meshes close to analytic shapes, for formats that have no such shapes. Those of the courses exactly, point
+// by point, with the shape's own normals; any other out of its crossings, as tessellate.h draws it.
 #pragma once
 
 #include <optional>

@@ -53,7 +53,7 @@ TEST(PictureDifference, FilesTellWhetherTheyHoldLevels) {
 TEST(Metrics, HaveNamesOfTheirOwnAndGrowWorse) {
   std::set<std::string_view> names;
   const PictureDifference near = difference(grey(0), grey(1 / 255.0), kUsual),
-                   far = difference(grey(0), grey(90 / 255.0), {2, usualPixelsPerDegree()});
+                          far = difference(grey(0), grey(90 / 255.0), {2, usualPixelsPerDegree()});
   for (const Metric& metric : metrics()) {
     EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
     EXPECT_EQ(&findMetric(metric.name), &metric);

@@ -125,6 +125,7 @@ TEST(SceneModel, HasEveryObjectInItsPlace) {
     Box3 box;
     for (const Vec3& corner : part.box) box.extend(corner);
     const Real slack = 0.02 * maxComponent(box.size()) + 1e-6 * model.scale;
+    SCOPED_TRACE(test::nameOf(scene.objects[static_cast<std::size_t>(&part - model.parts.data())].shape));
     for (std::size_t i = part.first; i < part.first + part.count; ++i) {
       const float* c = &model.corners[i * 6];
       const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;

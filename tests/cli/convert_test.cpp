@@ -55,10 +55,11 @@ TEST_F(Convert, TurnsAProfile) {
 }
 
 TEST_F(Convert, SaysWhatItCannotDo) {
+  write("endless.ray", "SBT-raytracer 1.0 plane { }");
   EXPECT_EQ(run({"convert", "tri.off"}).code, 2);
   EXPECT_EQ(run({"convert", "tri.off", "tri.off"}).code, 2) << "OFF is only read";
   EXPECT_EQ(run({"convert", "no.off", "tri.ray"}).code, 1);
-  EXPECT_EQ(run({"convert", "white.ray", "white.ply"}).code, 3) << "no mesh";
+  EXPECT_EQ(run({"convert", "endless.ray", "endless.ply"}).code, 3) << "a plane has no triangles";
   EXPECT_EQ(run({"convert", "--steps", "2", "tri.off", "tri.ray"}).code, 2);
 }
 

@@ -1,4 +1,5 @@
-// docs/ray-format.md and docs/shapes.md are written by hand; what they list must be what the lists of the program say.
+// docs/ray-format.md and docs/shapes.md are written by hand; what they list must be what the lists of the
+// program say.
 #include <gtest/gtest.h>
 
 #include "base/file.h"

@@ -1,10 +1,11 @@
 // What the .ray reader makes of good scenes: docs/ray-format.md.
+#include "formats/ray_format.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/match.h"
-#include "formats/ray_format.h"
 #include "geometry/csg_tree.h"
 #include "image/codec.h"
 #include "ray_helpers.h"

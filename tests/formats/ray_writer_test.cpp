@@ -107,8 +107,11 @@ TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
   scene.camera.position = {0.1, -1e-300, 1.0 / 3};
   scene.materials.push_back({"", Phong{}, {}});
   test::Random random(5);
-  for (const Shape& shape : test::analyticShapes())
+  for (const Shape& shape : test::analyticShapes()) {
+    const auto* heights = std::get_if<HeightField>(&shape);
+    if (heights && heights->file.grid) continue;  // the picture would have to be there; RayFormat reads one
     scene.objects.push_back({"shape", shape, random.affine(3), 0, {}});
+  }
   forEachType<Light>([&]<class L>(L*) {
     L light;
     double value = 0.1;
