@@ -13,6 +13,7 @@
 #include "app/workspace.h"
 #include "base/file.h"
 #include "image/codec.h"
+#include "support/folder.h"
 
 namespace trace::test {
 namespace {
@@ -28,15 +29,8 @@ sphere { name = "ball"; material = { diffuse = (1,0,0); } }
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = testing::TempDir() + "trace_app_" + test->test_suite_name() + "_" + test->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    write("scene.ray", kScene);
-  }
-  ~Files() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  Files() { write("scene.ray", kScene); }
+  std::string path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const { writeFile(path(name), text); }
   /// Writes, with a time that differs from the one before.
   void rewrite(const std::string& name, const std::string& text) const {
@@ -46,7 +40,7 @@ class Files : public testing::Test {
   }
 
  private:
-  std::string folder_;
+  test::Folder folder_;
 };
 
 using DocumentTest = Files;

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "image/codec.h"
 #include "image/flip.h"
+#include "support/folder.h"
 
 namespace trace::test {
 namespace {
@@ -17,10 +18,9 @@ namespace fs = std::filesystem;
 class GradeTest : public testing::Test {
  protected:
   GradeTest() { fs::create_directories(out("sub")), fs::create_directories(reference("sub")); }
-  ~GradeTest() override { fs::remove_all(root_); }
 
-  std::string out(const std::string& name) const { return root_ + "/out/" + name; }
-  std::string reference(const std::string& name) const { return root_ + "/ref/" + name; }
+  std::string out(const std::string& name) const { return root_ / ("out/" + name); }
+  std::string reference(const std::string& name) const { return root_ / ("ref/" + name); }
   static void grey(const std::string& path, double value, int width = 8) {
     Picture picture(width, 4);
     for (Color& c : picture.pixels) c = Color(value);
@@ -28,7 +28,7 @@ class GradeTest : public testing::Test {
   }
   GradeTask task() const {
     GradeTask t;
-    t.folder = root_ + "/out", t.reference = root_ + "/ref";
+    t.folder = root_ / "out", t.reference = root_ / "ref";
     t.difference = {0, usualPixelsPerDegree()};
     return t;
   }
@@ -39,7 +39,7 @@ class GradeTest : public testing::Test {
     return all;
   }
 
-  const std::string root_ = testing::TempDir() + "/trace_grade";
+  const Folder root_;
 };
 
 TEST_F(GradeTest, WorstFirst) {
@@ -99,7 +99,7 @@ TEST_F(GradeTest, RendersScenesWhenAsked) {
 TEST_F(GradeTest, FoldersMustBeThere) {
   EXPECT_THROW(grade(task()), Error);  // no reference picture
   GradeTask t = task();
-  t.folder = root_ + "/nowhere";
+  t.folder = root_ / "nowhere";
   EXPECT_THROW(grade(t), Error);
 }
 

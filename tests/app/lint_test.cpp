@@ -9,6 +9,7 @@
 #include "app/coplanar.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "support/folder.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/shared.h"
@@ -109,18 +110,16 @@ TEST(Lint, OverlappingFacesAreFoundWhereNobodyLooksAndFacesThatTouchAreNot) {
 }
 
 TEST(Lint, FindsUnusedMaterialsOfOtherFormats) {
-  const std::string folder = testing::TempDir() + "trace_lint_obj";
-  std::filesystem::create_directories(folder);
-  writeFile(folder + "/m.mtl", "newmtl gold\nKd 1 1 0\nnewmtl red\nKd 1 0 0\n");
-  writeFile(folder + "/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const Folder folder;
+  writeFile(folder / "m.mtl", "newmtl gold\nKd 1 1 0\nnewmtl red\nKd 1 0 0\n");
+  writeFile(folder / "m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
   int found = 0;
-  for (const LintFinding& finding : lintFile(folder + "/m.obj"))
+  for (const LintFinding& finding : lintFile(folder / "m.obj"))
     if (finding.check == "unused-material") {
       ++found;
       EXPECT_NE(finding.message.what.find("gold"), std::string::npos);
     }
   EXPECT_EQ(found, 1);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Lint, SaysTheSameEveryTime) {

@@ -8,24 +8,22 @@
 
 #include "app/session.h"
 #include "image/codec.h"
+#include "support/folder.h"
 
 namespace trace::test {
 namespace {
 
 class OutputTest : public testing::Test {
  protected:
-  OutputTest() { std::filesystem::create_directories(folder_); }
-  ~OutputTest() override { std::filesystem::remove_all(folder_); }
-
   void render(std::vector<Choice> choices, const std::string& name) {
     choices.push_back({"width", "24", {}});
     session_.open(std::string(TRACE_SOURCE) + "/scenes/shapes.ray", choices);
     session_.build();
     session_.render();
-    session_.save(folder_ + "/" + name);
+    session_.save(folder_ / name);
   }
 
-  const std::string folder_ = testing::TempDir() + "/trace_output";
+  const Folder folder_;
   Session session_;
 };
 
@@ -48,7 +46,7 @@ TEST(Outputs, AreNamedAfterThePicture) {
 
 TEST_F(OutputTest, ExrHoldsRawValuesAndWords) {
   render({{"passes", "depth,id", {}}}, "a.png");
-  const Picture depth = readPicture(folder_ + "/a.depth.exr"), id = readPicture(folder_ + "/a.id.exr");
+  const Picture depth = readPicture(folder_ / "a.depth.exr"), id = readPicture(folder_ / "a.id.exr");
   const Picture exact = session_.film().layer(0);
   bool far = false;
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
@@ -58,23 +56,23 @@ TEST_F(OutputTest, ExrHoldsRawValuesAndWords) {
   }
   EXPECT_TRUE(far);
   std::map<std::string, std::string> words;
-  for (const auto& [key, text] : readMetadata(folder_ + "/a.depth.exr")) words[key] = text;
+  for (const auto& [key, text] : readMetadata(folder_ / "a.depth.exr")) words[key] = text;
   EXPECT_EQ(words["Pass"], "depth");
   EXPECT_EQ(words["Title"], "shapes.ray");
 }
 
 TEST_F(OutputTest, PngHoldsWhatIsShown) {
   render({{"passes", "depth", {}}, {"pass-format", "png", {}}}, "a.bmp");
-  const ValueRange range = finiteRange(readPicture(folder_ + "/a.depth.png"));
+  const ValueRange range = finiteRange(readPicture(folder_ / "a.depth.png"));
   EXPECT_EQ(range, (ValueRange{0, 1}));
 }
 
 TEST_F(OutputTest, ToneIsForLevelsOnly) {
   render({{"tone", "stretch", {}}}, "a.png");
-  EXPECT_EQ(toBytes(readPicture(folder_ + "/a.png"), Rounding::truncate),
+  EXPECT_EQ(toBytes(readPicture(folder_ / "a.png"), Rounding::truncate),
             toBytes(toned(session_.picture(), Tone::stretch), Rounding::truncate));
-  session_.save(folder_ + "/a.exr");
-  const Picture raw = readPicture(folder_ + "/a.exr"), picture = session_.picture();
+  session_.save(folder_ / "a.exr");
+  const Picture raw = readPicture(folder_ / "a.exr"), picture = session_.picture();
   for (std::size_t i = 0; i < raw.pixels.size(); ++i)
     EXPECT_EQ(raw.pixels[i].r, static_cast<float>(picture.pixels[i].r));
 }

@@ -6,6 +6,7 @@
 
 #include "cli/program.h"
 #include "image/codec.h"
+#include "support/folder.h"
 #include "support/shared.h"
 
 namespace trace::test {
@@ -17,19 +18,15 @@ const std::string kScenes = std::string(TRACE_SOURCE) + "/scenes/";
 const std::string kLint = std::string(TRACE_SOURCE) + "/tests/corpus/lint/";
 
 struct Explain : testing::Test {
-  std::string folder = testing::TempDir() + "/trace_explain";
-  void SetUp() override {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directory(folder);
-  }
+  test::Folder folder;
   /// Runs `ray` with the words; fails the test on another exit code.
   std::string out(std::vector<std::string> words, int code = 0) {
-    Program program(folder, std::move(words));
+    Program program(folder.path(), std::move(words));
     EXPECT_EQ(program.wait(), code) << program.err();
     return program.out();
   }
   std::string error(std::vector<std::string> words, int code) {
-    Program program(folder, std::move(words));
+    Program program(folder.path(), std::move(words));
     EXPECT_EQ(program.wait(), code);
     return program.err();
   }
@@ -97,7 +94,7 @@ TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
   ASSERT_TRUE(std::regex_search(page, match,
                                 std::regex("\n    ray explain (scenes/[a-z]+\\.ray) --pixel ([0-9,]+)\n")));
   const std::string scene = match[1], pixel = match[2];
-  std::filesystem::create_directory_symlink(kScenes, folder + "/scenes");
+  std::filesystem::create_directory_symlink(kScenes, folder / "scenes");
   const std::string text = out({"explain", scene, "--pixel", pixel});
   std::string block;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
@@ -112,12 +109,12 @@ TEST_F(Explain, FilesGetTheFormatOfTheirName) {
     std::vector<std::string> with = words;
     with.push_back(name);
     EXPECT_EQ(out(with), "");
-    EXPECT_EQ(readFile(folder + "/" + name).find(begins), 0u) << name;
+    EXPECT_EQ(readFile(folder / name).find(begins), 0u) << name;
   }
   std::vector<std::string> with = words;
   with.push_back("a.png");
   out(with);
-  EXPECT_GT(readPicture(folder + "/a.png").width, 1000);
+  EXPECT_GT(readPicture(folder / "a.png").width, 1000);
 }
 
 TEST_F(Explain, RefusesWithAReason) {
@@ -158,7 +155,7 @@ TEST_F(Explain, LintEndsWithSixWhenItFindsSomething) {
 }
 
 TEST_F(Explain, LintTellsWhatReadingRepaired) {
-  const std::string scene = folder + "/flat.ray";
+  const std::string scene = folder / "flat.ray";
   writeFile(scene,
             "SBT-raytracer 1.0\ndirectional_light { direction = (0, 0, -1); color = (1, 1, 1); }\n"
             "polymesh { points = ((0,0,-5), (1,0,-5), (0,1,-5)); faces = ((0,1,2), (0,0,1)); "

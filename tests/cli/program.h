@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "support/folder.h"
 
 namespace trace::test {
 
@@ -103,21 +104,14 @@ directional_light { direction=(0,0,-1); color=(1,1,1); }
 scale(10, sphere { material={ emissive=(1,1,1); } })
 )";
 
-  ProgramTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = testing::TempDir() + "trace_cli_" + test->test_suite_name() + "_" + test->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    write("white.ray", kWhite);
-  }
-  ~ProgramTest() override { std::filesystem::remove_all(folder_); }
+  ProgramTest() { write("white.ray", kWhite); }
 
   void write(const std::string& name, const std::string& text) const { writeFile(path(name), text); }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string path(const std::string& name) const { return folder_ / name; }
   bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
   size_t files() const {  // without those of the streams
     size_t n = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
       n += entry.path().filename().string()[0] != '.';
     return n;
   }
@@ -127,15 +121,15 @@ scale(10, sphere { material={ emissive=(1,1,1); } })
     std::string out, err, last;
   };
   Run run(std::vector<std::string> words, const Variables& variables = {}) const {
-    Program program(folder_, std::move(words), variables);
+    Program program(folder_.path(), std::move(words), variables);
     const int code = program.wait();
     return {code, program.out(), program.err(), program.lastLine()};
   }
 
-  const std::string& folder() const { return folder_; }
+  const std::string& folder() const { return folder_.path(); }
 
  private:
-  std::string folder_;
+  test::Folder folder_;
 };
 
 /// Whether `text` contains `part`, with both in the message if not.

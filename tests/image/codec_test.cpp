@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/compare.h"
+#include "support/folder.h"
 
 namespace trace {
 namespace {
@@ -33,24 +34,9 @@ const PictureFormat& formatNamed(std::string_view name) {
   throw std::runtime_error("no such format");
 }
 
-/// A folder of its own for one test, removed afterwards.
-class Folder {
- public:
-  Folder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::path(testing::TempDir()) / (std::string("trace_codec_") + test->name());
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  size_t files() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-  }
-
- private:
-  fs::path path_;
-};
+std::size_t files(const test::Folder& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), {}));
+}
 
 /// Smooth, so that JPEG keeps it; every channel different, no symmetry, exact 8-bit levels.
 Picture smoothPicture(int width, int height) {
@@ -88,7 +74,7 @@ Picture brightPicture(int width, int height) {
 constexpr int kSizes[][2] = {{1, 1}, {3, 2}, {17, 5}, {2, 9}, {300, 3}};
 
 TEST(Codec, EveryFormatComesBack) {
-  const Folder folder;
+  const test::Folder folder;
   for (const PictureFormat& format : pictureFormats())
     for (const auto& [width, height] : kSizes) {
       SCOPED_TRACE(std::string(format.name) + " " + std::to_string(width) + "x" + std::to_string(height));
@@ -105,7 +91,7 @@ TEST(Codec, EveryFormatComesBack) {
         EXPECT_LE(measured, format.lossless ? 0 : lossy ? 4 : 1);
       }
     }
-  EXPECT_EQ(folder.files(), pictureFormats().size());  // no temporary file left
+  EXPECT_EQ(files(folder), pictureFormats().size());  // no temporary file left
 }
 
 TEST(Codec, BrightValuesComeBackWhereTheFormatKeepsThem) {
@@ -161,7 +147,7 @@ TEST(Codec, NumbersThatAreNoneAreWrittenByEveryFormat) {
 
 // A program that writes binary files in text mode turns 0A into 0D 0A.
 TEST(Codec, LineFeedLevelsSurvive) {
-  const Folder folder;
+  const test::Folder folder;
   const Bytes bytes{3, 1, {0x0A, 0x0A, 0x0A, 0x0D, 0x0A, 0x1A, 0x0A, 0x0D, 0x00}};
   for (const PictureFormat& format : pictureFormats()) {
     if (!format.lossless) continue;
@@ -288,7 +274,7 @@ TEST(CodecKnownAnswer, PngRead) {
 // --- words stored with a picture -----------------------------------------------------------------------
 
 TEST(CodecMetadata, ComesBack) {
-  const Folder folder;
+  const test::Folder folder;
   const Metadata words{
       {"Scene", "caf\xC3\xA9 \xE2\x88\x9E.ray"}, {"Settings", "width=400 depth=5: all"}, {"Void", ""}};
   const Picture picture = smoothPicture(17, 5);
@@ -315,7 +301,7 @@ TEST(CodecMetadata, AwkwardWordsNeverLoseThePicture) {
                        {"Broken", "\xFF\xC3"},
                        {"Long", longText}};
   const Picture picture = smoothPicture(3, 2);
-  const Folder folder;
+  const test::Folder folder;
   for (const PictureFormat& format : pictureFormats()) {
     SCOPED_TRACE(format.name);
     const std::string path = folder / ("awkward" + std::string(format.suffixes[0]));
@@ -370,11 +356,11 @@ TEST(CodecNames, UnknownSuffixNamesAllKnownOnes) {
 }
 
 TEST(CodecErrors, UnwritablePathLeavesNothing) {
-  const Folder folder;
+  const test::Folder folder;
   EXPECT_THROW(writePicture(folder / "no/such/folder/a.png", Picture(1, 1)), Error);
   fs::create_directory(folder / "taken.png");
   EXPECT_THROW(writePicture(folder / "taken.png", Picture(1, 1)), Error);
-  EXPECT_EQ(folder.files(), 1u);
+  EXPECT_EQ(files(folder), 1u);
 }
 
 TEST(CodecErrors, SizesThatDoNotFit) {
@@ -391,7 +377,7 @@ TEST(CodecErrors, SizesThatDoNotFit) {
 }
 
 TEST(CodecErrors, MissingFileAndNoPicture) {
-  const Folder folder;
+  const test::Folder folder;
   EXPECT_THROW(readPicture(folder / "none.png"), Error);
   EXPECT_THROW(readPicture(folder / ""), Error);
   for (const char* content :
