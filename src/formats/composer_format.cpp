@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "formats/composer_file.h"
+#include "formats/directions.h"
 #include "formats/model.h"
 #include "geometry/mesh_repair.h"
 
@@ -93,7 +94,7 @@ class Reader {
     scene_.camera.position = v.position;
     scene_.camera.viewdir = v.direction, scene_.camera.updir = v.up;
     scene_.camera.fov = v.verticalFov * 180 / kPi;
-    if (!(length(cross(v.direction, v.up)) > 0) || !(scene_.camera.fov > 0 && scene_.camera.fov < 180))
+    if (!canLook(v.direction, v.up) || !(scene_.camera.fov > 0 && scene_.camera.fov < 180))
       throw Error(Fault::scene, place(),
                   "expected a camera whose orthoUp is not along its viewDirection, and a "
                   "verticalFOV between 0 and pi");

@@ -16,6 +16,7 @@
 
 #include "base/file.h"
 #include "base/unique.h"
+#include "formats/directions.h"
 #include "formats/gltf_material.h"
 
 #define TINYGLTF_IMPLEMENTATION
@@ -340,8 +341,7 @@ class GltfReader {
     camera.position = worldFromNode * Vec3{};
     camera.viewdir = linear(worldFromNode, {0, 0, -1});
     camera.updir = linear(worldFromNode, {0, 1, 0});
-    const Real across = length(cross(camera.viewdir, camera.updir));
-    if (from.type != "perspective" || !(fov > 0 && fov < 180) || !(across > 0) || !std::isfinite(across) ||
+    if (from.type != "perspective" || !(fov > 0 && fov < 180) || !canLook(camera.viewdir, camera.updir) ||
         !isFinite(camera.position))
       return messages_.warn(
           place_, "camera \"" + from.name + "\" is not one for a picture in perspective; it is left out");

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "formats/directions.h"
 #include "formats/format.h"
 #include "formats/inventor_binding.h"
 #include "formats/inventor_shapes.h"
@@ -536,7 +537,7 @@ class Reader {
     camera.updir = linear(s.worldFromObject, linear(own, {0, 1, 0}));
     camera.fov = angle * 180 / kPi;
     if (aspect > 0.01 && aspect < 100) camera.aspectratio = aspect;
-    const bool good = camera.fov > 0 && camera.fov < 180 && length(cross(camera.viewdir, camera.updir)) > 0 &&
+    const bool good = camera.fov > 0 && camera.fov < 180 && canLook(camera.viewdir, camera.updir) &&
                       isFinite(camera.position);
     if (!good) return warn(v.node(), "a camera that cannot look is left out", "camera");
     camera.viewdir = normalize(camera.viewdir);

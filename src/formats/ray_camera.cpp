@@ -4,22 +4,11 @@
 #include <optional>
 
 #include "base/text.h"
+#include "formats/directions.h"
 #include "formats/ray_fields.h"
-#include "math/transform.h"
 
 namespace trace::rayfile {
 namespace {
-
-/// A length that normalize() can divide by.
-bool hasDirection(const Vec3& v) {
-  const Real l = length(v);
-  return l > 0 && std::isfinite(l);
-}
-
-/// Parallel as far as arithmetic can tell.
-bool parallel(const Vec3& a, const Vec3& b) {
-  return !(length(cross(a, b)) > gammaError(8) * length(a) * length(b));
-}
 
 class CameraReader {
  public:

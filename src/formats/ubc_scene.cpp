@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "math/transform.h"
+#include "formats/directions.h"
 
 namespace trace::ubc {
 namespace {
@@ -37,7 +37,7 @@ Camera camera(const View& view, const Place& place) {
   camera.updir = view.up;
   camera.fov = view.fovy, camera.aspectratio = view.aspect;
   camera.near = view.near, camera.far = view.far;
-  if (!(length(cross(camera.viewdir, camera.updir)) > 0))
+  if (!canLook(camera.viewdir, camera.updir))
     throw Error(
         Fault::scene, place,
         "expected a view whose up vector is not parallel to it, from an eye that is not its own target");
