@@ -21,6 +21,12 @@ std::string absolute(const std::string& file) {
   return error ? file : path.lexically_normal().string();
 }
 
+/// As a person would say it: from the current folder, if the file lies in it.
+std::string shown(const std::string& file) {
+  const std::string near = fs::path(absolute(file)).lexically_relative(absolute(".")).string();
+  return near.empty() || near.starts_with("..") ? absolute(file) : near;
+}
+
 }  // namespace
 
 bool differInPicture(const Settings& a, const Settings& b) {
@@ -67,7 +73,7 @@ bool Workspace::adopt(Opened opened) {
   std::erase(recent_, path);
   recent_.insert(recent_.begin(), path);
   recent_.resize(std::min(recent_.size(), kMostRecent));
-  note("opened " + path);
+  note("opened " + shown(path));
   reportReading();
   seen_ = document.revision();
   startRender();
@@ -175,7 +181,7 @@ bool Workspace::savePicture(const std::string& file) {
   try {
     for (const Output& output : outputs(file, settings)) {
       write(output, session->film(), settings, words);
-      note("wrote " + absolute(output.path));
+      note("wrote " + shown(output.path));
     }
   } catch (const Error& error) {
     report(error.messages());
