@@ -3,8 +3,8 @@
 //
 // Source: the skeletons of the courses (docs/ray-format.md). Where they refuse although the
 // intention is clear, this reader accepts: named materials, materials inside groups, missing semicolons,
-// unknown fields. What Trace does not render yet is kept as text and reported once per kind. One long file, for
-// it is one walk over one tree; what needs only a block of it stands beside it.
+// unknown fields. What Trace does not render yet is kept as text and reported once per kind. One long file,
+// for it is one walk over one tree; what needs only a block of it stands beside it.
 #include "formats/ray_format.h"
 
 #include <algorithm>
