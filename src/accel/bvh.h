@@ -52,7 +52,9 @@ class Bvh {
   /// The best for the machine if not set.
   void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
 
-  /// The items of a leaf; unused places hold kNoItem.
+  /// All items, in leaves one after the other; without a tree simply all.
+  std::span<const std::uint32_t> items() const { return items_; }
+  /// The items of a leaf of a tree; unused places hold kNoItem.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
     return std::span<const std::uint32_t, kLeafSize>(items_.data() + std::size_t{number} * kLeafSize,
                                                      kLeafSize);
@@ -71,7 +73,7 @@ class Bvh {
   BvhExtent extent_{};
   const BvhKernel* kernel_ = &bvhKernels().front();
   HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
-  std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf
+  std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf; brute force: all
 };
 
 // ------------------------------------------------------------------------------------------------------
@@ -79,16 +81,16 @@ class Bvh {
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
                 NodeCount& nodes, Visit&& visit) const {
+  if (nodes_.empty()) {
+    for (std::uint32_t item : items_)
+      if (visit(item)) return;
+    return;
+  }
   const auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;
     return false;
   };
-  if (nodes_.empty()) {
-    for (std::uint32_t number = 0; number < leafCount(); ++number)
-      if (visitLeaf(number)) return;
-    return;
-  }
   auto context = &visitLeaf;
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
   kernel_->query(

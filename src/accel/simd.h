@@ -57,6 +57,11 @@ inline unsigned lessEqual(Float4 a, Float4 b) {
   return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.v, b.v)));
 }
 inline unsigned signs(Float4 a) { return static_cast<unsigned>(_mm_movemask_ps(a.v)); }
+/// 1 where x is at or after the edge, else 0.
+inline Float4 step(Float4 edge, Float4 x) { return {_mm_and_ps(_mm_cmple_ps(edge.v, x.v), _mm_set1_ps(1))}; }
+/// y z x, and the fourth lane stays.
+inline Float4 rotate(Float4 a) { return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(3, 0, 2, 1))}; }
+inline float first(Float4 a) { return _mm_cvtss_f32(a.v); }
 template <int kLane>
 Float4 spread(Float4 a) {
   return {_mm_shuffle_ps(a.v, a.v, kLane * 0x55)};
@@ -255,6 +260,18 @@ unsigned signs(const Lanes<T, N>& a) {
   unsigned mask = 0;
   for (int i = 0; i < N; ++i) mask |= (__builtin_signbit(a.v[i]) ? 1u : 0u) << i;
   return mask;
+}
+template <class T>
+Lanes<T, 4> step(const Lanes<T, 4>& edge, const Lanes<T, 4>& x) {
+  return map(edge, x, [](T e, T at) { return static_cast<T>(e <= at ? 1 : 0); });
+}
+template <class T>
+Lanes<T, 4> rotate(const Lanes<T, 4>& a) {
+  return {a.v[1], a.v[2], a.v[0], a.v[3]};
+}
+template <class T>
+T first(const Lanes<T, 4>& a) {
+  return a.v[0];
 }
 template <int kLane, class T, int N>
 Lanes<T, N> spread(const Lanes<T, N>& a) {

@@ -16,7 +16,7 @@ template <class T>
 struct HugePages {
   using value_type = T;
   static constexpr std::size_t kPage = std::size_t{2} << 20;
-  static constexpr std::size_t kLeast = 8 * kPage;  ///< so that what rounding up to pages wastes is little
+  static constexpr std::size_t kLeast = 2 * kPage;  ///< so that what rounding up to pages wastes is little
 
   HugePages() = default;
   template <class U>

@@ -95,7 +95,8 @@ template <bool kNearestFirst, class Meet>
     limit = ray.fromT(q.best.hit.t);
     return ended;
   };
-  traverse<kNearestFirst>(q.mesh.nodes, ray, ray.fromT(q.best.hit.t), q.nodes, visitBlock);
+  traverse<kNearestFirst>(q.mesh.nodes, {q.mesh.blocks, sizeof(TriangleBlock)}, ray, ray.fromT(q.best.hit.t),
+                          q.nodes, visitBlock);
 }
 
 inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned lane,
@@ -110,8 +111,9 @@ inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned
 inline bool accepted(MeshQuery& q, std::uint32_t block, unsigned lane, const BlockHits& hits) {
   if (!(hits.sure >> lane & 1) && !q.passes(block, lane)) return false;
   if (q.accept == nullptr) return true;
-  fill(q.candidate, q, block, lane, hits);
-  return q.accept(q.context, q.candidate);
+  MeshHit candidate;
+  fill(candidate, q, block, lane, hits);
+  return q.accept(q.context, candidate);
 }
 
 inline void closestInMesh(MeshQuery& q) {

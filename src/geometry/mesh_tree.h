@@ -50,8 +50,6 @@ struct MeshQuery {
   void* context = nullptr;
   std::uint64_t blocks = 0;  ///< tested
 
-  MeshHit candidate{};
-
   /// The exact test of a lane of a block.
   bool passes(std::uint32_t block, std::size_t lane) const;
 };
@@ -101,7 +99,8 @@ class MeshTree {
  private:
   /// Without a hierarchy: the scalar test for every triangle.
   template <class Visit>
-  void everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const;
+  [[gnu::noinline]] void everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit,
+                                       MeshCounts counts) const;
 
   std::shared_ptr<const MeshData> data_;
   Bvh bvh_;
@@ -116,13 +115,11 @@ template <class Visit>
 void MeshTree::everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const {
   const TriangleRay triangleRay(ray);
   MeshHit met;
-  for (std::uint32_t number = 0; number < bvh_.leafCount(); ++number)
-    for (std::uint32_t triangle : bvh_.leaf(number)) {
-      if (triangle == Bvh::kNoItem) continue;
-      ++counts.triangles;
-      met.triangle = triangle;
-      if (triangleRay.intersect(corners(*data_, triangle), tMost, met.hit) && visit(met)) return;
-    }
+  for (std::uint32_t triangle : bvh_.items()) {
+    ++counts.triangles;
+    met.triangle = triangle;
+    if (triangleRay.intersect(corners(*data_, triangle), tMost, met.hit) && visit(met)) return;
+  }
 }
 
 template <class Accept>
