@@ -70,6 +70,11 @@ class Bvh {
  private:
   struct Builder;
 
+  /// Takes a copy of the visitor, so that without a tree it need not exist in memory.
+  template <class Visit>
+  [[gnu::noinline]] void queryTree(const Vec3& origin, const Vec3& direction, const Real& tMost,
+                                   bool nearestFirst, NodeCount& nodes, Visit visit) const;
+
   BvhExtent extent_{};
   const BvhKernel* kernel_ = &bvhKernels().front();
   HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
@@ -81,21 +86,26 @@ class Bvh {
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
                 NodeCount& nodes, Visit&& visit) const {
-  if (nodes_.empty()) {
-    for (std::uint32_t item : items_)
-      if (visit(item)) return;
-    return;
-  }
-  const auto visitLeaf = [&](std::uint32_t number) {
+  if (!nodes_.empty()) return queryTree(origin, direction, tMost, nearestFirst, nodes, visit);
+  for (std::uint32_t item : items_)
+    if (visit(item)) return;
+}
+
+template <class Visit>
+void Bvh::queryTree(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
+                    NodeCount& nodes, Visit visit) const {
+  auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number))
       if (item != kNoItem && visit(item)) return true;
     return false;
   };
-  auto context = &visitLeaf;
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
   kernel_->query(
       nodes_.data(), extent_, from, along, tMost, nearestFirst, nodes,
-      [](void* c, std::uint32_t number) { return (**static_cast<decltype(context)*>(c))(number); }, &context);
+      [](void* context, std::uint32_t number) {
+        return (*static_cast<decltype(visitLeaf)*>(context))(number);
+      },
+      &visitLeaf);
 }
 
 }  // namespace trace

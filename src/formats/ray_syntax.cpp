@@ -23,24 +23,23 @@ constexpr std::size_t kNone = std::string_view::npos;
 /// The offset of the first byte at or after `at` that is neither white space nor comment. A block comment
 /// that is never closed ends the skipping at its start, with `unclosed` set.
 std::size_t skipBlanks(std::string_view source, std::size_t at, bool& unclosed) {
-  while (at < source.size()) {
+  for (;;) {
+    while (at < source.size() && isBlank(source[at])) ++at;
+    if (at == source.size() || source[at] != '/') return at;
     const std::string_view two = source.substr(at, 2);
-    std::size_t end = at + 1;
     if (two == "//") {
-      end = source.find('\n', at);
+      at = std::min(source.find('\n', at), source.size());
     } else if (two == "/*") {
-      end = source.find("*/", at + 2);
+      const std::size_t end = source.find("*/", at + 2);
       if (end == kNone) {
         unclosed = true;
         return at;
       }
-      end += 2;
-    } else if (!isBlank(source[at])) {
+      at = end + 2;
+    } else {
       return at;
     }
-    at = std::min(end, source.size());
   }
-  return at;
 }
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
@@ -269,6 +268,7 @@ Syntax::Syntax(std::string file, std::string_view source) : file_(std::move(file
   lineStarts_.push_back(0);
   for (std::size_t newline = source.find('\n'); newline != kNone; newline = source.find('\n', newline + 1))
     lineStarts_.push_back(static_cast<std::uint32_t>(newline + 1));
+  nodes_.reserve(source.size() / 6);  // of a mesh: numbers of five characters and a separator, and brackets
   Parser(*this).file();
 }
 

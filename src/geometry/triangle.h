@@ -18,7 +18,7 @@ struct Corners {
 
 struct TriangleHit {
   Real t = 0;
-  Real b[3] = {};     ///< barycentric coordinates, sum 1
+  Real b[3];          ///< barycentric coordinates, sum 1; set with the hit
   bool front = true;  ///< the ray comes from the side the normal points to
 };
 

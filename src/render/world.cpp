@@ -8,10 +8,10 @@ namespace trace {
 
 std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics& statistics) const {
   std::optional<Found> best(std::in_place);
-  const auto visitObject = [&](std::uint32_t object) {
+  const auto visitObject = [this, &worldRay, faces, &best, &statistics](std::uint32_t object) {
     const Instance& instance = objects_[object];
     const std::size_t kind = instance.shape.index();
-    Ray moved;
+    std::optional<Ray> moved;
     const Ray& ray = instance.objectRay(worldRay, moved);
     const auto keepNearest = [&](const Found& found) {
       if (!(found.t > 0 && found.before(*best))) return;
@@ -41,7 +41,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
-  Ray moved;
+  std::optional<Ray> moved;
   const Ray& ray = instance.objectRay(worldRay, moved);
   const SurfacePoint s =
       match(instance.shape,
@@ -53,7 +53,7 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
                          return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
                        }});
 
-  return transformed(s, instance.worldFromObject, instance.objectFromWorld);
+  return instance.moved ? transformed(s, instance.worldFromObject, instance.objectFromWorld) : s;
 }
 
 Phong World::material(const Found& found) const {

@@ -100,10 +100,9 @@ class World {
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
 
     /// The ray in the object's space: as it is, or moved to `place`.
-    const Ray& objectRay(const Ray& ray, Ray& place) const {
+    const Ray& objectRay(const Ray& ray, std::optional<Ray>& place) const {
       if (!moved) return ray;
-      place = {objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)};
-      return place;
+      return place.emplace(Ray{objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)});
     }
   };
 
@@ -155,9 +154,9 @@ void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& t
 template <class Visit>
 void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
                       Visit&& visit) const {
-  const auto visitObject = [&](std::uint32_t object) {
+  const auto visitObject = [this, &worldRay, tMost, faces, &statistics, &visit](std::uint32_t object) {
     const Instance& instance = objects_[object];
-    Ray moved;
+    std::optional<Ray> moved;
     const Ray& ray = instance.objectRay(worldRay, moved);
     bool ended = false;
     Real wanted = tMost;
