@@ -28,6 +28,13 @@ bool isPicture(const std::string& file) {
   }
 }
 
+void openDropped(Studio& studio, const std::string& file) {
+  if (isPicture(file))
+    studio.workspace.openReference(file);
+  else
+    studio.leave([&studio, file] { studio.workspace.open(file); });
+}
+
 void frame(Studio& studio) {
   if (studio.themeChanged) {
     studio.theme.scale = studio.window.contentScale() * studio.userScale;
@@ -35,17 +42,15 @@ void frame(Studio& studio) {
     studio.window.fontsChanged();
     studio.themeChanged = false;
   }
-  const bool busy = studio.workspace.render.state().working() || studio.workspace.opening() ||
-                    studio.workspace.inspector.busy() || studio.rays.modelTask.busy();
+  Workspace& workspace = studio.workspace;
+  const bool busy = workspace.render.state().working() || workspace.reading() || workspace.saving() ||
+                    workspace.inspector.busy() || studio.rays.modelTask.busy();
   studio.window.beginFrame(busy ? kBusy : kIdle);
-  for (const std::string& file : studio.window.takeDropped()) {
-    if (!isPicture(file))
-      studio.leave([&studio, file] { studio.workspace.openLater(file); });
-    else if (studio.workspace.openReference(file))
-      studio.picture.view = View::swipe;
-  }
+  for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   studio.keys = studio.window.takeKeys();
-  studio.workspace.update();
+  const std::uint64_t failures = workspace.failures();
+  workspace.update();
+  if (workspace.failures() > failures) studio.show("Log"), studio.quit = false;
   drawStudio(studio);
   studio.window.endFrame();
 }
@@ -65,13 +70,11 @@ int run(const Arguments& arguments) {
                  height = studio.preferences.number("height", 0);
     if (width >= 320 && height >= 240) window.setSize(static_cast<int>(width), static_cast<int>(height));
   }
-  if (!arguments.scene.empty() && !studio.workspace.open(arguments.scene, arguments.choices))
-    studio.show("Log");
-  if (!arguments.reference.empty() && studio.workspace.openReference(arguments.reference))
-    studio.picture.view = View::swipe;
+  if (!arguments.scene.empty()) studio.workspace.open(arguments.scene, arguments.choices);
+  if (!arguments.reference.empty()) studio.workspace.openReference(arguments.reference);
 
   std::string title;
-  while (!studio.quit) {
+  while (!studio.quit || studio.workspace.saving()) {
     frame(studio);
     if (window.closing()) {
       window.keepOpen();
@@ -84,6 +87,7 @@ int run(const Arguments& arguments) {
     if (now != title) window.setTitle(title = now);
   }
   remember(studio);
+  window.hide();  // what still runs has to be waited for
   return 0;
 }
 

@@ -128,6 +128,7 @@ void Window::endFrame() {
 
 bool Window::closing() const { return glfwWindowShouldClose(state_->window); }
 void Window::keepOpen() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
+void Window::hide() { glfwHideWindow(state_->window); }
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
 void Window::setSize(int width, int height) { glfwSetWindowSize(state_->window, width, height); }
 void Window::size(int& width, int& height) const { glfwGetWindowSize(state_->window, &width, &height); }
@@ -141,6 +142,7 @@ float Window::contentScale() const {
   return std::clamp(std::max({x, y, byHeight}), 1.0f, 4.0f);
 }
 
+void Window::drop(const std::string& file) { state_->dropped.push_back(file); }
 std::vector<std::string> Window::takeDropped() { return std::exchange(state_->dropped, {}); }
 
 std::vector<KeyPress> Window::takeKeys() { return std::exchange(state_->keys, {}); }
