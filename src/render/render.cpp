@@ -50,12 +50,12 @@ class TileRenderer {
       const Ray ray = tracer_.cameraRay(x, y, sample);
       Tracer& tracer = tracer_.tracer();
       const std::optional<Hit> hit = tracer.cast(ray, RayKind::camera);
-      const bool unseen = !hit && tracer.cutsOff(ray);
+      const bool tooNear = !hit && tracer.tooNear(ray);
       for (std::size_t i = 0; i < passes_.size(); ++i)
         if (sample == 0 || passes_[i]->averaged)
-          passSums_[i] += hit      ? passes_[i]->value(*hit, ray, tracer)
-                          : unseen ? passes_[i]->unseen
-                                   : passes_[i]->background;
+          passSums_[i] += hit       ? passes_[i]->value(*hit, ray, tracer)
+                          : tooNear ? passes_[i]->tooNear
+                                    : passes_[i]->background;
     }
     for (std::size_t i = 0; i < passes_.size(); ++i)
       film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);

@@ -37,12 +37,12 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   return hit;
 }
 
-bool Tracer::cutsOff(const Ray& ray) const {
-  const CameraFrame& camera = world_.camera();
-  if (camera.near <= 0 && camera.far == kInfinity) return false;
+bool Tracer::tooNear(const Ray& ray) const {
+  const Real near = world_.camera().near;
+  if (near <= 0) return false;
   Statistics uncounted;
   const auto found = world_.closest(ray, facesSeenBy(RayKind::camera), uncounted);
-  return found && !camera.sees(found->t);
+  return found && found->t < near;
 }
 
 Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distance) {

@@ -26,8 +26,8 @@ class Tracer {
   /// in the unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
   Color visible(const SurfacePoint& from, const Vec3& toLight, Real distance);
 
-  /// Does the camera ray, which sees nothing, meet something nearer or farther than the camera sees?
-  bool cutsOff(const Ray& ray) const;
+  /// Does the camera ray meet something nearer than the camera sees?
+  bool tooNear(const Ray& ray) const;
 
   /// The query of a recorded ray once more, for its statistics.
   void retrace(const RayNode& node);

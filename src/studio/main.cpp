@@ -15,6 +15,7 @@
 namespace trace::studio {
 namespace {
 
+constexpr int kWidth = 1280, kHeight = 800;   // of the window, at first, on a plain monitor
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between frames when nothing, or a render, goes on
 
 const char* variable(const char* name) { return std::getenv(name); }
@@ -55,21 +56,29 @@ void frame(Studio& studio) {
   studio.window.endFrame();
 }
 
+/// As asked, or as it was last; at first as suits the monitor.
+void sizeWindow(Studio& studio, const Arguments& arguments) {
+  const double width = studio.preferences.number("width", 0), height = studio.preferences.number("height", 0);
+  const float scale = studio.window.contentScale();
+  if (arguments.width > 0)
+    studio.window.setSize(arguments.width, arguments.height);
+  else if (width >= 320 && height >= 240)
+    studio.window.setSize(static_cast<int>(width), static_cast<int>(height));
+  else
+    studio.window.setSize(static_cast<int>(kWidth * scale), static_cast<int>(kHeight * scale));
+}
+
 int run(const Arguments& arguments) {
   std::optional<Script> script;
   if (!arguments.script.empty()) script.emplace(arguments.script);
   const std::string folder = script ? "" : configFolder(variable);
   const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
-  Window window("Trace", arguments.width, arguments.height);
+  Window window("Trace", kWidth, kHeight);
   Studio studio(window);
   studio.configFolder = folder;
   ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
-  if (!folder.empty()) {
-    restore(studio);
-    const double width = studio.preferences.number("width", 0),
-                 height = studio.preferences.number("height", 0);
-    if (width >= 320 && height >= 240) window.setSize(static_cast<int>(width), static_cast<int>(height));
-  }
+  if (!folder.empty()) restore(studio);
+  sizeWindow(studio, arguments);
   if (!arguments.scene.empty()) studio.workspace.open(arguments.scene, arguments.choices);
   if (!arguments.reference.empty()) studio.workspace.openReference(arguments.reference);
 

@@ -50,7 +50,7 @@ void refresh(Studio& studio) {
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify)) {
     const bool colours = view.view == View::falseColour;
-    const Picture& picture = workspace.referenceIsLinear() ? view.shown : view.levels;
+    const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
     const Picture difference = colours ? falseColours(picture, *reference, view.magnify)
                                        : differences(picture, *reference, view.magnify);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
@@ -176,7 +176,7 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     else
       std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
                     durationText(state.elapsed).c_str(), left.c_str());
-    ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(40), ImGui::GetFrameHeight()}, text);
+    ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(28), ImGui::GetFrameHeight()}, text);
     ImGui::SameLine();
   }
   ImGui::AlignTextToFramePadding();
@@ -250,7 +250,8 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
   const bool comparable = reference && sameSize(*reference, view.shown);
-  if (mode == View::picture) clipped(canvas, end, frame, view.pictureTexture);
+  const bool differs = mode == View::difference || mode == View::falseColour;
+  if (mode == View::picture || (differs && !comparable)) clipped(canvas, end, frame, view.pictureTexture);
   if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);
@@ -265,8 +266,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0) && right > left)
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
-  if ((mode == View::difference || mode == View::falseColour) && comparable)
-    clipped(canvas, end, frame, view.differenceTexture);
+  if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
   if (mode != View::picture && !comparable)
     caption(corner, "the reference has another size");

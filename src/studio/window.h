@@ -33,7 +33,7 @@ class Window {
   void keepOpen();  ///< takes back the wish to close
   void hide();
   void setTitle(const std::string& title);
-  void setSize(int width, int height);
+  void setSize(int width, int height);  ///< at most the monitor's
   void size(int& width, int& height) const;
 
   /// By which everything should be enlarged on this monitor: 1 on a plain one, 2 on most 4K ones.

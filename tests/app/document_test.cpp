@@ -247,6 +247,14 @@ TEST(PictureViews, ExposureIsInStopsAndZeroStopsAreTheLevelsOfAFile) {
   EXPECT_EQ(exposed(picture, 1, Rounding::truncate).rgb, (std::vector<std::uint8_t>{127, 255, 255}));
 }
 
+TEST(PictureViews, WhatIsBrighterThanOneDoesNotDifferFromAFileThatCannotKeepIt) {
+  Picture picture(1, 1);
+  picture.at(0, 0) = {0.25, 1, 2.5};
+  Picture file(1, 1);
+  file.at(0, 0) = {0.25, 1, 1};
+  EXPECT_EQ(differences(clamped(picture), file, 1).at(0, 0), Color(0));
+}
+
 TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {
   Picture picture(2, 1);
   picture.at(0, 0) = Color(1), picture.at(1, 0) = Color(3);
