@@ -1,9 +1,11 @@
 // A thread for answers that a window must not wait for. Of several jobs only the newest waits: a window asks
-// again whenever the mouse moves, and wants the last answer.
+// again whenever the mouse moves, and wants the last answer. Jobs that write files are all done instead, one
+// after the other, also when the task goes.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -15,12 +17,15 @@ namespace trace {
 /// Asked now and then by a long job; true: nobody wants the answer any more.
 using Cancelled = std::function<bool()>;
 
+/// Which jobs of a BackgroundTask are done.
+enum class Jobs { newest, all };
+
 template <class Answer>
 class BackgroundTask {
  public:
   using Work = std::function<Answer(const Cancelled&)>;  ///< does not throw
 
-  BackgroundTask() : thread_([this] { loop(); }) {}
+  explicit BackgroundTask(Jobs jobs = Jobs::newest) : all_(jobs == Jobs::all), thread_([this] { loop(); }) {}
   ~BackgroundTask() {
     {
       const std::lock_guard lock(mutex_);
@@ -32,25 +37,35 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Takes the place of a job that waits. One that runs may still answer; after a moment it is cancelled.
+  /// If only the newest counts: takes the place of a job that waits; one that runs may still answer, and
+  /// after a moment it is cancelled.
   void start(Work work) {
     {
       const std::lock_guard lock(mutex_);
-      waiting_ = std::move(work);
+      if (!all_) waiting_.clear();
+      waiting_.push_back(std::move(work));
     }
     wake_.notify_all();
   }
 
-  /// The last answer, once.
+  /// The last answer, or the first of all, once.
   std::optional<Answer> take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(answer_, std::nullopt);
+    if (answers_.empty()) return {};
+    std::optional<Answer> answer(std::move(answers_.front()));
+    answers_.pop_front();
+    return answer;
   }
 
   /// There is an answer to come.
   bool busy() const {
     const std::lock_guard lock(mutex_);
-    return running_ || waiting_;
+    return running_ || !waiting_.empty();
+  }
+  /// There is an answer to come or to be taken.
+  bool pending() const {
+    const std::lock_guard lock(mutex_);
+    return running_ || !waiting_.empty() || !answers_.empty();
   }
 
  private:
@@ -64,28 +79,32 @@ class BackgroundTask {
       {
         std::unique_lock lock(mutex_);
         running_ = false;
-        wake_.wait(lock, [&] { return quit_ || waiting_; });
-        if (quit_) return;
-        work = std::exchange(waiting_, nullptr);
+        wake_.wait(lock, [&] { return quit_ || !waiting_.empty(); });
+        if (waiting_.empty() || (quit_ && !all_)) return;
+        work = std::move(waiting_.front());
+        waiting_.pop_front();
         running_ = true;
       }
       const Clock::time_point began = Clock::now();
       const auto cancelled = [&] {
+        if (all_) return false;
         const std::lock_guard lock(mutex_);
-        return quit_ || (waiting_ && Clock::now() - began > kPatience);
+        return quit_ || (!waiting_.empty() && Clock::now() - began > kPatience);
       };
       Answer answer = work(cancelled);
       if (cancelled()) continue;
       const std::lock_guard lock(mutex_);
-      answer_ = std::move(answer), running_ = false;
+      if (!all_) answers_.clear();
+      answers_.push_back(std::move(answer)), running_ = false;
     }
   }
 
+  const bool all_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  Work waiting_;
+  std::deque<Work> waiting_;
   bool running_ = false, quit_ = false;
-  std::optional<Answer> answer_;
+  std::deque<Answer> answers_;
   std::thread thread_;
 };
 

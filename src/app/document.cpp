@@ -26,20 +26,21 @@ bool isConvention(const Option& option) { return option.group == "Conventions" &
 
 }  // namespace
 
-Document::Reading Document::read(const std::string& file, const std::vector<Choice>& commandLine,
-                                 const std::vector<Choice>& choices) {
+Document::Reading Document::read(const Source& source) {
   Reading reading;
-  reading.written = timeOf(file);
-  const std::string bytes = readFile(file);
+  reading.source = source;
+  reading.written = timeOf(source.file);
+  const std::string bytes = readFile(source.file);
   const auto readAt = [&](Real time) {
     reading.messages = {};
-    reading.scene = std::make_shared<const Scene>(readScene(file, bytes, reading.messages, time));
+    reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, time));
     reading.messages.throwIfFailed();
-    return resolve({reading.scene->choices, commandLine, choices}).time;
+    return resolve({reading.scene->choices, source.commandLine, source.choices}).time;
   };
-  const Real time = resolve({commandLine, choices}).time;
+  const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
-  reading.fingerprint = fingerprint(bytes, *reading.scene);
+  reading.fingerprint = trace::fingerprint(bytes, *reading.scene);
+  reading.changesWithTime = trace::changesWithTime(source.file, bytes);
   return reading;
 }
 
@@ -48,11 +49,12 @@ void Document::take(const Reading& reading, bool anew) {
   moments_.insert(reading.scene);
   onDisk_ = reading.scene, written_ = reading.written;
   messages_ = reading.messages, fingerprint_ = reading.fingerprint;
+  changesWithTime_ = reading.changesWithTime;
   ++readings_;
 }
 
 void Document::open(const std::string& file, std::vector<Choice> commandLine) {
-  const Reading reading = read(file, commandLine, {});
+  const Reading reading = read({file, commandLine, {}});
   take(reading, true);
   file_ = file, commandLine_ = std::move(commandLine);
   editions_ = {{"", reading.scene, {}}};
@@ -86,33 +88,53 @@ void Document::edit(const std::string& what, Scene scene, bool continues) {
 void Document::choose(const std::string& option, const std::string& value, bool continues) {
   Settings scratch;
   findOption(option).assign(scratch, value);
-  Edition next{option, editions_[current_].scene, editions_[current_].choices};
-  std::erase_if(next.choices, [&](const Choice& choice) {  // `like` sets every convention anew
-    return choice.option == option || (option == "like" && isConvention(findOption(choice.option)));
-  });
-  next.choices.push_back({option, value, {}});
-  pushChoice(std::move(next), option, continues);
+  make({option, value, continues});
 }
 
-void Document::pushChoice(Edition edition, const std::string& option, bool continues) {
-  if (findOption(option).repeats == Repeats::scene) {  // the file says something else now
-    const bool wasEdited = edited();
-    const std::shared_ptr<const Scene> before = onDisk_;
-    const Reading reading = read(file_, commandLine_, edition.choices);
-    if (*reading.scene == *before) return push(std::move(edition), continues);  // and keep what was edited
+void Document::reset(const std::string& option) { make({option}); }
+
+bool Document::readsFile(const std::string& option) { return findOption(option).repeats == Repeats::scene; }
+
+Document::Edition Document::with(const Change& change) const {
+  const Edition& now = editions_[current_];
+  if (change.option.empty()) return {"reload", now.scene, now.choices};
+  Edition next{(change.value ? "" : "reset ") + change.option, now.scene, now.choices};
+  std::erase_if(next.choices, [&](const Choice& choice) {  // `like` sets every convention anew
+    return choice.option == change.option ||
+           (change.value && change.option == "like" && isConvention(findOption(choice.option)));
+  });
+  if (change.value) next.choices.push_back({change.option, *change.value, {}});
+  return next;
+}
+
+void Document::make(const Change& change) {
+  if (change.anew || readsFile(change.option))
+    apply(change, read(source(change)));
+  else
+    push(with(change), change.continues);
+}
+
+Document::Source Document::source(const Change& change) const {
+  return {file_, commandLine_, with(change).choices};
+}
+
+bool Document::apply(const Change& change, const Reading& reading) {
+  if (reading.source.file != file_ || reading.source.time() != source(change).time()) return false;
+  Edition next = with(change);
+  const bool wasEdited = edited();
+  if (change.anew) {
+    take(reading, true);
+    next.scene = reading.scene;
+  } else if (*reading.scene != *onDisk_) {  // else what was edited is kept
     take(reading, false);
-    edition.scene = reading.scene;
+    next.scene = reading.scene;
     if (wasEdited)
-      messages_.warn(Place{.file = file_}, option + " read the file again, without what was edited here",
+      messages_.warn(Place{.file = file_},
+                     change.option + " read the file again, without what was edited here",
                      "undo brings it back");
   }
-  push(std::move(edition), continues);
-}
-
-void Document::reset(const std::string& option) {
-  Edition next{"reset " + option, editions_[current_].scene, editions_[current_].choices};
-  std::erase_if(next.choices, [&](const Choice& choice) { return choice.option == option; });
-  pushChoice(std::move(next), option, false);
+  push(std::move(next), change.continues);
+  return true;
 }
 
 std::string Document::chooser(const Option& option) const {
@@ -155,39 +177,51 @@ bool Document::changedOnDisk() const {
   return isOpen() && !error && written != written_;
 }
 
-void Document::reload() {
-  written_ = timeOf(file_);
-  const Reading reading = read(file_, commandLine_, editions_[current_].choices);
-  take(reading, true);
-  push({"reload", reading.scene, editions_[current_].choices}, false);
-}
+void Document::noticeDisk() { written_ = timeOf(file_); }
 
-bool Document::changesWithTime() const {
-  try {
-    return trace::changesWithTime(file_, readFile(file_));
-  } catch (const Error&) {  // no longer what it was
-    return false;
-  }
+void Document::reload() {
+  noticeDisk();
+  make({.anew = true});
 }
 
 std::vector<Message> Document::save(const std::string& file) {
-  Scene scene = this->scene();
-  scene.choices = changedOptions(settings_);
-  std::erase_if(scene.choices, [](const Choice& choice) {  // of this machine, not of the scene
+  const Saved saved = write(saving(file));
+  noteSaved(saved);
+  return saved.what.messages.all();
+}
+
+Document::Saving Document::saving(const std::string& file) const {
+  Saving what{file, sharedScene(), changedOptions(settings_), {}};
+  std::erase_if(what.choices, [](const Choice& choice) {  // of this machine, not of the scene
     return findOption(choice.option).repeats == Repeats::nothing;
   });
-  Messages messages;
-  if (changesWithTime())
-    messages.warn(Place{.file = file},
-                  "the keys of " + std::filesystem::path(file_).filename().string() +
-                      " are not kept: the scene is written as it is at " + toText(settings_.time) + " s",
-                  "what changes with time is edited in the file itself");
-  for (const NamedBytes& part : writableFormatFor(file).write(scene, file, {}, messages))
+  if (changesWithTime_)
+    what.messages.warn(Place{.file = file},
+                       "the keys of " + std::filesystem::path(file_).filename().string() +
+                           " are not kept: the scene is written as it is at " + toText(settings_.time) + " s",
+                       "what changes with time is edited in the file itself");
+  return what;
+}
+
+Document::Saved Document::write(Saving what) {
+  Scene scene = *what.scene;
+  scene.choices = what.choices;
+  for (const NamedBytes& part : writableFormatFor(what.file).write(scene, what.file, {}, what.messages))
     writeFile(part.file, part.bytes);
-  file_ = file, written_ = timeOf(file), onDisk_ = sharedScene();
+  Saved saved{std::move(what), {}, {}};
+  saved.written = timeOf(saved.what.file);
+  saved.fingerprint = trace::fingerprint(readFile(saved.what.file), *saved.what.scene);
+  return saved;
+}
+
+void Document::noteSaved(const Saved& saved) {
+  const bool ours = std::any_of(editions_.begin(), editions_.end(),
+                                [&](const Edition& edition) { return edition.scene == saved.what.scene; });
+  if (!ours) return;
+  file_ = saved.what.file, written_ = saved.written, onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
-  fingerprint_ = fingerprint(readFile(file), *onDisk_);
-  return messages.all();
+  fingerprint_ = saved.fingerprint;
+  changesWithTime_ = false;
 }
 
 }  // namespace trace

@@ -4,11 +4,15 @@
 //
 // A state is a value (Edition): undo and redo move along a list of values. Reading the file again, because it
 // changed on disk, is a step like any other, so it never destroys work.
+//
+// What takes long, reading and writing, is also there in three parts: what is to be done, as a value; the
+// work, for any thread; and what the document makes of its outcome. So the Workspace keeps its window awake.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,6 +45,8 @@ class Document {
   void choose(const std::string& option, const std::string& value, bool continues = false);
   /// Back to what the file and the command line say.
   void reset(const std::string& option);
+  /// The file is read again for a change of this option.
+  static bool readsFile(const std::string& option);
   /// Who gave the option its value: "default", "scene.ray:3:1", "command line" or "studio".
   std::string chooser(const Option& option) const;
   bool chosenHere(const std::string& option) const;
@@ -57,17 +63,65 @@ class Document {
   bool edited() const { return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_); }
   /// fingerprint() of what the file says (app/output.h); "" if the scene was edited.
   std::string fileFingerprint() const { return edited() ? "" : fingerprint_; }
-  /// The file was written since it was last read. Asks the file system.
+  /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
   bool changedOnDisk() const;
+  void noticeDisk();
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
   /// changedOnDisk() is false until the file changes once more.
   void reload();
-  /// The file has values that change with time, which save() would not keep: it writes the scene as it is at
-  /// this moment. Reads the file.
-  bool changesWithTime() const;
+  /// The file has values that change with time, which save() does not keep: it writes the scene as it is at
+  /// this moment.
+  bool changesWithTime() const { return changesWithTime_; }
   /// Writes the scene, with the options that differ from their defaults, as a .ray file, which is the
   /// document's file from now on. Returns warnings of what was lost. Throws Error; the document then stays.
   std::vector<Message> save(const std::string& file);
+
+  // --- in parts: a step for which the file is read ---
+
+  struct Change {
+    std::string option{};                ///< to be chosen; "" for none
+    std::optional<std::string> value{};  ///< none: back to what the file and the command line say
+    bool continues = false;
+    bool anew = false;  ///< the file may say something else than before
+  };
+  struct Source {
+    std::string file;
+    std::vector<Choice> commandLine, choices;
+    /// Of the scene, as far as it is not the file that chooses it.
+    Real time() const { return resolve({commandLine, choices}).time; }
+  };
+  struct Reading {
+    Source source;
+    std::shared_ptr<const Scene> scene;
+    Messages messages;
+    std::string fingerprint;
+    bool changesWithTime = false;
+    std::filesystem::file_time_type written{};
+  };
+  Source source(const Change& change) const;
+  /// Throws Error.
+  static Reading read(const Source& source);
+  /// False if the document has changed so that something else has to be read for it.
+  bool apply(const Change& change, const Reading& reading);
+
+  // --- and the writing of a scene ---
+
+  struct Saving {
+    std::string file;
+    std::shared_ptr<const Scene> scene;
+    std::vector<Choice> choices;  ///< that the file is to make
+    Messages messages;
+  };
+  struct Saved {
+    Saving what;
+    std::string fingerprint;
+    std::filesystem::file_time_type written{};
+  };
+  Saving saving(const std::string& file) const;
+  /// Throws Error.
+  static Saved write(Saving what);
+  /// Does nothing if the scene is none of this document.
+  void noteSaved(const Saved& saved);
 
  private:
   struct Edition {
@@ -77,19 +131,11 @@ class Document {
   };
   static constexpr std::size_t kMostEditions = 1000;
 
-  /// What reading a file gives.
-  struct Reading {
-    std::shared_ptr<const Scene> scene;
-    Messages messages;
-    std::string fingerprint;
-    std::filesystem::file_time_type written{};
-  };
-
-  static Reading read(const std::string& file, const std::vector<Choice>& commandLine,
-                      const std::vector<Choice>& choices);
   /// `anew`: the file may say something else than before; else it was read at another moment.
   void take(const Reading& reading, bool anew);
-  void pushChoice(Edition edition, const std::string& option, bool continues);
+  /// The present one, with the option chosen.
+  Edition with(const Change& change) const;
+  void make(const Change& change);
   void push(Edition edition, bool continues);
   void settle();
 
@@ -101,6 +147,7 @@ class Document {
   std::shared_ptr<const Scene> onDisk_;
   std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
   std::string fingerprint_;
+  bool changesWithTime_ = false;
   Settings settings_;
   Messages messages_;
   std::uint64_t revision_ = 0, readings_ = 0;

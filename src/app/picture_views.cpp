@@ -30,6 +30,11 @@ std::string pixelText(const Color& linear, const Color& toned, Rounding rounding
   return text;
 }
 
+Picture clamped(Picture levels) {
+  for (Color& c : levels.pixels) c = clamp01(c);
+  return levels;
+}
+
 Picture differences(const Picture& a, const Picture& b, double magnify) {
   Picture picture(a.width, a.height);
   const auto apart = [&](double x, double y) { return x == y ? 0 : std::abs(x - y) * magnify; };

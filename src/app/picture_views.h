@@ -24,4 +24,8 @@ Picture falseColours(const Picture& a, const Picture& b, double magnify);
 /// The colour that falseColours() gives a value.
 Color falseColour(double value);
 
+/// The levels as a file keeps them that has none beyond 0 and 1: what a picture from such a file is compared
+/// with.
+Picture clamped(Picture levels);
+
 }  // namespace trace

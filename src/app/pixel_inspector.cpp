@@ -43,6 +43,7 @@ void PixelInspector::ask() {
   task_.start([session = session_, x = x_, y = y_, sample = sample_, pinned = pinned_,
                before = shown_.traced](const Cancelled& cancelled) {
     Shown answer{before, pinned, {}};
+    if (!session) return Shown{nullptr, pinned, {}};
     if (!before || before->session != session || before->x != x || before->y != y || before->sample != sample)
       answer.traced = std::make_shared<const TracedPixel>(tracePixel(session, x, y, sample, cancelled));
     if (pinned && answer.traced->problem.empty() && !cancelled())

@@ -20,8 +20,10 @@ RayLooks looksOf(const RayNode& node) {
 /// The t at which the ray ends; infinite if it does not.
 Real length(const RayNode& node) {
   if (node.hit) return node.hit->t;
-  if (!node.ends.empty())
+  if (!node.ends.empty()) {
     if (const auto* blocked = std::get_if<Blocked>(&node.ends.front())) return blocked->t;
+    if (const auto* cut = std::get_if<CutOff>(&node.ends.front())) return cut->t;
+  }
   return node.tMost;
 }
 

@@ -19,15 +19,10 @@ std::string text(Real number) {
 std::string text(const Vec3& v) { return text(v.x) + "  " + text(v.y) + "  " + text(v.z); }
 std::string text(const Color& c) { return text(c.r) + "  " + text(c.g) + "  " + text(c.b); }
 
-bool blocked(const RayNode& node) {
+template <class Why>
+bool ends(const RayNode& node) {
   return std::any_of(node.ends.begin(), node.ends.end(),
-                     [](const RayEnd& end) { return std::holds_alternative<Blocked>(end); });
-}
-
-std::string materialName(const Scene& scene, std::uint32_t object) {
-  const std::uint32_t index = scene.objects[object].material;
-  const std::string& name = scene.materials[index].name;
-  return name.empty() ? "material " + std::to_string(index + 1) : name;
+                     [](const RayEnd& end) { return std::holds_alternative<Why>(end); });
 }
 
 std::vector<std::vector<int>> childrenOf(const RayTree& tree) {
@@ -86,12 +81,15 @@ class Differ {
   }
 
   std::string compare(const RayNode& a, const RayNode& b) const {
-    if (a.hit.has_value() != b.hit.has_value()) return a.hit ? "now leaves the scene" : "now meets something";
+    if (a.hit.has_value() != b.hit.has_value())
+      return !a.hit            ? "now meets something"
+             : ends<CutOff>(b) ? "now cut off by the camera"
+                               : "now leaves the scene";
     if (a.hit) {
       const std::string before = objectName(sceneA_, a.hit->object), now = objectName(sceneB_, b.hit->object);
       if (before != now) return before + " before, now " + now;
     }
-    if (blocked(a) != blocked(b)) return blocked(a) ? "now lit" : "now blocked";
+    if (ends<Blocked>(a) != ends<Blocked>(b)) return ends<Blocked>(a) ? "now lit" : "now blocked";
     if (a.radiance == b.radiance) return "";
     return "radiance " + text(a.radiance) + " before";
   }
@@ -131,7 +129,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     if (object.place.line > 0) row("defined at", shortPlace(object.place));
     row("shape, part", std::string(match(object.shape, [](const auto& s) { return s.kKeyword; })) + ", " +
                            std::to_string(hit.part));
-    row("material", materialName(scene, hit.object));
+    row("material", materialNames(scene, node.materials));
     row("distance", text(hit.t));
     row("point", text(hit.surface.point));
     row("normal", text(hit.surface.normal));

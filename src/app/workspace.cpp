@@ -1,8 +1,9 @@
 #include "app/workspace.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <new>
+#include <utility>
 
 #include "app/output.h"
 #include "image/codec.h"
@@ -44,31 +45,49 @@ void Workspace::report(const std::vector<Message>& messages) {
   }
 }
 
-Workspace::Opened Workspace::read(const std::string& path, std::vector<Choice> commandLine) {
-  Opened opened;
+// --- work in the background ---------------------------------------------------------------------------
+
+template <class Work>
+auto Workspace::outcomeOf(const std::string& file, Work&& work) {
+  Outcome<decltype(work())> outcome;
   try {
-    opened.document.emplace().open(path, std::move(commandLine));
-    return opened;
+    outcome.value = work();
   } catch (const Error& error) {
-    opened.errors = error.messages();
+    outcome.errors = error.messages();
+  } catch (const std::bad_alloc&) {
+    outcome.errors = {{.place = {.file = file}, .what = "out of memory"}};
   } catch (const std::exception& error) {
-    opened.errors = {{.place = {.file = path}, .what = error.what()}};
+    outcome.errors = {{.place = {.file = file}, .what = error.what()}};
   }
-  opened.document.reset();
-  return opened;
+  return outcome;
 }
 
-bool Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  return adopt(read(absolute(file), std::move(commandLine)));
+template <class Value>
+std::optional<Value> Workspace::taken(BackgroundTask<Outcome<Value>>& task) {
+  std::optional<Outcome<Value>> outcome = task.take();
+  if (!outcome) return {};
+  if (!outcome->value) fail(outcome->errors);
+  return std::move(outcome->value);
 }
 
-void Workspace::openLater(const std::string& file) {
-  opening_.start([path = absolute(file)](const Cancelled&) { return read(path, {}); });
+void Workspace::fail(const std::vector<Message>& errors) {
+  report(errors);
+  ++failures_;
 }
 
-bool Workspace::adopt(Opened opened) {
-  if (!opened.document) return report(opened.errors), false;
-  document = std::move(*opened.document), reading_ = 0;
+void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
+  opening_.start([path = absolute(file), commandLine = std::move(commandLine)](const Cancelled&) {
+    return outcomeOf(path, [&] {
+      Document document;
+      document.open(path, commandLine);
+      return document;
+    });
+  });
+}
+
+void Workspace::adopt(Document opened) {
+  document = std::move(opened), reading_ = 0;
+  giveUpWanted();
   const std::string path = document.file();
   std::erase(recent_, path);
   recent_.insert(recent_.begin(), path);
@@ -77,8 +96,131 @@ bool Workspace::adopt(Opened opened) {
   reportReading();
   seen_ = document.revision();
   startRender();
-  return true;
 }
+
+void Workspace::choose(const std::string& option, const std::string& value, bool continues) {
+  if (!Document::readsFile(option)) return document.choose(option, value, continues);
+  Settings scratch;
+  findOption(option).assign(scratch, value);
+  want({option, value, continues});
+}
+
+void Workspace::reset(const std::string& option) {
+  if (Document::readsFile(option))
+    want({.option = option});
+  else
+    document.reset(option);
+}
+
+/// One change after the other, of which the last counts: a time that is dragged, the file that changes.
+void Workspace::want(Document::Change change) {
+  if (wanted_) {
+    if (change.option.empty()) change = *wanted_;
+    change.anew = change.anew || wanted_->anew;
+    change.continues = change.continues && wanted_->continues;
+  }
+  wanted_ = change;
+  rereading_.start([change, number = ++wantedNumber_, source = document.source(change)](const Cancelled&) {
+    return Reread{change, number, outcomeOf(source.file, [&] { return Document::read(source); })};
+  });
+}
+
+void Workspace::giveUpWanted() {
+  wanted_.reset();
+  givenUp_ = wantedNumber_;
+}
+
+void Workspace::takeReread() {
+  const std::optional<Reread> reread = rereading_.take();
+  if (!reread || !wanted_ || reread->number <= givenUp_) return;
+  const bool last = reread->number == wantedNumber_;
+  if (!reread->reading.value) {
+    fail(reread->reading.errors);
+    if (last) wanted_.reset();
+  } else if (!document.apply(reread->change, *reread->reading.value)) {
+    if (last) want(*std::exchange(wanted_, std::nullopt));
+  } else {
+    if (reread->change.anew)
+      note(shown(document.file()) + " changed on disk and was read again; undo takes that back");
+    if (last)
+      wanted_.reset();
+    else  // the drag goes on
+      wanted_->continues = wanted_->option == reread->change.option, wanted_->anew = false;
+  }
+}
+
+Settings Workspace::chosenSettings() const {
+  if (!wanted_) return document.settings();
+  const Document::Source source = document.source(*wanted_);
+  return resolve({document.scene().choices, source.commandLine, source.choices});
+}
+
+void Workspace::undo() {
+  if (!wanted_ || wanted_->option.empty()) return document.undo();
+  const bool anew = wanted_->anew;
+  giveUpWanted();
+  if (anew) want({.anew = true});
+}
+
+void Workspace::openReference(const std::string& file) {
+  loading_.start([path = absolute(file)](const Cancelled&) {
+    return outcomeOf(path, [&] {
+      return Reference{path, readPicture(path), pictureFormatFor(path).keepsBright};
+    });
+  });
+}
+
+void Workspace::takeReference() {
+  std::optional<Reference> loaded = taken(loading_);
+  if (!loaded) return;
+  reference_ = std::move(loaded->picture);
+  referenceIsLinear_ = loaded->linear;
+  referenceFile_ = loaded->file;
+  ++referenceVersion_;
+  note("comparing with " + shown(referenceFile_));
+}
+
+void Workspace::savePicture(const std::string& file) {
+  const auto session = render.session();
+  if (!session) return;
+  Settings settings = session->settings();  // but what comes after the film is as it is now
+  for (const Option& option : options())
+    if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
+  Metadata words = describe(session->scene(), settings);
+  if (const std::string print = document.fileFingerprint(); !stale() && !print.empty())
+    words.emplace_back("Scene", print);
+  saving_.start([file, session, settings, words](const Cancelled&) {
+    return outcomeOf(file, [&] {
+      Saved saved;
+      for (const Output& output : outputs(file, settings)) {
+        write(output, session->film(), settings, words);
+        saved.files.push_back(output.path);
+      }
+      return saved;
+    });
+  });
+}
+
+void Workspace::saveScene(const std::string& file) {
+  saving_.start([what = document.saving(absolute(file))](const Cancelled&) {
+    return outcomeOf(what.file, [&] { return Saved{{what.file}, Document::write(what)}; });
+  });
+}
+
+void Workspace::takeSaved() {
+  while (const std::optional<Outcome<Saved>> outcome = saving_.take()) {
+    if (!outcome->value) {
+      fail(outcome->errors);
+      continue;
+    }
+    for (const std::string& file : outcome->value->files) note("wrote " + shown(file));
+    if (!outcome->value->scene) continue;
+    document.noteSaved(*outcome->value->scene);
+    report(outcome->value->scene->what.messages.all());
+  }
+}
+
+// --- the picture and the log ----------------------------------------------------------------------------
 
 void Workspace::startRender() {
   if (!document.isOpen()) return;
@@ -92,9 +234,14 @@ bool Workspace::stale() const {
 }
 
 void Workspace::update() {
-  if (std::optional<Opened> opened = opening_.take()) adopt(std::move(*opened));
+  // What is being written may be the document's own file.
+  const bool looks = !saving() && !rereading_.pending();
+  takeSaved();
+  if (std::optional<Document> opened = taken(opening_)) adopt(std::move(*opened));
+  takeReference();
   if (document.isOpen()) {
-    reloadIfChanged();
+    takeReread();
+    if (looks) reloadIfChanged();
     reportReading();
     if (seen_ != document.revision()) {
       seen_ = document.revision();
@@ -116,12 +263,8 @@ void Workspace::reloadIfChanged() {
   if (now - looked_ < kLookInterval) return;
   looked_ = now;
   if (!document.changedOnDisk()) return;
-  try {
-    document.reload();
-    note(document.file() + " changed on disk and was read again; undo takes that back");
-  } catch (const Error& error) {
-    report(error.messages());
-  }
+  document.noticeDisk();
+  want({.anew = true});
 }
 
 void Workspace::noteEnd() {
@@ -140,54 +283,8 @@ void Workspace::noteEnd() {
                     {}});
 }
 
-bool Workspace::openReference(const std::string& file) {
-  try {
-    reference_ = readPicture(file);
-    referenceIsLinear_ = pictureFormatFor(file).keepsBright;
-  } catch (const Error& error) {
-    report(error.messages());
-    return false;
-  }
-  referenceFile_ = absolute(file);
-  ++referenceVersion_;
-  note("comparing with " + referenceFile_);
-  return true;
-}
-
 std::string Workspace::defaultPictureFile() const {
   return document.isOpen() ? fs::path(document.file()).replace_extension(".png").string() : "picture.png";
-}
-
-bool Workspace::saveScene(const std::string& file) {
-  try {
-    report(document.save(absolute(file)));
-  } catch (const Error& error) {
-    report(error.messages());
-    return false;
-  }
-  note("wrote " + document.file());
-  return true;
-}
-
-bool Workspace::savePicture(const std::string& file) {
-  const auto session = render.session();
-  if (!session) return false;
-  Settings settings = session->settings();  // but what comes after the film is as it is now
-  for (const Option& option : options())
-    if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
-  Metadata words = describe(session->scene(), settings);
-  if (const std::string print = document.fileFingerprint(); !stale() && !print.empty())
-    words.emplace_back("Scene", print);
-  try {
-    for (const Output& output : outputs(file, settings)) {
-      write(output, session->film(), settings, words);
-      note("wrote " + shown(output.path));
-    }
-  } catch (const Error& error) {
-    report(error.messages());
-    return false;
-  }
-  return true;
 }
 
 }  // namespace trace

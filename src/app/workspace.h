@@ -1,5 +1,9 @@
 // What the studio does, without its window: a document, its picture in the making, a picture to compare with,
 // the log, files opened lately. The window calls update() for every frame and draws what it finds here.
+//
+// Whatever reads or writes a file returns at once and is done in the background; update() takes what came of
+// it. Errors go to the log. Of files to open, moments of the scene and references the last one asked for
+// counts; what is saved is saved in turn, also when the Workspace goes.
 #pragma once
 
 #include <chrono>
@@ -17,13 +21,10 @@ namespace trace {
 
 class Workspace {
  public:
-  /// Opens a scene and renders it. Errors go to the log; false then.
-  bool open(const std::string& file, std::vector<Choice> commandLine = {});
-  /// The same, but returns at once; update() takes the scene when it is read. Until then, or if that fails,
-  /// the one before stays.
-  void openLater(const std::string& file);
-  bool opening() const { return opening_.busy(); }
-  /// Called often: renders after changes, reads the file again when it changed on disk, collects messages.
+  /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays.
+  void open(const std::string& file, std::vector<Choice> commandLine = {});
+  /// Called often: takes what was done in the background, renders after changes, reads the file again when it
+  /// changed on disk, collects messages.
   void update();
 
   Document document;
@@ -36,8 +37,20 @@ class Workspace {
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
-  /// A picture file to compare with. Errors go to the log; false then.
-  bool openReference(const std::string& file);
+  /// As of the Document, but the file is read in the background if it has to be. Throws Error(Fault::usage)
+  /// if the option does not take the value.
+  void choose(const std::string& option, const std::string& value, bool continues = false);
+  void reset(const std::string& option);
+  /// With what was chosen last, also if the file is still being read for it.
+  Settings chosenSettings() const;
+  /// Takes the last change back, also one for which the file is still being read.
+  void undo();
+  void redo() { document.redo(); }
+  /// What undo() takes back; "" if nothing.
+  std::string undoName() const { return wanted_ ? wanted_->option : document.undoName(); }
+
+  /// A picture file to compare with.
+  void openReference(const std::string& file);
   const std::optional<Picture>& reference() const { return reference_; }
   const std::string& referenceFile() const { return referenceFile_; }
   /// It holds colours as they were rendered, before any tone.
@@ -45,12 +58,18 @@ class Workspace {
   std::uint64_t referenceVersion() const { return referenceVersion_; }
   void closeReference() { reference_.reset(), referenceFile_.clear(), ++referenceVersion_; }
 
-  /// Writes what is rendered so far. Errors go to the log; false then.
-  bool savePicture(const std::string& file);
-  /// Writes the scene as a .ray file, which is the document's from now on. Errors go to the log; false then.
-  bool saveScene(const std::string& file);
+  /// Writes what is rendered so far.
+  void savePicture(const std::string& file);
+  /// Writes the scene as a .ray file, which is the document's from now on.
+  void saveScene(const std::string& file);
   /// "scene.png" beside the scene.
   std::string defaultPictureFile() const;
+
+  /// Until update() has taken what came of it.
+  bool reading() const { return opening_.pending() || rereading_.pending() || loading_.pending(); }
+  bool saving() const { return saving_.pending(); }
+  /// Files that could not be read or written so far. The log says which.
+  std::uint64_t failures() const { return failures_; }
 
   struct LogEntry {
     enum class Level { note, warning, error };
@@ -71,13 +90,40 @@ class Workspace {
  private:
   static constexpr std::size_t kMostRecent = 12;
 
-  /// What reading a file came to: a document, or errors.
-  struct Opened {
-    std::optional<Document> document;
-    std::vector<Message> errors;
+  /// What a job in the background came to: something, or errors.
+  template <class Value>
+  struct Outcome {
+    std::optional<Value> value{};
+    std::vector<Message> errors{};
   };
-  static Opened read(const std::string& path, std::vector<Choice> commandLine);
-  bool adopt(Opened opened);
+  template <class Work>
+  static auto outcomeOf(const std::string& file, Work&& work);
+  /// What came of the job, if that is there and is not an error, which then is reported.
+  template <class Value>
+  std::optional<Value> taken(BackgroundTask<Outcome<Value>>& task);
+
+  struct Reread {
+    Document::Change change;
+    std::uint64_t number = 0;
+    Outcome<Document::Reading> reading;
+  };
+  struct Reference {
+    std::string file;
+    Picture picture;
+    bool linear = false;
+  };
+  struct Saved {
+    std::vector<std::string> files;
+    std::optional<Document::Saved> scene;
+  };
+
+  void adopt(Document opened);
+  void want(Document::Change change);
+  void giveUpWanted();
+  void takeReread();
+  void takeReference();
+  void takeSaved();
+  void fail(const std::vector<Message>& errors);
   void noteEnd();
   void reloadIfChanged();
   void reportReading();  // its warnings, once
@@ -91,10 +137,16 @@ class Workspace {
   std::uint64_t seen_ = 0;      // revision of the document that update() looked at last
   std::uint64_t reading_ = 0;   // that is in the log
   std::uint64_t reported_ = 0;  // number of the render whose end is in the log
+  std::uint64_t failures_ = 0;
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;
   std::chrono::steady_clock::time_point looked_{};
-  BackgroundTask<Opened> opening_;
+  std::optional<Document::Change> wanted_;        // for which the file is being read
+  std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
+  BackgroundTask<Outcome<Document>> opening_;
+  BackgroundTask<Reread> rereading_;
+  BackgroundTask<Outcome<Reference>> loading_;
+  BackgroundTask<Outcome<Saved>> saving_{Jobs::all};
 };
 
 /// A render with other settings gives another picture, before tone: not so for threads or rounding.

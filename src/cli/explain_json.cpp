@@ -1,5 +1,6 @@
 #include "cli/explain_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace trace::cli {
@@ -39,13 +40,13 @@ class Writer {
     json["origin"] = toJson(node.ray.origin);
     json["direction"] = toJson(node.ray.direction);
     json["distance"] = node.hit ? node.hit->t : node.tMost;
-    json["hit"] = node.hit ? hit(*node.hit) : ordered_json(nullptr);
+    json["hit"] = node.hit ? hit(*node.hit, node.materials) : ordered_json(nullptr);
     json["terms"] = ordered_json::array();
     for (const Term& t : node.terms) json["terms"].push_back(term(t));
     json["through"] = toJson(node.through);
     json["filters"] = ordered_json::array();
     for (const Filter& filter : node.filters)
-      json["filters"].push_back({{"object", object(filter.object)},
+      json["filters"].push_back({{"object", object(filter.object, filter.materials)},
                                  {"part", filter.part},
                                  {"distance", filter.t},
                                  {"factor", toJson(filter.factor)}});
@@ -60,26 +61,31 @@ class Writer {
   }
 
  private:
-  ordered_json object(std::uint32_t index) const {
+  /// `materials`: of the place on it that was met. The one of the object as a whole may be another.
+  ordered_json object(std::uint32_t index, const std::vector<MaterialShare>& materials) const {
     const Object& o = scene_.objects[index];
+    const auto most =
+        std::max_element(materials.begin(), materials.end(),
+                         [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
+    ordered_json shares = ordered_json::array();
+    for (const MaterialShare& share : materials)
+      shares.push_back({{"index", share.material},
+                        {"name", scene_.materials[share.material].name},
+                        {"weight", share.weight}});
     return {{"index", index},
             {"name", o.name},
             {"shape", match(o.shape, [](const auto& s) { return s.kKeyword; })},
             {"place", toJson(o.place)},
-            {"material", scene_.materials[o.material].name}};
+            {"material", scene_.materials[most->material].name},
+            {"materials", shares}};
   }
 
-  ordered_json hit(const Hit& h) const {
-    return {{"object", object(h.object)},
-            {"part", h.part},
-            {"point", toJson(h.surface.point)},
-            {"error", toJson(h.surface.error)},
-            {"normal", toJson(h.surface.normal)},
-            {"shading", toJson(h.surface.shading)},
-            {"uv", {h.surface.uv.x, h.surface.uv.y}},
-            {"leaving", h.leaving},
-            {"indexBefore", h.indexBefore},
-            {"indexBehind", h.indexBehind},
+  ordered_json hit(const Hit& h, const std::vector<MaterialShare>& materials) const {
+    return {{"object", object(h.object, materials)},  {"part", h.part},
+            {"point", toJson(h.surface.point)},       {"error", toJson(h.surface.error)},
+            {"normal", toJson(h.surface.normal)},     {"shading", toJson(h.surface.shading)},
+            {"uv", {h.surface.uv.x, h.surface.uv.y}}, {"leaving", h.leaving},
+            {"indexBefore", h.indexBefore},           {"indexBehind", h.indexBehind},
             {"material", fieldsOf(h.material)}};
   }
 
@@ -116,7 +122,14 @@ class Writer {
                        json["unsent"] = kind(w.unsent), json["contribution"] = w.contribution;
                        json["threshold"] = w.threshold;
                      },
-                     [&](const Blocked& w) { json["object"] = object(w.object), json["distance"] = w.t; },
+                     [&](const CutOff& w) {
+                       json["object"] = object(w.object, w.materials), json["distance"] = w.t;
+                       json["limit"] = w.limit;
+                     },
+                     [&](const Blocked& w) {
+                       json["object"] = object(w.object, w.materials), json["part"] = w.part;
+                       json["distance"] = w.t;
+                     },
                      [](const auto&) {}});
     return json;
   }

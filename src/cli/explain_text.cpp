@@ -52,10 +52,6 @@ class TreeText {
 
  private:
   const RayNode& at(int index) const { return tree_.nodes[static_cast<std::size_t>(index)]; }
-  std::string material(std::uint32_t object) const {
-    const std::string& name = scene_.materials[scene_.objects[object].material].name;
-    return name.empty() ? "" : ", material \"" + name + "\"";
-  }
 
   /// `first` stands before the ray's first line, `rest` before the others.
   void ray(int index, const std::string& first, const std::string& rest) {
@@ -71,7 +67,7 @@ class TreeText {
       title += " to " + lightName(scene_, term->light->light);
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
-    if (node.hit) hit(*node.hit);
+    if (node.hit) hit(*node.hit, node.materials);
     if (node.kind == RayKind::shadow)
       shadow(node);
     else
@@ -87,7 +83,7 @@ class TreeText {
 
   void line(const std::string& words) { text_ += margin_ + words + "\n"; }
 
-  void hit(const Hit& hit) {
+  void hit(const Hit& hit, const std::vector<MaterialShare>& materials) {
     const Object& object = scene_.objects[hit.object];
     const std::string shape = match(object.shape, [](const auto& s) { return std::string(s.kKeyword); });
     std::string what = "hits ";
@@ -95,8 +91,8 @@ class TreeText {
     what += shape;
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     const bool mesh = std::holds_alternative<Mesh>(object.shape);
-    line(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + material(hit.object) +
-         ", at distance " + text(hit.t));
+    line(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
+         materialNames(scene_, materials) + ", at distance " + text(hit.t));
     const SurfacePoint& s = hit.surface;
     std::string side = hit.leaving ? "leaving it" : "entering it";
     if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);

@@ -75,6 +75,8 @@ bool read(Findings& findings, std::string_view name, const Item& value, Enum& to
 
 /// What an element of a list looks like.
 inline std::string form(const std::string&) { return "\"text\""; }
+inline std::string form(Real) { return "number"; }
+inline std::string form(const Color&) { return "(red, green, blue)"; }
 template <std::size_t N>
 std::string form(const std::array<Real, N>&) {
   std::string numbers = "(a";

@@ -634,7 +634,8 @@ class Reader {
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
 
 bool changesWithTime(const std::string& file, std::string_view bytes) {
-  return recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+  const bool mayHave = bytes.find(rayfile::Syntax::kKey) != bytes.npos;  // the look is cheap, the syntax not
+  return mayHave && recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
 }
 
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {

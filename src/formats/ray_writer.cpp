@@ -89,12 +89,9 @@ class Writer {
   }
 
   void writeBackground() {
-    const Background& background = scene_.background;
-    if (background.colors.empty()) return;
+    if (scene_.background == Background{}) return;
     out_ += "background {\n";
-    list("colors", background.colors, [&](const Color& c) { out_ += written(c, digits_); });
-    if (!background.limits.empty())
-      list("limits", background.limits, [&](Real limit) { out_ += written(limit, digits_); });
+    fields(scene_.background);
     out_ += "}\n\n";
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,11 @@ namespace trace {
 
 struct Operand;
 class CsgTree;
+struct MeshData;
+class MeshTree;
+
+/// Hierarchies of meshes that are made already.
+using MeshTrees = std::map<const MeshData*, std::shared_ptr<const MeshTree>>;
 
 /// The objects that a shape is made of, behind a shared const handle: copying a scene does not copy them.
 class Operands {
@@ -36,7 +42,7 @@ struct Union {
         Field{"objects", &Union::objects, "", 0, 0, "solids; they stand in the block one after another"}};
   }
   bool operator==(const Union&) const = default;
-  std::shared_ptr<const CsgTree> prepared() const;
+  std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
 };
 
 struct Intersection {
@@ -48,7 +54,7 @@ struct Intersection {
                             "solids; they stand in the block one after another"}};
   }
   bool operator==(const Intersection&) const = default;
-  std::shared_ptr<const CsgTree> prepared() const;
+  std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
 };
 
 struct Difference {
@@ -60,7 +66,7 @@ struct Difference {
         Field{"objects", &Difference::objects, "", 0, 0, "the solid, then what is cut out of it"}};
   }
   bool operator==(const Difference&) const = default;
-  std::shared_ptr<const CsgTree> prepared() const;
+  std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
 };
 
 struct Clip {
@@ -72,7 +78,7 @@ struct Clip {
     return std::tuple{Field{"objects", &Clip::objects, "", 0, 0, "the object, solid or not, then solids"}};
   }
   bool operator==(const Clip&) const = default;
-  std::shared_ptr<const CsgTree> prepared() const;
+  std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
 };
 
 }  // namespace trace

@@ -20,17 +20,17 @@ bool Operands::operator==(const Operands& other) const {
   return list_ == other.list_ || list() == other.list();
 }
 
-std::shared_ptr<const CsgTree> Union::prepared() const {
-  return std::make_shared<const CsgTree>(CsgOperation::unite, objects.list());
+std::shared_ptr<const CsgTree> Union::prepared(const MeshTrees& made) const {
+  return std::make_shared<const CsgTree>(CsgOperation::unite, objects.list(), made);
 }
-std::shared_ptr<const CsgTree> Intersection::prepared() const {
-  return std::make_shared<const CsgTree>(CsgOperation::intersect, objects.list());
+std::shared_ptr<const CsgTree> Intersection::prepared(const MeshTrees& made) const {
+  return std::make_shared<const CsgTree>(CsgOperation::intersect, objects.list(), made);
 }
-std::shared_ptr<const CsgTree> Difference::prepared() const {
-  return std::make_shared<const CsgTree>(CsgOperation::subtract, objects.list());
+std::shared_ptr<const CsgTree> Difference::prepared(const MeshTrees& made) const {
+  return std::make_shared<const CsgTree>(CsgOperation::subtract, objects.list(), made);
 }
-std::shared_ptr<const CsgTree> Clip::prepared() const {
-  return std::make_shared<const CsgTree>(CsgOperation::clip, objects.list());
+std::shared_ptr<const CsgTree> Clip::prepared(const MeshTrees& made) const {
+  return std::make_shared<const CsgTree>(CsgOperation::clip, objects.list(), made);
 }
 
 // --- crossings ----------------------------------------------------------------------------------------
@@ -70,14 +70,15 @@ class CsgTree::State {
   std::size_t operands_, first_ = 0, others_ = 0;
 };
 
-CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands) : operation_(operation) {
+CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands, const MeshTrees& made)
+    : operation_(operation) {
   constexpr std::int64_t kMostParts = std::int64_t{1} << 62;
   std::vector<Box3> boxes;
   std::int64_t mostParts = 1;
   for (const Operand& operand : operands) {
     if (!invertible(operand.wholeFromOperand))
       throw Error(Fault::scene, "an object of a solid is squeezed flat by its transform");
-    operands_.emplace_back(operand.shape, operand.wholeFromOperand);
+    operands_.emplace_back(operand.shape, operand.wholeFromOperand, made);
     if (!operands_.back().solid() && (operation != CsgOperation::clip || operands_.size() > 1))
       throw Error(Fault::scene, "an object of a solid is open: it encloses nothing",
                   "an open object can only be the first in a clip { }");
@@ -200,6 +201,15 @@ void CsgTree::addMaterials(std::vector<std::uint32_t>& materials) const {
       else
         materials.push_back(materials_[i]);
     });
+  }
+}
+
+void CsgTree::addMeshTrees(MeshTrees& trees) const {
+  for (const Placed& operand : operands_) {
+    match(operand.shape(), [&](const auto& form) {
+      if constexpr (requires { formOf(form).addMeshTrees(trees); }) formOf(form).addMeshTrees(trees);
+    });
+    if (operand.meshTree()) trees[std::get<Mesh>(operand.shape()).data.get()] = operand.meshTree();
   }
 }
 

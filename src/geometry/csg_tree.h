@@ -34,8 +34,9 @@ enum class CsgOperation { unite, intersect, subtract, clip };
 class CsgTree {
  public:
   /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of
-  /// solids are nested too deeply for their parts to be numbered.
-  CsgTree(CsgOperation operation, const std::vector<Operand>& operands);
+  /// solids are nested too deeply for their parts to be numbered. Of operands that are meshes it takes over
+  /// the hierarchies that are `made`.
+  CsgTree(CsgOperation operation, const std::vector<Operand>& operands, const MeshTrees& made = {});
 
   bool solid() const { return operation_ != CsgOperation::clip; }
   Box3 bounds() const { return bounds_; }
@@ -47,6 +48,8 @@ class CsgTree {
   std::uint32_t material(std::int64_t part) const;
   /// Of all operands, however deep.
   void addMaterials(std::vector<std::uint32_t>& materials) const;
+  /// Those of its operands that are meshes, however deep.
+  void addMeshTrees(MeshTrees& trees) const;
 
  private:
   struct Event;

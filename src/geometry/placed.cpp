@@ -42,22 +42,24 @@ SurfacePoint meshSurface(const MeshTree& mesh, const Ray& ray, const Crossing& c
   return surface(mesh.data(), triangle, hit);
 }
 
+std::shared_ptr<const MeshTree> treeOf(std::shared_ptr<const MeshData> data) {
+  if (data->generateNormals) data = std::make_shared<const MeshData>(withGeneratedNormals(*data, true));
+  return std::make_shared<const MeshTree>(data, false);
+}
+
 }  // namespace
 
-Placed::Placed(const Shape& shape, const Affine& outFromIn)
-    : shape_(prepare(shape)),
+Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made)
+    : shape_(prepare(shape, made)),
       outFromIn_(outFromIn),
       inFromOut_(inverse(outFromIn)),
       moved_(outFromIn != Affine{}) {
-  const Box3 box =
-      match(shape_, Overloaded{[&](const Mesh& mesh) {
-                                 auto data = mesh.data;
-                                 if (data->generateNormals)
-                                   data = std::make_shared<const MeshData>(withGeneratedNormals(*data, true));
-                                 mesh_ = std::make_shared<const MeshTree>(data, false);
-                                 return trace::bounds(*data);
-                               },
-                               [](const auto& form) { return formOf(form).bounds(); }});
+  const Box3 box = match(shape_, Overloaded{[&](const Mesh& mesh) {
+                                              const auto known = made.find(mesh.data.get());
+                                              mesh_ = known == made.end() ? treeOf(mesh.data) : known->second;
+                                              return trace::bounds(mesh_->data());
+                                            },
+                                            [](const auto& form) { return formOf(form).bounds(); }});
   bounds_ = outFromIn * box;
 }
 

@@ -25,7 +25,8 @@ inline SurfacePoint transformed(SurfacePoint s, const Affine& outFromIn, const A
 /// A shape and the transform out of its space. Precondition: the transform can be undone.
 class Placed {
  public:
-  Placed(const Shape& shape, const Affine& outFromIn);
+  /// The hierarchy of a mesh is taken from those `made`, if it is there.
+  Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made = {});
 
   bool solid() const;
   const Box3& bounds() const { return bounds_; }
@@ -35,6 +36,8 @@ class Placed {
   /// The shape's parts are numbered below this.
   std::int64_t partCount() const;
   const TracedShape& shape() const { return shape_; }
+  /// Of a mesh; null for other shapes.
+  const std::shared_ptr<const MeshTree>& meshTree() const { return mesh_; }
 
  private:
   Ray inner(const Ray& ray) const {

@@ -25,9 +25,12 @@ const T& formOf(const std::shared_ptr<const T>& form) {
   return *form;
 }
 
+/// Solids of solids take over the hierarchies of meshes that are `made`.
 template <class S>
-auto prepare(const S& shape) {
-  if constexpr (requires { shape.prepared(); })
+auto prepare(const S& shape, const MeshTrees& made = {}) {
+  if constexpr (requires { shape.prepared(made); })
+    return shape.prepared(made);
+  else if constexpr (requires { shape.prepared(); })
     return shape.prepared();
   else
     return shape;
@@ -46,10 +49,10 @@ struct TracedOf<std::variant<S...>> {
 /// keeps its MeshTree.
 using TracedShape = detail::TracedOf<Shape>::type;
 
-inline TracedShape prepare(const Shape& shape) {
+inline TracedShape prepare(const Shape& shape, const MeshTrees& made = {}) {
   return [&]<std::size_t... I>(std::index_sequence<I...>) {
     TracedShape traced;
-    ((shape.index() == I ? void(traced.emplace<I>(prepare(*std::get_if<I>(&shape)))) : void()), ...);
+    ((shape.index() == I ? void(traced.emplace<I>(prepare(*std::get_if<I>(&shape), made))) : void()), ...);
     return traced;
   }
   (std::make_index_sequence<std::variant_size_v<Shape>>{});

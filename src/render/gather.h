@@ -24,7 +24,7 @@ class Gather {
   /// sum += factor * value. A ray that was cast for the value is the one cast last.
   void add(Term::Kind kind, const Color& factor, const Color& value) {
     sum_ += factor * value;
-    if (node_ != Tracer::kNoNode) tracer_.record(node_, {kind, factor, value});
+    if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value});
   }
   void add(Term::Kind kind, const Color& value) { add(kind, Color(1), value); }
   /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
@@ -32,7 +32,7 @@ class Gather {
   void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
                 const Color& passed) {
     sum_ += factor * passed;
-    if (node_ != Tracer::kNoNode)
+    if (Tracer::recorded(node_))
       tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
   }
@@ -40,13 +40,13 @@ class Gather {
   /// Notes why a ray is not sent on: one of RayEnd.
   template <class Why>
   void stop(const Why& why) {
-    if (node_ != Tracer::kNoNode) tracer_.record(node_, RayEnd(why));
+    if (Tracer::recorded(node_)) tracer_.record(node_, RayEnd(why));
   }
 
   /// The sum, after a medium of which `through` is not absorbed. The last thing to ask.
   Color radiance(const Color& through = Color(1)) const {
     const Color radiance = sum_ * through;
-    if (node_ != Tracer::kNoNode) tracer_.record(node_, through, radiance);
+    if (Tracer::recorded(node_)) tracer_.record(node_, through, radiance);
     return radiance;
   }
 

@@ -30,12 +30,17 @@ Color depthValue(const Hit& hit, const Ray& ray, const Tracer& tracer) {
   return Color(hit.t * dot(ray.direction, axis));
 }
 
+constexpr Color kTooNear(0);  // which no surface that is seen has
+
 Picture depthShown(const Picture& values, const Settings& settings) {
   const bool given = settings.passFar > settings.passNear;
-  const ValueRange range = given ? ValueRange{settings.passNear, settings.passFar} : finiteRange(values);
+  const auto seen = [](const Color& c) { return c == kTooNear ? Color(kInfinity) : c; };
+  const ValueRange range =
+      given ? ValueRange{settings.passNear, settings.passFar} : finiteRange(mapped(values, seen));
   const double extent = range.high - range.low;
   const auto grey = [&](const Color& c) {
     if (!std::isfinite(c.r)) return Color(1);
+    if (c == kTooNear) return Color(0);
     return extent > 0 ? clamp01(Color((c.r - range.low) / extent)) : Color(0);
   };
   return toned(mapped(values, grey), settings.tone);
@@ -73,16 +78,16 @@ Picture positionShown(const Picture& values, const Settings&) {
 constexpr Color kNowhere(kInfinity);
 constexpr std::array kTable{
     PassRow{Pass::depth, "depth", "how far the first surface is from the eye; far is white", false, kNowhere,
-            depthValue, depthShown},
+            kTooNear, depthValue, depthShown},
     PassRow{Pass::normal, "normal",
             "its normal for shading in the world; x, y, z from -1 to 1 are shown 0 to 1", true, Color(0),
-            normalValue, normalShown},
+            Color(0), normalValue, normalShown},
     PassRow{Pass::id, "id", "the number of the object in the scene, from 1; shown as a colour", false,
-            Color(0), idValue, idShown},
-    PassRow{Pass::uv, "uv", "its texture coordinates; u is shown red, v green", false, Color(0), uvValue,
-            uvShown},
+            Color(0), Color(0), idValue, idShown},
+    PassRow{Pass::uv, "uv", "its texture coordinates; u is shown red, v green", false, Color(0), Color(0),
+            uvValue, uvShown},
     PassRow{Pass::position, "position", "its place in the world; shown within the box of all that is seen",
-            false, kNowhere, positionValue, positionShown},
+            false, kNowhere, kNowhere, positionValue, positionShown},
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ struct PassRow {
   std::string_view name;
   std::string_view help;
   bool averaged;     ///< the mean of the pixel's samples; otherwise that of the first
-  Color background;  ///< where a ray meets nothing, and where nothing is rendered
+  Color background;  ///< where a ray meets nothing that the camera sees, and where nothing is rendered
+  Color tooNear;     ///< where it meets something nearer than the camera sees
 
   /// Of the surface that a camera ray meets. A pass of one number has it in all three channels.
   Color (*value)(const Hit&, const Ray&, const Tracer&);

@@ -1,6 +1,8 @@
 #include "render/ray_tree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/match.h"
 #include "base/text.h"
@@ -15,6 +17,13 @@ bool same(const Color& a, const Color& b) {
     return std::isnan(x) ? std::isnan(y) : x == y && std::signbit(x) == std::signbit(y);
   };
   return equal(a.r, b.r) && equal(a.g, b.g) && equal(a.b, b.b);
+}
+
+/// For the eye.
+std::string shortText(Real x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
 }
 
 std::string kindName(RayKind kind) { return std::string(kRayKindNames[static_cast<std::size_t>(kind)]); }
@@ -39,6 +48,12 @@ std::string named(const Variant& thing, const Place& place) {
 std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
   return match(end,
                Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
+                          [&](const CutOff& e) {
+                            return objectName(scene, e.object) + " at distance " + toText(e.t) +
+                                   (e.t < e.limit ? " is nearer than the camera's near "
+                                                  : " is farther than the camera's far ") +
+                                   toText(e.limit) + ": background";
+                          },
                           [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
                           [](const DepthLimit& e) {
                             return "depth limit " + std::to_string(e.limit) + " reached: no " +
@@ -63,6 +78,20 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<MaterialShare> sharesOf(const MaterialMix& mix) {
+  std::vector<MaterialShare> shares;
+  for (int i = 0; i < mix.count; ++i) {
+    const auto same = std::find_if(shares.begin(), shares.end(), [&](const MaterialShare& share) {
+      return share.material == mix.material[i];
+    });
+    if (same == shares.end())
+      shares.push_back({mix.material[i], mix.weight[i]});
+    else
+      same->weight += mix.weight[i];
+  }
+  return shares;
+}
 
 Color recomputed(const RayTree& tree, int index) {
   const RayNode& node = at(tree, index);
@@ -111,6 +140,15 @@ std::string objectName(const Scene& scene, std::uint32_t index) {
   const Object& object = scene.objects[index];
   if (!object.name.empty()) return object.name;
   return named(object.shape, object.place);
+}
+
+std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials) {
+  std::string text;
+  for (const MaterialShare& share : materials) {
+    text += (text.empty() ? "" : " + ") + nameOf(scene.materials[share.material], share.material);
+    if (materials.size() > 1) text += " " + shortText(share.weight);
+  }
+  return text;
 }
 
 std::string lightName(const Scene& scene, std::uint32_t index) {

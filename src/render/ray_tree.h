@@ -22,11 +22,27 @@
 
 namespace trace {
 
+/// One of the materials that a place is made of.
+struct MaterialShare {
+  std::uint32_t material = 0;  ///< index into Scene::materials
+  Real weight = 1;
+};
+/// Each material of the mix once, in their order.
+std::vector<MaterialShare> sharesOf(const MaterialMix& mix);
+
 // --- why a ray ended: THE list; sentence() puts each in words ---
 
 /// Met nothing: the background.
 struct LeftScene {
   static constexpr std::string_view kName = "left-scene";
+};
+/// Of a camera ray: met something where the camera does not see: the background.
+struct CutOff {
+  static constexpr std::string_view kName = "cut-off";
+  std::uint32_t object;
+  Real t;
+  Real limit;                            ///< the camera's near, if that is more than t, or its far
+  std::vector<MaterialShare> materials;  ///< there
 };
 /// The surface sends no ray on.
 struct Opaque {
@@ -51,14 +67,16 @@ struct TotalInternalReflection {
 struct Blocked {
   static constexpr std::string_view kName = "blocked";
   std::uint32_t object;  ///< the nearest that lets nothing through
+  std::uint64_t part;
   Real t;
+  std::vector<MaterialShare> materials;  ///< there
 };
 /// Of a shadow ray.
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };
-using RayEnd = std::variant<LeftScene, Opaque, DepthLimit, BelowThreshold, TotalInternalReflection, Blocked,
-                            ReachedLight>;
+using RayEnd = std::variant<LeftScene, CutOff, Opaque, DepthLimit, BelowThreshold, TotalInternalReflection,
+                            Blocked, ReachedLight>;
 
 // --- what a ray brings back ---
 
@@ -87,14 +105,16 @@ struct Filter {
   std::uint64_t part = 0;
   Real t = 0;
   Color factor;  ///< by which it multiplied the light
+  std::vector<MaterialShare> materials{};
 };
 
 struct RayNode {
   RayKind kind = RayKind::camera;
   int parent = -1, depth = 0;  ///< of the camera ray: -1 and 0
   Ray ray;
-  Real tMost = kInfinity;  ///< of a shadow ray: the distance of the light
-  std::optional<Hit> hit;  ///< not of shadow rays
+  Real tMost = kInfinity;                ///< of a shadow ray: the distance of the light
+  std::optional<Hit> hit;                ///< not of shadow rays
+  std::vector<MaterialShare> materials;  ///< of the hit
   std::vector<Term> terms;
   Color through{1};             ///< what the medium lets pass on the way back
   std::vector<Filter> filters;  ///< of a shadow ray, in order
@@ -129,6 +149,8 @@ const Term* termOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
 std::string objectName(const Scene& scene, std::uint32_t object);
+/// "red", "material 3" for one without a name, or "red 0.25 + blue 0.75".
+std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
 /// "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);
 /// "scene.ray:12", without folders; "" for a place in no file.

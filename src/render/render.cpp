@@ -48,10 +48,14 @@ class TileRenderer {
     std::fill(passSums_.begin(), passSums_.end(), Color(0));
     for (int sample = 0; sample < samples; ++sample) {
       const Ray ray = tracer_.cameraRay(x, y, sample);
-      const std::optional<Hit> hit = tracer_.tracer().cast(ray, RayKind::camera);
+      Tracer& tracer = tracer_.tracer();
+      const std::optional<Hit> hit = tracer.cast(ray, RayKind::camera);
+      const bool tooNear = !hit && tracer.tooNear(ray);
       for (std::size_t i = 0; i < passes_.size(); ++i)
         if (sample == 0 || passes_[i]->averaged)
-          passSums_[i] += hit ? passes_[i]->value(*hit, ray, tracer_.tracer()) : passes_[i]->background;
+          passSums_[i] += hit       ? passes_[i]->value(*hit, ray, tracer)
+                          : tooNear ? passes_[i]->tooNear
+                                    : passes_[i]->background;
     }
     for (std::size_t i = 0; i < passes_.size(); ++i)
       film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);

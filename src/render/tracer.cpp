@@ -13,10 +13,16 @@ Faces Tracer::facesSeenBy(RayKind kind) const {
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
-  if (tree_) begin(ray, kind, kInfinity);
+  if (records()) begin(ray, kind, kInfinity);
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
-    if (tree_) finish().ends.push_back(LeftScene{});
+    if (records()) {
+      const CameraFrame& camera = world_.camera();
+      const Real limit = found && found->t < camera.near ? camera.near : camera.far;
+      finish().ends.push_back(
+          found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
+                : LeftScene{});
+    }
     return {};
   }
   Hit hit{found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
@@ -24,16 +30,27 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   hit.twoSided = world_.twoSided(found->object);
   const Real air = settings_.airIndex, inside = hit.material.index;
   hit.indexBefore = hit.leaving ? inside : air, hit.indexBehind = hit.leaving ? air : inside;
-  if (tree_) finish().hit = hit;
+  if (records()) {
+    RayNode& node = finish();
+    node.hit = hit, node.materials = sharesOf(world_.materialMix(*found));
+  }
   return hit;
+}
+
+bool Tracer::tooNear(const Ray& ray) const {
+  const Real near = world_.camera().near;
+  if (near <= 0) return false;
+  Statistics uncounted;
+  const auto found = world_.closest(ray, facesSeenBy(RayKind::camera), uncounted);
+  return found && found->t < near;
 }
 
 Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distance) {
   ++statistics_.rays[static_cast<std::size_t>(RayKind::shadow)];
   const Ray ray = spawnRay(from, toLight);
-  if (tree_) begin(ray, RayKind::shadow, distance);
+  if (records()) begin(ray, RayKind::shadow, distance);
   const Color color = passed(ray, distance);
-  if (tree_) {
+  if (records()) {
     RayNode& node = finish();
     node.radiance = color;
     const auto blocked = isBlack(color) ? nearestBlocker(ray, distance) : std::nullopt;
@@ -69,7 +86,9 @@ Color Tracer::passed(const Ray& ray, Real distance) {
       factor = pow(filter, found.t - last);
     color *= factor;
     last = found.t;
-    if (tree_) tree_->nodes.back().filters.push_back({found.object, found.part, found.t, factor});
+    if (records())
+      tree_->nodes.back().filters.push_back(
+          {found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found))});
   }
   return color;
 }
@@ -94,7 +113,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
     return false;
   });
   if (!nearest) return {};
-  return Blocked{nearest->object, nearest->t};
+  return Blocked{nearest->object, nearest->part, nearest->t, sharesOf(world_.materialMix(*nearest))};
 }
 
 std::uint64_t Tracer::testsSoFar() const {

@@ -26,6 +26,9 @@ class Tracer {
   /// in the unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
   Color visible(const SurfacePoint& from, const Vec3& toLight, Real distance);
 
+  /// Does the camera ray meet something nearer than the camera sees?
+  bool tooNear(const Ray& ray) const;
+
   /// The query of a recorded ray once more, for its statistics.
   void retrace(const RayNode& node);
 
@@ -36,11 +39,18 @@ class Tracer {
  private:
   friend class Gather;
   static constexpr int kNoNode = -1;  ///< nothing is recorded
+#ifdef TRACE_NO_RECORDING
+  static constexpr bool kRecords = false;  ///< as bench/recording.sh has it, to see what the tests below cost
+#else
+  static constexpr bool kRecords = true;
+#endif
+  bool records() const { return kRecords && tree_; }
+  static bool recorded(int node) { return kRecords && node != kNoNode; }
 
   /// Rays from now on are children of the one cast last; returns its node.
-  int enter() { return tree_ ? current_ = std::exchange(last_, kNoNode) : kNoNode; }
+  int enter() { return records() ? current_ = std::exchange(last_, kNoNode) : kNoNode; }
   void leave(int node) {
-    if (node != kNoNode) current_ = tree_->nodes[static_cast<std::size_t>(node)].parent, last_ = node;
+    if (recorded(node)) current_ = tree_->nodes[static_cast<std::size_t>(node)].parent, last_ = node;
   }
   void record(int node, Term term);
   void record(int node, const RayEnd& why);

@@ -56,22 +56,26 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   return instance.moved ? transformed(s, instance.worldFromObject, instance.objectFromWorld) : s;
 }
 
-Phong World::material(const Found& found) const {
+MaterialMix World::materialMix(const Found& found) const {
   const Instance& instance = objects_[found.object];
   if (instance.mesh && !instance.mesh->data().materials.empty()) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
-    const auto at = [&](int corner) -> const Phong& {
-      return materials_[data.materials[t[static_cast<size_t>(corner)]]];
-    };
-    return mix(at(0), at(1), at(2), found.triangle.b);
+    const Real* b = found.triangle.b;
+    return {{data.materials[t[0]], data.materials[t[1]], data.materials[t[2]]}, {b[0], b[1], b[2]}, 3};
   }
-  return match(instance.shape, [&](const auto& shape) -> Phong {
+  return {{match(instance.shape, [&](const auto& shape) {
     if constexpr (requires { formOf(shape).material(std::int64_t{}); })
-      return materials_[formOf(shape).material(static_cast<std::int64_t>(found.part))];
+      return formOf(shape).material(static_cast<std::int64_t>(found.part));
     else
-      return materials_[instance.material];
-  });
+      return instance.material;
+  })}};
+}
+
+Phong World::material(const Found& found) const {
+  const MaterialMix m = materialMix(found);
+  const auto at = [&](int i) -> const Phong& { return materials_[m.material[i]]; };
+  return m.count == 1 ? at(0) : mix(at(0), at(1), at(2), m.weight);
 }
 
 std::size_t World::triangleCount() const {
@@ -119,9 +123,15 @@ class World::Earlier {
     if (!before) return;
     sameAccel_ = (before->settings.accel == Accel::none) == (settings.accel == Accel::none);
     sameNormals_ = before->settings.vertexNormals == settings.vertexNormals;
-    for (std::size_t i = 0; i < before->scene.objects.size(); ++i)
+    for (std::size_t i = 0; i < before->scene.objects.size(); ++i) {
+      const Instance& instance = before->world.objects_[i];
       if (const auto* mesh = std::get_if<Mesh>(&before->scene.objects[i].shape))
-        if (const auto& tree = before->world.objects_[i].mesh) trees_[mesh->data.get()] = tree;
+        if (instance.mesh) trees_[mesh->data.get()] = instance.mesh;
+      match(instance.shape, [&](const auto& form) {
+        if constexpr (requires { formOf(form).addMeshTrees(operandTrees_); })
+          formOf(form).addMeshTrees(operandTrees_);
+      });
+    }
   }
 
   /// Its object with the same shape as object i has now: the one at the same place in the list, or where that
@@ -142,6 +152,9 @@ class World::Earlier {
     return found == trees_.end() ? nullptr : found->second;
   }
 
+  /// The hierarchies of meshes that solids are made of.
+  const MeshTrees& operandTrees() const { return operandTrees_; }
+
   /// The hierarchy over objects with these bounds; null if it has to be made.
   std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes) const {
     if (!before_ || !sameAccel_) return nullptr;
@@ -155,7 +168,7 @@ class World::Earlier {
   const Compiled* before_;
   const Scene& scene_;
   bool sameAccel_ = false, sameNormals_ = false;
-  std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees_;
+  MeshTrees trees_, operandTrees_;  // by the data of the scene, without generated normals
 };
 
 /// The ball of the mean radius in place of an ellipsoid.
@@ -192,13 +205,13 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   world.background_ = scene.background;
 
   const bool bruteForce = settings.accel == Accel::none;
-  std::map<const MeshData*, std::shared_ptr<const MeshTree>> trees;
+  MeshTrees trees;
   std::vector<Box3> boxes;
   for (const Object& object : scene.objects) {
     World::Instance instance;
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
     try {
-      instance.shape = same ? same->shape : prepare(object.shape);
+      instance.shape = same ? same->shape : prepare(object.shape, earlier.operandTrees());
     } catch (const Error& error) {
       throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
     }

@@ -60,6 +60,9 @@ class World {
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
+  /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
+  /// triangle.
+  MaterialMix materialMix(const Found& found) const;
   Phong material(const Found& found) const;
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].worldFromObject; }
   /// A mesh whose triangles are shaded from both sides.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
 
@@ -21,6 +22,12 @@ struct Background {
   /// bands are equally high.
   std::vector<Real> limits;
 
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"colors", &Background::colors, "", 0, kNoLimit, "of the bands, from the top; none is black"},
+        Field{"limits", &Background::limits, "", 0, 1,
+              "where each band but the last ends, a share of the height from the top; none: equal bands"}};
+  }
   bool operator==(const Background&) const = default;
 
   /// At a share of the picture's height from the top.

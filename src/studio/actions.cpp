@@ -37,18 +37,15 @@ std::vector<std::string> sceneSuffixes() {
 }
 
 void openScene(Studio& studio) {
-  studio.dialog.open("Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(),
-                     sceneSuffixes(), [&studio](const std::string& file) {
-                       studio.leave([&studio, file] { studio.workspace.openLater(file); });
-                     });
+  studio.dialog.open(
+      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), sceneSuffixes(),
+      [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
 }
 void openReference(Studio& studio) {
   const std::string near = studio.workspace.referenceFile().empty() ? studio.workspace.document.file()
                                                                     : studio.workspace.referenceFile();
   studio.dialog.open("Open a picture to compare with", FileDialog::Purpose::read, near, pictureSuffixes(),
-                     [&studio](const std::string& file) {
-                       if (studio.workspace.openReference(file)) studio.picture.view = View::swipe;
-                     });
+                     [&studio](const std::string& file) { studio.workspace.openReference(file); });
 }
 void savePicture(Studio& studio) {
   studio.dialog.open("Save the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
@@ -81,10 +78,9 @@ constexpr std::array kTable{
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back",
-           [](Studio& s) { s.workspace.document.undo(); },
-           [](const Studio& s) { return s.workspace.document.canUndo(); }, nullptr},
-    Action{"Edit", "Redo", 'Y', true, false, "make the change again",
-           [](Studio& s) { s.workspace.document.redo(); },
+           [](Studio& s) { s.workspace.undo(); },
+           [](const Studio& s) { return !s.workspace.undoName().empty(); }, nullptr},
+    Action{"Edit", "Redo", 'Y', true, false, "make the change again", [](Studio& s) { s.workspace.redo(); },
            [](const Studio& s) { return s.workspace.document.canRedo(); }, nullptr},
     Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
            [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
@@ -138,7 +134,7 @@ void recentMenu(Studio& studio) {
   const auto recent = studio.workspace.recent();  // a copy: opening one changes the list
   if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
   for (const std::string& file : recent)
-    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.openLater(file); });
+    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
   ImGui::EndMenu();
 }
 
@@ -196,6 +192,8 @@ void drawAbout(Studio& studio) {
 
 void drawLeaving(Studio& studio) {
   constexpr const char* kTitle = "The scene was edited";
+  if (studio.leaving && studio.workspace.saving()) return;  // then there may be nothing to ask
+  if (studio.leaving && !studio.workspace.document.edited()) return std::exchange(studio.leaving, nullptr)();
   if (studio.leaving && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;

@@ -9,10 +9,10 @@
 namespace trace::studio {
 
 struct Arguments {
-  std::string scene;      ///< may be empty
-  std::string reference;  ///< --reference; may be empty
-  std::string script;     ///< --script; may be empty
-  int width = 1280, height = 800;
+  std::string scene;          ///< may be empty
+  std::string reference;      ///< --reference; may be empty
+  std::string script;         ///< --script; may be empty
+  int width = 0, height = 0;  ///< --window; 0: as it was last
   std::vector<Choice> choices;
   bool help = false;
 };

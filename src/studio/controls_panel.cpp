@@ -140,9 +140,9 @@ std::optional<std::string> edit(const Option& option, const std::string& value) 
   return {};
 }
 
-void row(Studio& studio, const Option& option, const Settings& defaults) {
-  Document& document = studio.workspace.document;
-  const std::string name(option.name), value = option.get(document.settings());
+void row(Studio& studio, const Option& option, const Settings& defaults, const Settings& now) {
+  const Document& document = studio.workspace.document;
+  const std::string name(option.name), value = option.get(now);
   const bool changed = value != option.get(defaults), here = document.chosenHere(name);
   ImGui::PushID(name.c_str());
   ImGui::TableNextRow();
@@ -166,12 +166,12 @@ void row(Studio& studio, const Option& option, const Settings& defaults) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file and the command line say");
   }
   ImGui::PopID();
-  if (reset) return document.reset(name);
+  if (reset) return studio.workspace.reset(name);
   if (!given || *given == value) return;
   const bool continues = studio.editedItem == id;  // one step for each time the widget is held
   studio.editedItem = id;
   try {
-    document.choose(name, *given, continues);
+    studio.workspace.choose(name, *given, continues);
   } catch (const Error& error) {
     studio.workspace.report(error.messages());
   }
@@ -189,9 +189,9 @@ void drawControls(Studio& studio) {
   ImGui::Checkbox("changed", &onlyChanged);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("only options that differ from their defaults");
 
-  const Settings defaults;
+  const Settings defaults, now = studio.workspace.chosenSettings();
   const auto wanted = [&](const Option& option) {
-    const bool changed = option.get(studio.workspace.document.settings()) != option.get(defaults);
+    const bool changed = option.get(now) != option.get(defaults);
     const bool found = option.name.find(filter) != std::string_view::npos ||
                        option.help.find(filter) != std::string_view::npos;
     return found && (changed || !onlyChanged);
@@ -212,7 +212,7 @@ void drawControls(Studio& studio) {
         ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58f);
       }
     }
-    if (table) row(studio, option, defaults);
+    if (table) row(studio, option, defaults, now);
   }
   if (table) ImGui::EndTable();
   ImGui::EndChild();

@@ -57,6 +57,12 @@ void drawLog(Studio& studio) {
   }
 }
 
+void showBadSample(Studio& studio, const BadSample& bad) {
+  studio.rays.sample = bad.sample;
+  studio.picture.goTo(bad.x, bad.y);
+  studio.show("Rays");
+}
+
 void drawBadSamples(Studio& studio) {
   const RenderResult result = studio.workspace.render.result();
   if (result.badSamples.empty())
@@ -76,11 +82,7 @@ void drawBadSamples(Studio& studio) {
       row({std::to_string(bad.x) + ", " + std::to_string(bad.y), std::to_string(bad.sample)});
       ImGui::TableNextColumn();
       ImGui::PushID(i);
-      if (ImGui::SmallButton("Show its rays")) {
-        studio.rays.sample = bad.sample;
-        studio.picture.hasPixel = true, studio.picture.pixelX = bad.x, studio.picture.pixelY = bad.y;
-        studio.show("Rays");
-      }
+      if (ImGui::SmallButton("Show its rays")) showBadSample(studio, bad);
       ImGui::PopID();
     }
   ImGui::EndTable();

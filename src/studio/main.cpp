@@ -15,6 +15,7 @@
 namespace trace::studio {
 namespace {
 
+constexpr int kWidth = 1280, kHeight = 800;   // of the window, at first, on a plain monitor
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between frames when nothing, or a render, goes on
 
 const char* variable(const char* name) { return std::getenv(name); }
@@ -28,6 +29,13 @@ bool isPicture(const std::string& file) {
   }
 }
 
+void openDropped(Studio& studio, const std::string& file) {
+  if (isPicture(file))
+    studio.workspace.openReference(file);
+  else
+    studio.leave([&studio, file] { studio.workspace.open(file); });
+}
+
 void frame(Studio& studio) {
   if (studio.themeChanged) {
     studio.theme.scale = studio.window.contentScale() * studio.userScale;
@@ -35,19 +43,29 @@ void frame(Studio& studio) {
     studio.window.fontsChanged();
     studio.themeChanged = false;
   }
-  const bool busy = studio.workspace.render.state().working() || studio.workspace.opening() ||
-                    studio.workspace.inspector.busy() || studio.rays.modelTask.busy();
+  Workspace& workspace = studio.workspace;
+  const bool busy = workspace.render.state().working() || workspace.reading() || workspace.saving() ||
+                    workspace.inspector.busy() || studio.rays.modelTask.busy();
   studio.window.beginFrame(busy ? kBusy : kIdle);
-  for (const std::string& file : studio.window.takeDropped()) {
-    if (!isPicture(file))
-      studio.leave([&studio, file] { studio.workspace.openLater(file); });
-    else if (studio.workspace.openReference(file))
-      studio.picture.view = View::swipe;
-  }
+  for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   studio.keys = studio.window.takeKeys();
-  studio.workspace.update();
+  const std::uint64_t failures = workspace.failures();
+  workspace.update();
+  if (workspace.failures() > failures) studio.show("Log"), studio.quit = false;
   drawStudio(studio);
   studio.window.endFrame();
+}
+
+/// As asked, or as it was last; at first as suits the monitor.
+void sizeWindow(Studio& studio, const Arguments& arguments) {
+  const double width = studio.preferences.number("width", 0), height = studio.preferences.number("height", 0);
+  const float scale = studio.window.contentScale();
+  if (arguments.width > 0)
+    studio.window.setSize(arguments.width, arguments.height);
+  else if (width >= 320 && height >= 240)
+    studio.window.setSize(static_cast<int>(width), static_cast<int>(height));
+  else
+    studio.window.setSize(static_cast<int>(kWidth * scale), static_cast<int>(kHeight * scale));
 }
 
 int run(const Arguments& arguments) {
@@ -55,23 +73,17 @@ int run(const Arguments& arguments) {
   if (!arguments.script.empty()) script.emplace(arguments.script);
   const std::string folder = script ? "" : configFolder(variable);
   const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
-  Window window("Trace", arguments.width, arguments.height);
+  Window window("Trace", kWidth, kHeight);
   Studio studio(window);
   studio.configFolder = folder;
   ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
-  if (!folder.empty()) {
-    restore(studio);
-    const double width = studio.preferences.number("width", 0),
-                 height = studio.preferences.number("height", 0);
-    if (width >= 320 && height >= 240) window.setSize(static_cast<int>(width), static_cast<int>(height));
-  }
-  if (!arguments.scene.empty() && !studio.workspace.open(arguments.scene, arguments.choices))
-    studio.show("Log");
-  if (!arguments.reference.empty() && studio.workspace.openReference(arguments.reference))
-    studio.picture.view = View::swipe;
+  if (!folder.empty()) restore(studio);
+  sizeWindow(studio, arguments);
+  if (!arguments.scene.empty()) studio.workspace.open(arguments.scene, arguments.choices);
+  if (!arguments.reference.empty()) studio.workspace.openReference(arguments.reference);
 
   std::string title;
-  while (!studio.quit) {
+  while (!studio.quit || studio.workspace.saving()) {
     frame(studio);
     if (window.closing()) {
       window.keepOpen();
@@ -84,6 +96,7 @@ int run(const Arguments& arguments) {
     if (now != title) window.setTitle(title = now);
   }
   remember(studio);
+  window.hide();  // what still runs has to be waited for
   return 0;
 }
 

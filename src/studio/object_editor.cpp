@@ -148,10 +148,6 @@ std::string nameOf(const std::string& name, const Shape& shape) {
   return name.empty() ? std::string(match(shape, [](const auto& s) { return s.kKeyword; })) : name;
 }
 
-std::string nameOf(const Material& material, std::size_t index) {
-  return material.name.empty() ? "material " + std::to_string(index + 1) : material.name;
-}
-
 void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed) {
   const std::string name = nameOf(placed.name, placed.shape);
   if (beginFields("placed")) {

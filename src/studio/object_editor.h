@@ -28,6 +28,5 @@ void shapeMenu(const std::function<void(Shape)>& chosen);
 
 /// "ball", or "sphere" where it has no name.
 std::string nameOf(const std::string& name, const Shape& shape);
-std::string nameOf(const Material& material, std::size_t index);
 
 }  // namespace trace::studio

@@ -27,4 +27,7 @@ void drawBadSamples(Studio&);
 void drawLog(Studio&);
 void drawStatistics(Studio&);
 
+/// One click from a bad sample to its rays.
+void showBadSample(Studio&, const BadSample&);
+
 }  // namespace trace::studio

@@ -26,6 +26,10 @@ void refresh(Studio& studio) {
   const bool toneChanged =
       view.exposed != view.exposure || view.tone != settings.tone || view.rounding != settings.rounding;
   bool pictureChanged = false;
+  if (const auto session = workspace.render.session(); session && session->scene().file != view.file) {
+    view.file = session->scene().file;
+    view.fit = true, view.hasPixel = false;
+  }
   const double now = ImGui::GetTime(), interval = std::max(kLeastInterval, view.refreshCost / kMostShare);
   const bool due = !workspace.render.state().working() || now - view.refreshed > interval;
   if (const std::uint64_t version = workspace.render.version(); version != view.shownVersion && due) {
@@ -38,6 +42,7 @@ void refresh(Studio& studio) {
     view.pictureTexture.set(exposed(view.levels, view.exposure, settings.rounding));
   const auto& reference = workspace.reference();
   const bool referenceChanged = view.referenceVersion != workspace.referenceVersion();
+  if (reference && referenceChanged) view.view = View::swipe;
   if (reference && (referenceChanged || toneChanged))
     view.referenceTexture.set(exposed(*reference, view.exposure, settings.rounding));
   const bool compares = view.view == View::difference || view.view == View::falseColour;
@@ -45,7 +50,7 @@ void refresh(Studio& studio) {
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify)) {
     const bool colours = view.view == View::falseColour;
-    const Picture& picture = workspace.referenceIsLinear() ? view.shown : view.levels;
+    const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
     const Picture difference = colours ? falseColours(picture, *reference, view.magnify)
                                        : differences(picture, *reference, view.magnify);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
@@ -80,6 +85,10 @@ void drawBar(Studio& studio) {
   if (button("Fit", "the whole picture (F)", true)) view.fit = true;
   if (button("1:1", "one pixel to one of the screen (A)", true)) view.fit = false, view.zoom = 1;
 
+  const auto roomFor = [](float wide) {  // else on the next line
+    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+  };
+  roomFor(characters(17));
   ImGui::SetNextItemWidth(characters(17));
   ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
                      view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
@@ -88,6 +97,7 @@ void drawBar(Studio& studio) {
   if (ImGui::IsItemClicked(1)) view.exposure = 0;
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
+    roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button("Compare...")) runAction("Open reference...");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a picture to compare with (Ctrl+Shift+R)");
     return;
@@ -166,7 +176,7 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     else
       std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
                     durationText(state.elapsed).c_str(), left.c_str());
-    ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(40), ImGui::GetFrameHeight()}, text);
+    ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(28), ImGui::GetFrameHeight()}, text);
     ImGui::SameLine();
   }
   ImGui::AlignTextToFramePadding();
@@ -188,8 +198,8 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
       ImGui::TextDisabled("reference  %s",
                           pixelText(reference->at(x, y), reference->at(x, y), rounding).c_str());
     }
-  } else if (workspace.opening()) {
-    ImGui::TextDisabled("reading the file");
+  } else if (workspace.saving() || workspace.reading()) {
+    ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");
   } else if (!state.working() && view.shown.width > 0) {
     const char* how = state.phase == BackgroundRender::Phase::finished ? "finished"
                       : state.phase == BackgroundRender::Phase::failed ? "failed: see the log"
@@ -208,7 +218,7 @@ void drawWelcome(Studio& studio, ImVec2 area) {
     ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(text).x) / 2));
     ImGui::TextDisabled("%s", text);
   };
-  centred(studio.workspace.opening() ? "The file is being read." : "Drop a scene here, or");
+  centred(studio.workspace.reading() ? "The file is being read." : "Drop a scene here, or");
   ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
   if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
   const auto recent = studio.workspace.recent();
@@ -216,7 +226,7 @@ void drawWelcome(Studio& studio, ImVec2 area) {
   for (const std::string& file : recent) {
     ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
-    if (ImGui::SmallButton(file.c_str())) studio.workspace.openLater(file);
+    if (ImGui::SmallButton(file.c_str())) studio.workspace.open(file);
     ImGui::PopStyleColor();
   }
 }
@@ -240,7 +250,8 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
   const bool comparable = reference && sameSize(*reference, view.shown);
-  if (mode == View::picture) clipped(canvas, end, frame, view.pictureTexture);
+  const bool differs = mode == View::difference || mode == View::falseColour;
+  if (mode == View::picture || (differs && !comparable)) clipped(canvas, end, frame, view.pictureTexture);
   if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);
@@ -255,8 +266,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0) && right > left)
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
-  if ((mode == View::difference || mode == View::falseColour) && comparable)
-    clipped(canvas, end, frame, view.differenceTexture);
+  if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
   if (mode != View::picture && !comparable)
     caption(corner, "the reference has another size");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "image/picture.h"
 #include "studio/texture.h"
@@ -22,6 +23,7 @@ struct PictureView {
   float magnify = 8;                    ///< of the difference
   bool hasPixel = false;                ///< a pixel was clicked
   int pixelX = 0, pixelY = 0;
+  std::string file;  ///< the scene that is looked at
 
   // What the textures show.
   Texture pictureTexture, referenceTexture, differenceTexture;
@@ -36,6 +38,11 @@ struct PictureView {
   View differenceView = View::picture;
   float differenceMagnify = 0;
 
+  /// Takes the pixel as if it were clicked, and brings it into view.
+  void goTo(int x, int y) {
+    hasPixel = true, pixelX = x, pixelY = y;
+    if (!fit) centreX = (x + 0.5) / shown.width, centreY = (y + 0.5) / shown.height;
+  }
   void nextView() { view = static_cast<View>((static_cast<int>(view) + 1) % 6); }
 };
 

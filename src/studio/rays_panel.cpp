@@ -57,15 +57,11 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
         "keep these rays, then click another pixel or change an option: the tab Difference compares");
 
   const auto count = static_cast<int>(pixel.tree().nodes.size());
-  const auto go = [&](int step) {
-    view.step = std::clamp(step, 1, count);
-    view.selected = view.step - 1, view.scrollToSelected = true;
-  };
   if (samples <= 1) ImGui::SameLine();
-  if (ImGui::ArrowButton("back", ImGuiDir_Left)) go((view.step < 0 ? count : view.step) - 1);
+  if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepRays(studio, -1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one ray back in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  if (ImGui::ArrowButton("on", ImGuiDir_Right)) go(view.step < 0 ? 1 : view.step + 1);
+  if (ImGui::ArrowButton("on", ImGuiDir_Right)) stepRays(studio, 1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next ray in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   int step = view.step < 0 ? count : view.step;
@@ -74,7 +70,9 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   const float all = ImGui::CalcTextSize("All").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(
       std::max(characters(10), ImGui::GetContentRegionAvail().x - all - ImGui::GetStyle().ItemSpacing.x));
-  if (ImGui::SliderInt("##step", &step, 1, count, format)) go(step);
+  const int before = step;
+  if (ImGui::SliderInt("##step", &step, 1, count, format))
+    view.step = before, stepRays(studio, step - before);
   ImGui::SameLine();
   if (ImGui::Button("All")) view.step = -1;
 }
@@ -97,15 +95,13 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
   ImGui::TableHeadersRow();
-  if (view.scrollToSelected) {
-    const auto found = std::find(rows.begin(), rows.end(), view.selected);
-    if (found != rows.end()) {
-      const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-      ImGui::SetScrollY(
-          std::max(0.0f, static_cast<float>(found - rows.begin()) * height - ImGui::GetWindowHeight() / 2));
-    }
-    view.scrollToSelected = false;
+  if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
+    const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float top = static_cast<float>(found - rows.begin()) * height, room = ImGui::GetWindowHeight();
+    if (top < ImGui::GetScrollY() || top + 2 * height > ImGui::GetScrollY() + room)
+      ImGui::SetScrollY(std::max(0.0f, top - room / 2));
   }
+  view.scrollTo = -1;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()));
   while (clipper.Step())
@@ -118,25 +114,27 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
       if (i == view.hoveredBefore)
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
       ImGui::TableNextColumn();
+      const ImVec2 start = ImGui::GetCursorPos();
+      const bool chosen =
+          ImGui::Selectable("##row", i == view.selected,
+                            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
+      const bool overRow = ImGui::IsItemHovered();
       const float indent = static_cast<float>(pixel.level[n]) * ImGui::GetFontSize() * 0.75f;
-      if (indent > 0) ImGui::Indent(indent);
-      ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow |
-                                 ImGuiTreeNodeFlags_NoTreePushOnOpen;
+      ImGui::SetCursorPos({start.x + indent, start.y});
+      ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen;
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
-      if (i == view.selected) flags |= ImGuiTreeNodeFlags_Selected;
       ImGui::SetNextItemOpen(!view.closed[n]);
       ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, i));
       const bool open = ImGui::TreeNodeEx("##node", flags, "%s", nameOf(pixel, i));
       ImGui::PopStyleColor();
       if (ImGui::IsItemToggledOpen())
         view.closed[n] = !open;
-      else if (ImGui::IsItemClicked())
+      else if (chosen || ImGui::IsItemClicked())
         view.selected = i;
-      if (ImGui::IsItemHovered()) {
+      if (overRow || ImGui::IsItemHovered()) {
         view.hovered = i;
         ImGui::SetTooltip("%s", sentence(node, pixel.scene()).c_str());
       }
-      if (indent > 0) ImGui::Unindent(indent);
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(metBy(pixel, i).c_str());
       ImGui::TableNextColumn();
@@ -247,6 +245,14 @@ const TracedPixel* shownPixel(const Studio& studio) {
   return pixel && pixel->problem.empty() ? pixel : nullptr;
 }
 
+void stepRays(Studio& studio, int rays) {
+  RaysView& view = studio.rays;
+  const auto count = static_cast<int>(view.rays);
+  const int from = view.step >= 0 ? view.step : rays > 0 ? 0 : count;
+  view.step = std::clamp(from + rays, 1, std::max(count, 1));
+  view.selected = view.scrollTo = std::min(view.step, count) - 1;
+}
+
 void showBoxes(Studio& studio) {
   RaysView& view = studio.rays;
   const TracedPixel* pixel = shownPixel(studio);
@@ -263,9 +269,12 @@ void updatePixel(Studio& studio) {
   RaysView& view = studio.rays;
   const PictureView& picture = studio.picture;
   PixelInspector& inspector = studio.workspace.inspector;
-  if (const auto session = studio.workspace.render.session(); picture.hasPixel && session)
+  const auto session = studio.workspace.render.session();
+  if (session && picture.hasPixel)
     inspector.want(session, picture.pixelX, picture.pixelY, view.sample);
-  if (!inspector.update()) return;
+  else
+    inspector.want(nullptr, 0, 0, 0);
+  if (!inspector.update() || !inspector.traced()) return;
   const TracedPixel& pixel = *inspector.traced();
   const std::size_t count = pixel.tree().nodes.size();
   if (pixel.x != view.x || pixel.y != view.y || count != view.rays) {

@@ -16,13 +16,13 @@ namespace trace::studio {
 enum class Surfaces { shaded, wireframe, none };
 
 struct RaysView {
-  int sample = 0;          ///< that is asked for
-  std::size_t rays = 0;    ///< of the pixel that is shown
-  int x = -1, y = -1;      ///< of that pixel
-  int selected = -1;       ///< ray of the pixel; -1: none
-  int hovered = -1;        ///< under the cursor, in space or in the table, in this frame
-  int hoveredBefore = -1;  ///< in the last frame
-  bool scrollToSelected = false;
+  int sample = 0;            ///< that is asked for
+  std::size_t rays = 0;      ///< of the pixel that is shown
+  int x = -1, y = -1;        ///< of that pixel
+  int selected = -1;         ///< ray of the pixel; -1: none
+  int hovered = -1;          ///< under the cursor, in space or in the table, in this frame
+  int hoveredBefore = -1;    ///< in the last frame
+  int scrollTo = -1;         ///< ray whose row the table is to show
   int step = -1;             ///< rays shown in the order of tracing; -1: all
   std::vector<char> closed;  ///< nodes whose children the table hides
 
@@ -58,6 +58,9 @@ struct Studio;
 
 /// The pixel whose rays are shown; null if there are none.
 const TracedPixel* shownPixel(const Studio& studio);
+/// So many rays on in the order of tracing, or back: from the first on if all are shown, or from the last
+/// back.
+void stepRays(Studio& studio, int rays);
 /// Finds the hierarchy boxes that the selected ray visited.
 void showBoxes(Studio& studio);
 /// The scene and the rays in space, with its switches and legend, in the rest of the child window.

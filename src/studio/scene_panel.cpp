@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/edits.h"
 #include "base/match.h"
 #include "studio/field_editor.h"
 #include "studio/object_editor.h"
@@ -165,12 +166,6 @@ void editLight(Studio& studio) {
   endFields();
 }
 
-/// What else follows when a field was set by hand.
-void fieldWasSet(Phong& phong, std::string_view keyword) {
-  if (keyword == "reflective") phong.mirrorsSpecular = false;
-}
-[[maybe_unused]] void fieldWasSet(auto&, std::string_view) {}
-
 void editMaterial(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   const Scene& scene = studio.workspace.document.scene();
@@ -187,8 +182,9 @@ void editMaterial(Studio& studio) {
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
   match(material.model, [&](auto& model) {
+    const auto before = model;
     editFields(model, [&](std::string_view key) {
-      fieldWasSet(model, key);
+      followEdit(model, before, key);
       changed(name + ": " + std::string(key));
     });
   });
@@ -197,12 +193,17 @@ void editMaterial(Studio& studio) {
     ImGui::TextDisabled("%s is a map: %s", map.field.c_str(), map.file.c_str());
 }
 
-void editCamera(Studio& studio) {
-  Camera camera = studio.workspace.document.scene().camera;
-  heading(studio, "camera", Camera::kHelp, {});
-  if (!beginFields("camera")) return;
-  editFields(camera, [&](std::string_view key) {
-    change(studio, "camera: " + std::string(key), [&](Scene& scene) { scene.camera = camera; });
+/// Of what a scene has once.
+template <class Thing>
+void editOnly(Studio& studio, Thing Scene::*member) {
+  const Thing before = studio.workspace.document.scene().*member;
+  const std::string name(Thing::kKeyword);
+  heading(studio, name, Thing::kHelp, {});
+  if (!beginFields(name.c_str())) return;
+  Thing thing = before;
+  editFields(thing, [&](std::string_view key) {
+    followEdit(thing, before, key);
+    change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();
 }
@@ -210,7 +211,7 @@ void editCamera(Studio& studio) {
 }  // namespace
 
 void drawScene(Studio& studio) {
-  Document& document = studio.workspace.document;
+  const Document& document = studio.workspace.document;
   if (!document.isOpen()) return ImGui::TextDisabled("no scene is open");
   addMenu(studio);
   const auto step = [](const char* name, const std::string& what, auto&& run) {
@@ -220,12 +221,13 @@ void drawScene(Studio& studio) {
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", what.c_str());
   };
-  step("Undo", document.undoName(), [&] { document.undo(); });
-  step("Redo", document.redoName(), [&] { document.redo(); });
+  step("Undo", studio.workspace.undoName(), [&] { studio.workspace.undo(); });
+  step("Redo", document.redoName(), [&] { studio.workspace.redo(); });
 
   const Scene& scene = document.scene();
   ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true);
   entry(studio, Selected::camera, 0, "camera");
+  entry(studio, Selected::background, 0, "background");
   branch(studio, Selected::light, "lights", scene.lights.size(),
          [&](std::size_t i) { return entryName(scene.lights[i]); });
   branch(studio, Selected::object, "objects", scene.objects.size(),
@@ -243,7 +245,8 @@ void drawScene(Studio& studio) {
   ImGui::BeginChild("fields");
   ImGui::PushID(static_cast<int>(studio.selectedIndex));
   switch (studio.selected) {
-    case Selected::camera: editCamera(studio); break;
+    case Selected::camera: editOnly(studio, &Scene::camera); break;
+    case Selected::background: editOnly(studio, &Scene::background); break;
     case Selected::object: editObject(studio); break;
     case Selected::light: editLight(studio); break;
     case Selected::material: editMaterial(studio); break;

@@ -22,8 +22,12 @@ int whole(const std::string& word) {
   return static_cast<int>(number->value);
 }
 
-void must(bool done, Studio& studio) {
-  if (!done) throw Error(Fault::io, studio.workspace.log().back().text);
+/// With the last error of the log.
+[[noreturn]] void fail(const Workspace& workspace) {
+  std::string what;
+  for (const Workspace::LogEntry& entry : workspace.log())
+    if (entry.level == Workspace::LogEntry::Level::error) what = entry.text;
+  throw Error(Fault::io, what);
 }
 
 /// `run` returns false to be called again after the next frame.
@@ -36,21 +40,20 @@ struct Command {
 };
 
 constexpr std::array kTable{
+    Command{"open", "FILE", 1, 1, "open a scene",
+            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.open(a[0]), true; }},
+    Command{"drop", "FILE", 1, 1, "drop a file onto the window: a scene, or a picture to compare with",
+            [](Studio& s, const std::vector<std::string>& a) { return s.window.drop(a[0]), true; }},
     Command{
-        "open", "FILE", 1, 1, "open a scene",
-        [](Studio& s, const std::vector<std::string>& a) { return must(s.workspace.open(a[0]), s), true; }},
-    Command{"reference", "FILE", 1, 1, "compare with a picture",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return must(s.workspace.openReference(a[0]), s), true;
-            }},
-    Command{"set", "OPTION VALUE", 2, 2, "choose an option",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return s.workspace.document.choose(a[0], a[1]), true;
-            }},
+        "reference", "FILE", 1, 1, "compare with a picture",
+        [](Studio& s, const std::vector<std::string>& a) { return s.workspace.openReference(a[0]), true; }},
+    Command{
+        "set", "OPTION VALUE", 2, 2, "choose an option",
+        [](Studio& s, const std::vector<std::string>& a) { return s.workspace.choose(a[0], a[1]), true; }},
     Command{"wait", "", 0, 0, "until the picture and the view in space are finished",
             [](Studio& s, const std::vector<std::string>&) {
               const auto state = s.workspace.render.state();
-              if (state.phase == BackgroundRender::Phase::failed) must(false, s);
+              if (state.phase == BackgroundRender::Phase::failed) fail(s.workspace);
               return !state.working() && !s.workspace.stale() && !s.rays.modelTask.busy();
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
@@ -77,16 +80,23 @@ constexpr std::array kTable{
             }},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
             [](Studio& s, const std::vector<std::string>& a) {
-              s.picture.hasPixel = true, s.picture.pixelX = whole(a[0]), s.picture.pixelY = whole(a[1]);
-              return true;
+              return s.picture.goTo(whole(a[0]), whole(a[1])), true;
+            }},
+    Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
+            [](Studio& s, const std::vector<std::string>& a) {
+              const std::vector<BadSample> bad = s.workspace.render.result().badSamples;
+              if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= bad.size())
+                throw Error(Fault::usage, "the render has no bad sample " + a[0]);
+              return showBadSample(s, bad[static_cast<std::size_t>(whole(a[0]))]), true;
             }},
     Command{"select", "KIND NUMBER", 2, 2,
-            "in the panel Scene: camera, object, light or material, counted from 0",
+            "in the panel Scene: camera, background, object, light or material, from 0",
             [](Studio& s, const std::vector<std::string>& a) {
               const auto kind =
                   std::find(std::begin(Studio::kSelectedNames), std::end(Studio::kSelectedNames), a[0]);
               if (kind == std::end(Studio::kSelectedNames))
-                throw Error(Fault::usage, "expected camera, object, light or material, found " + a[0]);
+                throw Error(Fault::usage,
+                            "expected camera, background, object, light or material, found " + a[0]);
               s.selected = static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames));
               s.selectedIndex = static_cast<std::size_t>(std::max(0, whole(a[1])));
               return true;
@@ -104,18 +114,16 @@ constexpr std::array kTable{
               s.rays.selected = whole(a[0]);
               return true;
             }},
+    Command{"step", "NUMBER", 1, 1, "go so many rays on in the order of tracing, or back if it is negative",
+            [](Studio& s, const std::vector<std::string>& a) { return stepRays(s, whole(a[0])), true; }},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
             [](Studio& s, const std::vector<std::string>&) { return showBoxes(s), true; }},
     Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
             [](Studio& s, const std::vector<std::string>& a) { return s.raysTab = a[0], true; }},
     Command{"save", "FILE", 1, 1, "write the picture",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return must(s.workspace.savePicture(a[0]), s), true;
-            }},
+            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.savePicture(a[0]), true; }},
     Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return must(s.workspace.saveScene(a[0]), s), true;
-            }},
+            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.saveScene(a[0]), true; }},
     Command{"screenshot", "FILE", 1, 1, "write what the window shows",
             [](Studio& s, const std::vector<std::string>& a) {
               return writePicture(a[0], fromBytes(s.window.screenshot())), true;
@@ -137,9 +145,13 @@ Script::Script(const std::string& file) {
 
 bool Script::step(Studio& studio) {
   if (framesToWait_ > 0) return --framesToWait_, true;
-  if (next_ == lines_.size()) return false;
-  const Line& line = lines_[next_];
+  const Workspace& workspace = studio.workspace;
+  if (workspace.reading() || workspace.saving()) return true;
+  const bool failed = workspace.failures() > 0;  // in what the last command began
+  if (next_ == lines_.size() && !failed) return false;
+  const Line& line = lines_[failed && next_ > 0 ? next_ - 1 : next_];
   try {
+    if (failed) fail(workspace);
     for (const Command& command : kTable) {
       if (line.words[0] != command.name) continue;
       const std::vector<std::string> rest(line.words.begin() + 1, line.words.end());

@@ -381,8 +381,14 @@ void drawSpace(Studio& studio) {
 
   if (hovered && !ImGui::IsMouseDown(0)) {
     const int under = rayUnderCursor(studio, matrix, low, size);
-    if (under >= 0) view.hovered = under;
-    if (clicked && under >= 0) view.selected = under, view.scrollToSelected = true;
+    if (under >= 0) {
+      const TracedPixel& pixel = *shownPixel(studio);
+      view.hovered = under;
+      if (under != view.hoveredBefore) view.scrollTo = under;
+      ImGui::SetTooltip("%s: %s", look(pixel.looks(under)).name.data(),
+                        sentence(pixel.tree().nodes[static_cast<std::size_t>(under)], pixel.scene()).c_str());
+      if (clicked) view.selected = under;
+    }
     if (clicked && under < 0) selectObjectUnderCursor(studio, world, low, size);
   }
   drawLegend(studio, low, size);

@@ -46,8 +46,9 @@ struct Studio {
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.
-  enum class Selected { camera, object, light, material };
-  static constexpr std::string_view kSelectedNames[] = {"camera", "object", "light", "material"};
+  enum class Selected { camera, background, object, light, material };
+  static constexpr std::string_view kSelectedNames[] = {"camera", "background", "object", "light",
+                                                        "material"};
   Selected selected = Selected::camera;
   std::size_t selectedIndex = 0;
   unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go

@@ -43,6 +43,11 @@ constexpr int kSettlingFrames = 3;
               "the studio needs a display and OpenGL 3.3; \"ray SCENE\" renders without either");
 }
 
+void limitToMonitor(int& width, int& height) {
+  if (const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor()))
+    width = std::min(width, mode->width), height = std::min(height, mode->height);
+}
+
 }  // namespace
 
 Window::Window(const std::string& title, int width, int height) : state_(std::make_unique<State>()) {
@@ -52,8 +57,7 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  if (const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor()))
-    width = std::min(width, mode->width), height = std::min(height, mode->height);
+  limitToMonitor(width, height);
   state_->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!state_->window) fail("cannot open a window");
   glfwMakeContextCurrent(state_->window);
@@ -128,8 +132,12 @@ void Window::endFrame() {
 
 bool Window::closing() const { return glfwWindowShouldClose(state_->window); }
 void Window::keepOpen() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
+void Window::hide() { glfwHideWindow(state_->window); }
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
-void Window::setSize(int width, int height) { glfwSetWindowSize(state_->window, width, height); }
+void Window::setSize(int width, int height) {
+  limitToMonitor(width, height);
+  glfwSetWindowSize(state_->window, width, height);
+}
 void Window::size(int& width, int& height) const { glfwGetWindowSize(state_->window, &width, &height); }
 
 float Window::contentScale() const {
@@ -141,6 +149,7 @@ float Window::contentScale() const {
   return std::clamp(std::max({x, y, byHeight}), 1.0f, 4.0f);
 }
 
+void Window::drop(const std::string& file) { state_->dropped.push_back(file); }
 std::vector<std::string> Window::takeDropped() { return std::exchange(state_->dropped, {}); }
 
 std::vector<KeyPress> Window::takeKeys() { return std::exchange(state_->keys, {}); }

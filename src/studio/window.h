@@ -31,14 +31,17 @@ class Window {
   void endFrame();
   bool closing() const;
   void keepOpen();  ///< takes back the wish to close
+  void hide();
   void setTitle(const std::string& title);
-  void setSize(int width, int height);
+  void setSize(int width, int height);  ///< at most the monitor's
   void size(int& width, int& height) const;
 
   /// By which everything should be enlarged on this monitor: 1 on a plain one, 2 on most 4K ones.
   float contentScale() const;
   /// Files that were dropped onto the window since the last call.
   std::vector<std::string> takeDropped();
+  /// As if the file were dropped onto the window.
+  void drop(const std::string& file);
   /// Keys that went down since the last call, however short: Dear ImGui 1.86 misses what is up again by the
   /// frame.
   std::vector<KeyPress> takeKeys();

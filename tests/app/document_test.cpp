@@ -1,55 +1,25 @@
-// A document's edits, undo, options and reading again; the background render; what the studio remembers.
+// A document's edits, undo, options and reading again; what the studio remembers.
 #include "app/document.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include "app/folder.h"
 #include "app/picture_views.h"
 #include "app/preferences.h"
-#include "app/workspace.h"
+#include "app/remaining_time.h"
 #include "base/file.h"
+#include "geometry/csg_tree.h"
 #include "image/codec.h"
-#include "support/folder.h"
+#include "support/scene_files.h"
 
 namespace trace::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScene = R"(SBT-raytracer 1.0
-camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
-directional_light { direction=(0,0,-1); color=(1,1,1); }
-settings { depth = 3; }
-sphere { name = "ball"; material = { diffuse = (1,0,0); } }
-)";
-
-class Files : public testing::Test {
- protected:
-  Files() { write("scene.ray", kScene); }
-  std::string path(const std::string& name) const { return folder_ / name; }
-  void write(const std::string& name, const std::string& text) const { writeFile(path(name), text); }
-  /// Writes, with a time that differs from the one before.
-  void rewrite(const std::string& name, const std::string& text) const {
-    const auto before = fs::last_write_time(path(name));
-    write(name, text);
-    fs::last_write_time(path(name), before + std::chrono::seconds(2));
-  }
-
- private:
-  test::Folder folder_;
-};
-
 using DocumentTest = Files;
-using WorkspaceTest = Files;
-
-Scene renamed(Scene scene, const std::string& name) {
-  scene.objects.at(0).name = name;
-  return scene;
-}
 
 TEST_F(DocumentTest, UndoGoesBackThroughEditsOfSceneAndOptionsAndRedoForth) {
   Document document;
@@ -186,12 +156,6 @@ difference { box { } sphere { name = "hole"; } }
   EXPECT_EQ(again.scene().objects.at(1).shape, scene.objects.at(1).shape);
 }
 
-constexpr const char* kAnimated = R"(SBT-raytracer 1.0
-camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
-directional_light { direction=(0,0,-1); color=(1,1,1); }
-translate(key((0, 0), (2, 1)), 0, 0, sphere { name = "ball"; })
-)";
-
 TEST_F(DocumentTest, TheOptionTimeReadsTheSceneOfThatMoment) {
   write("animated.ray", kAnimated);
   Document document;
@@ -244,154 +208,6 @@ TEST_F(DocumentTest, SavingAnAnimatedSceneWarnsThatItsKeysAreNotKept) {
   EXPECT_TRUE(document.save(path("moment.ray")).empty());
 }
 
-// --- the background render ----------------------------------------------------------------------------
-
-void waitFor(BackgroundRender& render) {
-  while (render.state().working()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-}
-
-TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
-  Workspace workspace;
-  ASSERT_TRUE(workspace.open(path("scene.ray"), {{"width", "100", {}}}));
-  waitFor(workspace.render);
-  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
-  Session session;
-  session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
-  session.build();
-  session.render();
-  EXPECT_EQ(workspace.render.picture(), session.picture());
-  ASSERT_TRUE(workspace.savePicture(path("out.png")));
-  session.save(path("expected.png"));
-  EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
-}
-
-TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {
-  Workspace workspace;
-  ASSERT_TRUE(workspace.open(path("scene.ray"), {{"width", "40", {}}}));
-  waitFor(workspace.render);
-  const Picture red = workspace.render.picture();
-  Scene scene = workspace.document.scene();
-  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
-  workspace.document.edit("diffuse", scene);
-  EXPECT_TRUE(workspace.stale());
-  workspace.update();
-  waitFor(workspace.render);
-  EXPECT_FALSE(workspace.stale());
-  EXPECT_NE(workspace.render.picture(), red);
-  workspace.document.undo();
-  workspace.update();
-  waitFor(workspace.render);
-  EXPECT_EQ(workspace.render.picture(), red);
-  const auto number = workspace.render.state().number;
-  workspace.document.choose("threads", "1");
-  workspace.document.choose("rounding", "nearest");
-  workspace.update();
-  EXPECT_EQ(workspace.render.state().number, number);
-  workspace.automatic = false;
-  workspace.document.choose("depth", "1");
-  workspace.update();
-  EXPECT_EQ(workspace.render.state().number, number);
-  EXPECT_TRUE(workspace.stale());
-}
-
-TEST_F(WorkspaceTest, AnEditOfAMaterialKeepsTheTreesOfMeshes) {
-  write("mesh.ray", R"(SBT-raytracer 1.0
-camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
-directional_light { direction=(0,0,-1); color=(1,1,1); }
-polymesh { material = { diffuse = (1,0,0); } points = ((-1,-1,0), (1,-1,0), (0,1,0)); faces = ((0,1,2)); }
-)");
-  Workspace workspace;
-  ASSERT_TRUE(workspace.open(path("mesh.ray"), {{"width", "40", {}}}));
-  waitFor(workspace.render);
-  const auto before = workspace.render.session();
-  Scene scene = workspace.document.scene();
-  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
-  workspace.document.edit("diffuse", scene);
-  workspace.document.choose("depth", "2");
-  workspace.update();
-  waitFor(workspace.render);
-  const auto now = workspace.render.session();
-  ASSERT_NE(now, before);
-  EXPECT_EQ(now->world().meshTree(0), before->world().meshTree(0));
-  EXPECT_EQ(&now->world().hierarchy(), &before->world().hierarchy());
-}
-
-TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
-  Workspace workspace;
-  ASSERT_TRUE(
-      workspace.open(path("scene.ray"), {{"width", "3000", {}}, {"spp", "100", {}}, {"threads", "1", {}}}));
-  while (workspace.render.picture().width == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  workspace.render.stop();
-  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::stopped);
-  EXPECT_EQ(workspace.render.picture().width, 3000);
-  for (int i = 0; i < 20; ++i) {  // each replaces the one before
-    workspace.document.choose("width", std::to_string(200 + i));
-    workspace.update();
-  }
-  workspace.document.choose("spp", "1");
-  workspace.update();
-  waitFor(workspace.render);
-  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
-  EXPECT_EQ(workspace.render.picture().width, 219);
-}
-
-TEST_F(WorkspaceTest, FilesAreReadInTheBackgroundAndTheSceneBeforeStaysIfThatFails) {
-  Workspace workspace;
-  const auto finish = [&] {
-    while (workspace.opening()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    workspace.update();
-  };
-  workspace.openLater(path("scene.ray"));
-  EXPECT_FALSE(workspace.document.isOpen());
-  finish();
-  ASSERT_TRUE(workspace.document.isOpen());
-  EXPECT_EQ(workspace.recent().front(), path("scene.ray"));
-  waitFor(workspace.render);
-  EXPECT_GT(workspace.render.picture().width, 0);
-  workspace.openLater(path("nothing.ray"));
-  finish();
-  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
-  const auto& log = workspace.log();
-  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const Workspace::LogEntry& entry) {
-    return entry.level == Workspace::LogEntry::Level::error;
-  }));
-}
-
-TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
-  Workspace workspace;
-  EXPECT_FALSE(workspace.open(path("nothing.ray")));
-  ASSERT_TRUE(workspace.open(path("scene.ray")));
-  Scene scene = workspace.document.scene();
-  scene.camera.fov = 0;
-  workspace.document.edit("fov", scene);
-  workspace.update();
-  waitFor(workspace.render);
-  workspace.update();
-  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::failed);
-  EXPECT_NE(workspace.log().back().text.find("camera"), std::string::npos);
-  EXPECT_EQ(workspace.log().back().level, Workspace::LogEntry::Level::error);
-  EXPECT_FALSE(workspace.openReference(path("scene.ray")));
-  EXPECT_FALSE(workspace.reference());
-}
-
-TEST_F(WorkspaceTest, FilesOpenedLatelyComeNewestFirstAndOnce) {
-  Workspace workspace;
-  write("b.ray", kScene);
-  workspace.setRecent({"/old"});
-  for (const char* name : {"scene.ray", "b.ray", "scene.ray"}) ASSERT_TRUE(workspace.open(path(name)));
-  EXPECT_EQ(workspace.recent(), (std::vector<std::string>{path("scene.ray"), path("b.ray"), "/old"}));
-}
-
-TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {
-  Picture small(2, 1);
-  small.at(0, 0) = Color(1), small.at(1, 0) = Color(2);
-  const Picture large = enlarged(small, {5, 3});
-  EXPECT_EQ(large.at(0, 0), Color(1));
-  EXPECT_EQ(large.at(2, 2), Color(1));
-  EXPECT_EQ(large.at(3, 0), Color(2));
-  EXPECT_EQ(large.at(4, 2), Color(2));
-}
-
 // --- small things -------------------------------------------------------------------------------------
 
 TEST(Preferences, AreReadAsTheyWereWritten) {
@@ -429,6 +245,14 @@ TEST(PictureViews, ExposureIsInStopsAndZeroStopsAreTheLevelsOfAFile) {
   picture.at(0, 0) = {0.25, 0.5, 2};
   EXPECT_EQ(exposed(picture, 0, Rounding::truncate), toBytes(picture, Rounding::truncate));
   EXPECT_EQ(exposed(picture, 1, Rounding::truncate).rgb, (std::vector<std::uint8_t>{127, 255, 255}));
+}
+
+TEST(PictureViews, WhatIsBrighterThanOneDoesNotDifferFromAFileThatCannotKeepIt) {
+  Picture picture(1, 1);
+  picture.at(0, 0) = {0.25, 1, 2.5};
+  Picture file(1, 1);
+  file.at(0, 0) = {0.25, 1, 1};
+  EXPECT_EQ(differences(clamped(picture), file, 1).at(0, 0), Color(0));
 }
 
 TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {

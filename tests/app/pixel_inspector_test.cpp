@@ -105,6 +105,23 @@ TEST(PixelInspector, ComparesWithThePinnedRaysUntilTheyAreLetGo) {
   EXPECT_TRUE(inspector.pairs().empty());
 }
 
+TEST(PixelInspector, ShowsNothingWhenNoPixelIsWantedAnyMore) {
+  const auto session = sessionOf({.width = 40});
+  PixelInspector inspector;
+  inspector.want(nullptr, 0, 0, 0);
+  EXPECT_FALSE(inspector.busy());
+  inspector.want(session, 20, 20, 0);
+  waitFor(inspector);
+  inspector.pin(true);
+  inspector.want(nullptr, 0, 0, 0);
+  waitFor(inspector);
+  EXPECT_EQ(inspector.traced(), nullptr);
+  EXPECT_NE(inspector.pinned(), nullptr);
+  inspector.want(session, 20, 20, 0);
+  waitFor(inspector);
+  EXPECT_NE(inspector.traced(), nullptr);
+}
+
 TEST(PixelInspector, AnExplanationThatNobodyWantsIsGivenUp) {
   const auto session = sessionOf({.width = 40, .spp = 100});
   int asked = 0;

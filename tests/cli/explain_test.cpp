@@ -87,6 +87,34 @@ TEST_F(Explain, JsonFollowsItsSchemaToTheLastBit) {
   EXPECT_EQ(rays[0]["hit"]["material"]["index"], 1.5);
 }
 
+TEST_F(Explain, NamesTheMaterialThatIsThere) {
+  const std::string scene = folder / "parts.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+difference { name = "holed"; material = { name = "red"; diffuse = (1, 0, 0) };
+  box { }
+  translate(0, 0, 0.25, scale(0.25, 0.25, 9, cylinder { material = { name = "rust"; diffuse = (0.5, 0.2, 0) } })); }
+translate(2, 0, 0, polymesh { name = "mixed"; points = ((-1,-1,0), (1,-1,0), (0,1,0)); faces = ((0,1,2));
+  materials = ({ name = "a"; diffuse = 1 }, { name = "a"; diffuse = 1 }, { name = "b"; diffuse = 0.5 }); })
+)");
+  const std::vector<std::string> command{"explain", scene, "-w", "101", "--pixel"};
+  const auto explain = [&](const char* pixel, const char* format) {
+    std::vector<std::string> words = command;
+    words.insert(words.end(), {pixel, "--format", format});
+    return out(words);
+  };
+  EXPECT_NE(explain("50,50", "text").find("made of rust, at distance"), std::string::npos);
+  EXPECT_NE(explain("58,50", "text").find("made of red, at distance"), std::string::npos);
+  const json object = json::parse(explain("90,52", "json"))["rays"][0]["hit"]["object"];
+  EXPECT_EQ(object["name"], "mixed");
+  ASSERT_GE(object["materials"].size(), 2u) << object;
+  double sum = 0;
+  for (const json& share : object["materials"]) sum += share["weight"].get<double>();
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(object["materials"].back()["name"], "b");
+  EXPECT_EQ(object["material"], "a");
+}
+
 TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
   // The first block of docs/explain.md is what the command above it prints.
   const std::string page = readFile(std::string(TRACE_SOURCE) + "/docs/explain.md");

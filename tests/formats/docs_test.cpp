@@ -29,6 +29,7 @@ TEST(Docs, NameEveryNodeAndField) {
   forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
   forEachType<MaterialModel>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
   expectDocumented<Camera>(text + "`camera`");
+  expectDocumented<Background>(text);
 }
 
 TEST(Docs, TableOfConventionsIsThatOfTheProgram) {

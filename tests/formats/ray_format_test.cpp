@@ -426,6 +426,9 @@ TEST(RayFormat, ReadsBackgroundsAndHorizontalAngles) {
   EXPECT_EQ(bands, (Background{{{1, 0, 0}, Color(0.5)}, {0.25}}));
   EXPECT_EQ(errorsOf("background { colors = (1, 1); limits = (0.5, 0.75); }"),
             "2:12: background: expected one limit less than colors, found 2 and 2");
+  EXPECT_EQ(errorsOf("background { colors = 1; }"),
+            "2:23: colors: expected a list ((red, green, blue), (red, green, blue), ...), found 1");
+  EXPECT_EQ(errorsOf("background { limits = ((1, 2)); }"), "2:24: limits: expected a number, found (1, 2)");
   const Camera wide = load("camera { horizontal_fov = 90; aspectratio = 2; }").scene.camera;
   EXPECT_NEAR(std::tan(wide.fov * kPi / 360), 0.5, 1e-15);
   EXPECT_EQ(errorsOf("camera { horizontal_fov = 180; }"),

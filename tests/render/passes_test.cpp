@@ -129,6 +129,35 @@ TEST(Passes, DepthIsShownFromTheNearestToTheFarthestOrAsTold) {
   EXPECT_EQ(shown(settings), (std::vector<double>{0, (0.375 - 0.25) / 0.75, (0.5 - 0.25) / 0.75, 1}));
 }
 
+TEST(Passes, WhatIsTooNearIsBlackAndWhatIsTooFarIsBackground) {
+  Scene scene = wallOnTheLeft();
+  Settings settings = asking({Pass::depth, Pass::id});
+  for (const bool nearer : {true, false}) {
+    scene.camera.near = nearer ? 4.5 : 0, scene.camera.far = nearer ? kInfinity : 4.5;
+    const std::vector<Picture> all = layers(scene, settings);
+    const Picture shown = passRows()[0].shown(all[0], settings);
+    int seen = 0;
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const Real distance = length({x + 0.5 - 4, y + 0.5 - 4, -4});
+        const bool cut = x < 4 && !(nearer ? distance >= 4.5 : distance <= 4.5);
+        if (cut) {
+          EXPECT_EQ(all[0].at(x, y), Color(nearer ? 0 : kInfinity));
+        }
+        EXPECT_EQ(all[1].at(x, y), Color(x < 4 && !cut ? 2 : 0));
+        if (cut || x >= 4) {
+          EXPECT_EQ(shown.at(x, y), Color(cut && nearer ? 0 : 1));
+        }
+        seen += x < 4 && !cut;
+      }
+    EXPECT_GT(seen, 4);
+  }
+  Picture values(3, 1);
+  values.pixels = {Color(0), Color(2), Color(4)};
+  const Picture shown = passRows()[0].shown(values, {});
+  EXPECT_EQ(shown.pixels, (std::vector<Color>{Color(0), Color(0), Color(1)}));
+}
+
 TEST(Passes, NormalsAreAveragedAndNothingElseIs) {
   // Of 4 x 4 samples in the one pixel, the left half meet the wall; the first does, too.
   Settings settings = asking({Pass::depth, Pass::normal, Pass::id, Pass::uv, Pass::position});

@@ -168,6 +168,88 @@ TEST(RayTree, SaysThatARayLeftTheScene) {
   EXPECT_EQ(sentences(lookingDown(), kOnePixel), std::vector<std::string>{"left the scene: background"});
 }
 
+TEST(RayTree, SaysThatTheCameraSeesNoNearerOrNoFarther) {
+  Scene scene = lookingDown();
+  addObject(scene, Square{}, {}, {});
+  scene.objects[0].name = "sheet";
+  scene.camera.near = 10.5;
+  EXPECT_EQ(sentences(scene, kOnePixel).at(0),
+            "sheet at distance 10 is nearer than the camera's near 10.5: background");
+  scene.camera.near = 1, scene.camera.far = 9;
+  EXPECT_EQ(sentences(scene, kOnePixel).at(0),
+            "sheet at distance 10 is farther than the camera's far 9: background");
+  scene.camera.far = 10;
+  EXPECT_EQ(sentences(scene, kOnePixel).at(0), "opaque: neither mirror nor glass");
+  scene.camera.near = 0, scene.camera.far = 9, scene.objects.clear();
+  EXPECT_EQ(sentences(scene, kOnePixel).at(0), "left the scene: background");
+}
+
+// --- what a hit is made of ----------------------------------------------------------------------------
+
+std::string madeOf(const Scene& scene, int ray = 0) {
+  const RayTree tree = explainPixel(scene, kOnePixel, 0, 0).tree;
+  return materialNames(scene, tree.nodes.at(static_cast<std::size_t>(ray)).materials);
+}
+
+Scene withMaterials(std::initializer_list<const char*> names) {
+  Scene scene = lookingDown();
+  for (const char* name : names) {
+    Phong phong;
+    phong.emissive = Color(static_cast<double>(scene.materials.size() + 1));
+    scene.materials.push_back({name, phong, {}});
+  }
+  return scene;
+}
+
+TEST(RayTree, NamesTheMaterialOfThePartOfASolid) {
+  // The camera looks into a hole that a cylinder of another material has cut.
+  Scene scene = withMaterials({"whole", "block", "drill", ""});
+  const Affine through = Affine::translation({0, 0, 0.25}) * Affine::scaling({0.25, 0.25, 9});
+  const auto holed = [&](std::uint32_t drill) {
+    return Difference{Operands({{"", Cube{}, {}, 1}, {"", Cylinder{}, through, drill}})};
+  };
+  scene.objects.push_back({"", holed(2), {}, 0, {}});
+  EXPECT_EQ(madeOf(scene), "drill");
+  EXPECT_EQ(explainPixel(scene, kOnePixel, 0, 0).tree.nodes[0].hit->material.emissive, Color(3));
+  scene.camera.position.x = 0.4;
+  EXPECT_EQ(madeOf(scene), "block");
+  scene.camera.position.x = 0;
+  scene.objects[0].shape = Union{Operands({{"", holed(3), {}, 0}})};  // however deep
+  EXPECT_EQ(madeOf(scene), "material 4");
+}
+
+TEST(RayTree, NamesTheMaterialsOfATrianglesCornersWithTheirWeights) {
+  Scene scene = withMaterials({"whole", "red", "green", "blue"});
+  auto data = std::make_shared<MeshData>();
+  data->points = {{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}};
+  data->triangles = {{0, 1, 2}};
+  data->materials = {1, 2, 3};
+  scene.objects.push_back({"", Mesh{data}, {}, 0, {}});
+  EXPECT_EQ(madeOf(scene), "red 0.5 + green 0.25 + blue 0.25");
+  data->materials = {1, 2, 1};
+  EXPECT_EQ(madeOf(scene), "red 0.75 + green 0.25");
+  data->materials = {3, 3, 3};
+  EXPECT_EQ(madeOf(scene), "blue");
+  data->materials.clear();
+  EXPECT_EQ(madeOf(scene), "whole");
+}
+
+TEST(RayTree, NamesTheMaterialsOfWhatFiltersOrBlocksAShadowRay) {
+  Scene scene = withMaterials({"floor", "dark", "glass"});
+  std::get<Phong>(scene.materials[0].model).diffuse = Color(1);
+  std::get<Phong>(scene.materials[2].model).transmissive = Color(0.5);
+  scene.objects.push_back({"", Square{}, Affine::scaling({20, 20, 1}), 0, {}});
+  const Affine over = Affine::translation({8, 0, 2});
+  scene.objects.push_back({"", Union{Operands({{"", Cube{}, {}, 2}})}, over, 1, {}});
+  scene.lights.push_back({DirectionalLight{.direction = {-8, 0, -2}, .color = Color(1)}, {}});
+  const RayTree lit = explainPixel(scene, kOnePixel, 0, 0).tree;
+  ASSERT_EQ(lit.nodes.at(1).filters.size(), 2u);
+  EXPECT_EQ(materialNames(scene, lit.nodes[1].filters[0].materials), "glass");
+  std::get<Union>(scene.objects[1].shape) = Union{Operands({{"", Cube{}, {}, 1}})};
+  const RayTree dark = explainPixel(scene, kOnePixel, 0, 0).tree;
+  EXPECT_EQ(materialNames(scene, std::get<Blocked>(dark.nodes.at(1).ends.at(0)).materials), "dark");
+}
+
 TEST(RayTree, SaysWhatBlockedAShadowRay) {
   Scene scene = lookingDown();
   Phong grey;

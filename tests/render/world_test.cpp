@@ -270,6 +270,41 @@ TEST(World, AfterAnEditOnlyWhatChangedIsMadeAnew) {
   EXPECT_TRUE(keepsTrees(readAgain));
 }
 
+TEST(World, AChangedSolidKeepsTheTreesOfItsMeshes) {
+  Random random(8);
+  const std::shared_ptr<const MeshData> ball = ballMesh(12, random);
+  const auto pierced = [&](Real radius) {
+    const Difference inner{
+        Operands({{"", Mesh{ball}, {}, 0}, {"", Cube{}, Affine::scaling({radius, 1, 9}), 0}})};
+    return Union{Operands({{"", inner, {}, 0}, {"", Mesh{ball}, Affine::translation({1, 0, 0}), 0}})};
+  };
+  Scene scene;
+  addObject(scene, pierced(0.2), {}, {});
+  scene.camera.position = {0, 0, 6};
+  scene.lights.push_back({DirectionalLight{.direction = {0, 0, -1}, .color = Color(1)}, {}});
+  std::get<Phong>(scene.materials[0].model).diffuse = Color(1);
+  const Settings settings{.width = 40};
+  const World world = build(scene, settings);
+  const auto treesOf = [](const Shape& shape, const MeshTrees& made) {
+    MeshTrees trees;
+    std::get<Union>(shape).prepared(made)->addMeshTrees(trees);
+    return trees;
+  };
+  const MeshTrees first = treesOf(pierced(0.2), {});
+  EXPECT_EQ(first.size(), 1u);
+  EXPECT_EQ(treesOf(pierced(0.3), first), first);
+  EXPECT_NE(treesOf(pierced(0.3), {}), first);
+
+  Scene other = scene;
+  other.objects[0].shape = pierced(0.3);
+  Messages messages;
+  const Compiled before{scene, settings, world};
+  const auto holders = ball.use_count();
+  const World now = compile(other, settings, messages, &before);
+  EXPECT_EQ(ball.use_count(), holders + 2);  // the two operands, and no new tree
+  EXPECT_EQ(picture(now, settings, other.camera), picture(other, settings));
+}
+
 TEST(World, OptionsThatConcernHierarchiesMakeThemAnew) {
   const Scene scene = sceneToEdit();
   const World world = build(scene, {.width = 60});

@@ -63,4 +63,66 @@ code=0
 "$studio" --script script >log 2>&1 || code=$?
 [[ $code == 1 ]] || fail "a script that fails ends with exit code $code"
 grep -q 'script:1' log || fail "a script that fails does not name its line"
+
+# Files dropped onto the window; from a bad sample to its rays, and through them one by one; a background; themes.
+cat >bad.ray <<'END'
+SBT-raytracer 1.0
+camera { position = (0, 0, 6); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+background { colors = ((0.2, 0.4, 0.8), (0.8, 0.8, 0.9)); limits = (0.7); }
+ambient_light { color = (0.3e308, 0.3, 0.3); }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }
+sphere { material = { emissive = (1.7e308, 0, 0); ambient = 1; diffuse = 0.5; reflective = 0.5 } }
+END
+cat >script <<'END'
+drop scene.ray
+drop plain.png
+set width 160
+wait
+view 4
+drop bad.ray
+set width 40
+wait
+bad 0
+rays
+ray 1
+step 1
+step 1
+step -1
+boxes
+panel Bad samples
+panel Scene
+select background 0
+action Light theme
+action Larger text
+screenshot bad.png
+save-scene saved.ray
+action Quit
+END
+code=0
+"$studio" --script script >log 2>&1 || code=$?
+[[ $code == 0 ]] || fail "the second script ended with exit code $code"
+[[ "$(head -c 4 bad.png | tail -c 3)" == PNG ]] || fail "bad.png was not written"
+grep -q 'limits = (0.7)' saved.ray || fail "the background was not saved"
+echo 'bad 0' >script
+code=0
+"$studio" scene.ray --script script >log 2>&1 || code=$?
+[[ $code == 2 ]] || fail "a script that asks for a bad sample of a good picture ends with exit code $code"
+
+# What was changed is remembered, and `ray` alone opens the window that remembers it.
+if command -v xdotool >/dev/null; then
+  "$(dirname -- "$studio")/ray" >log 2>&1 &
+  program=$!
+  for ((i = 0; i < 100; ++i)); do
+    xdotool search --name '^Trace$' >/dev/null 2>&1 && break
+    sleep 0.1
+  done
+  sleep 1
+  xdotool key --delay 100 ctrl+l
+  sleep 1
+  xdotool key --delay 100 ctrl+q
+  wait "$program" || fail "ray alone does not open a window that closes when asked"
+  grep -q '^theme light' config/trace/studio.txt || fail "the theme is not remembered"
+else
+  echo "SKIPPED: the keys of the window; there is no xdotool"
+fi
 echo "the window opened, rendered, changed, saved and closed"

@@ -1,0 +1,24 @@
+#include "app/edits.h"
+
+#include <algorithm>
+
+namespace trace {
+
+void followEdit(Phong& now, const Phong&, std::string_view keyword) {
+  if (keyword == "reflective") now.mirrorsSpecular = false;
+}
+
+void followEdit(Background& now, const Background& before, std::string_view) {
+  std::vector<Real>& limits = now.limits;
+  const std::size_t wanted = now.colors.empty() ? 0 : now.colors.size() - 1;
+  const bool takenOut = limits.size() < before.limits.size();
+  if (limits.empty() || takenOut || wanted == 0) return limits.clear();
+  if (before.limits.empty()) limits.clear();  // the first: where the bands end now
+  while (limits.size() < wanted && before.limits.empty())
+    limits.push_back(static_cast<Real>(limits.size() + 1) / static_cast<Real>(wanted + 1));
+  while (limits.size() < wanted) limits.push_back((limits.back() + 1) / 2);
+  limits.resize(wanted);
+  for (std::size_t i = 1; i < wanted; ++i) limits[i] = std::max(limits[i], limits[i - 1]);
+}
+
+}  // namespace trace

@@ -1,0 +1,22 @@
+// What else follows when a person has set one field of a struct of the scene by hand.
+#pragma once
+
+#include <string_view>
+
+#include "shading/background.h"
+#include "shading/phong.h"
+
+namespace trace {
+
+/// Called with what the struct was before.
+template <class Struct>
+void followEdit(Struct&, const Struct&, std::string_view) {}
+
+/// Who sets the mirror does not want it to follow the highlight any more.
+void followEdit(Phong& now, const Phong& before, std::string_view keyword);
+
+/// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
+/// limits of their own; who takes a limit out wants equal bands again.
+void followEdit(Background& now, const Background& before, std::string_view keyword);
+
+}  // namespace trace

@@ -1,0 +1,396 @@
+// What the studio does in the background: the picture that follows, files that are read and written while the
+// window goes on.
+#include "app/workspace.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include "image/codec.h"
+#include "support/scene_files.h"
+
+namespace trace::test {
+namespace {
+
+using WorkspaceTest = Files;
+
+void waitFor(BackgroundRender& render) {
+  while (render.state().working()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+/// Until all files are read and written. False if one could not be.
+bool settled(Workspace& workspace) {
+  const std::uint64_t before = workspace.failures();
+  for (; workspace.reading() || workspace.saving(); workspace.update())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return workspace.failures() == before;
+}
+
+bool opened(Workspace& workspace, const std::string& file, std::vector<Choice> commandLine = {}) {
+  workspace.open(file, std::move(commandLine));
+  return settled(workspace);
+}
+
+TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "100", {}}}));
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  Session session;
+  session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
+  session.build();
+  session.render();
+  EXPECT_EQ(workspace.render.picture(), session.picture());
+  workspace.savePicture(path("out.png"));
+  ASSERT_TRUE(settled(workspace));
+  session.save(path("expected.png"));
+  EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
+}
+
+TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  const Picture red = workspace.render.picture();
+  Scene scene = workspace.document.scene();
+  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  workspace.document.edit("diffuse", scene);
+  EXPECT_TRUE(workspace.stale());
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_FALSE(workspace.stale());
+  EXPECT_NE(workspace.render.picture(), red);
+  workspace.document.undo();
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.picture(), red);
+  const auto number = workspace.render.state().number;
+  workspace.document.choose("threads", "1");
+  workspace.document.choose("rounding", "nearest");
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().number, number);
+  workspace.automatic = false;
+  workspace.document.choose("depth", "1");
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().number, number);
+  EXPECT_TRUE(workspace.stale());
+}
+
+TEST_F(WorkspaceTest, AnEditOfAMaterialKeepsTheTreesOfMeshes) {
+  write("mesh.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { direction=(0,0,-1); color=(1,1,1); }
+polymesh { material = { diffuse = (1,0,0); } points = ((-1,-1,0), (1,-1,0), (0,1,0)); faces = ((0,1,2)); }
+)");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("mesh.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  const auto before = workspace.render.session();
+  Scene scene = workspace.document.scene();
+  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  workspace.document.edit("diffuse", scene);
+  workspace.document.choose("depth", "2");
+  workspace.update();
+  waitFor(workspace.render);
+  const auto now = workspace.render.session();
+  ASSERT_NE(now, before);
+  EXPECT_EQ(now->world().meshTree(0), before->world().meshTree(0));
+  EXPECT_EQ(&now->world().hierarchy(), &before->world().hierarchy());
+}
+
+TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"),
+                     {{"width", "3000", {}}, {"spp", "100", {}}, {"threads", "1", {}}}));
+  while (workspace.render.picture().width == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  workspace.render.stop();
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::stopped);
+  EXPECT_EQ(workspace.render.picture().width, 3000);
+  for (int i = 0; i < 20; ++i) {  // each replaces the one before
+    workspace.document.choose("width", std::to_string(200 + i));
+    workspace.update();
+  }
+  workspace.document.choose("spp", "1");
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  EXPECT_EQ(workspace.render.picture().width, 219);
+}
+
+TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
+  Workspace workspace;
+  EXPECT_FALSE(opened(workspace, path("nothing.ray")));
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  Scene scene = workspace.document.scene();
+  scene.camera.fov = 0;
+  workspace.document.edit("fov", scene);
+  workspace.update();
+  waitFor(workspace.render);
+  workspace.update();
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::failed);
+  EXPECT_NE(workspace.log().back().text.find("camera"), std::string::npos);
+  EXPECT_EQ(workspace.log().back().level, Workspace::LogEntry::Level::error);
+  workspace.openReference(path("scene.ray"));
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_FALSE(workspace.reference());
+}
+
+TEST_F(WorkspaceTest, FilesOpenedLatelyComeNewestFirstAndOnce) {
+  Workspace workspace;
+  write("b.ray", kScene);
+  workspace.setRecent({"/old"});
+  for (const char* name : {"scene.ray", "b.ray", "scene.ray"}) ASSERT_TRUE(opened(workspace, path(name)));
+  EXPECT_EQ(workspace.recent(), (std::vector<std::string>{path("scene.ray"), path("b.ray"), "/old"}));
+}
+
+TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {
+  Picture small(2, 1);
+  small.at(0, 0) = Color(1), small.at(1, 0) = Color(2);
+  const Picture large = enlarged(small, {5, 3});
+  EXPECT_EQ(large.at(0, 0), Color(1));
+  EXPECT_EQ(large.at(2, 2), Color(1));
+  EXPECT_EQ(large.at(3, 0), Color(2));
+  EXPECT_EQ(large.at(4, 2), Color(2));
+}
+
+// --- files, in the background -------------------------------------------------------------------------
+
+/// A file that keeps who reads it waiting until it is released; then it is an ordinary one.
+class SlowFile {
+ public:
+  explicit SlowFile(const std::string& path) : path_(path) {
+    std::error_code none;
+    const auto before = std::filesystem::last_write_time(path, none);
+    std::filesystem::remove(path);
+    EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
+    made_ = none ? std::filesystem::last_write_time(path) : before + std::chrono::seconds(2);
+    std::filesystem::last_write_time(path, made_);
+  }
+  ~SlowFile() {
+    if (pipe_ >= 0) ::close(pipe_);
+  }
+  SlowFile(const SlowFile&) = delete;
+  SlowFile& operator=(const SlowFile&) = delete;
+
+  void awaitReader() {
+    while (pipe_ < 0) {
+      pipe_ = ::open(path_.c_str(), O_WRONLY | O_NONBLOCK);  // refused as long as nobody reads
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  void release(const std::string& text) {
+    awaitReader();
+    EXPECT_EQ(::write(pipe_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ::close(std::exchange(pipe_, -1));
+    std::filesystem::remove(path_);
+    writeFile(path_, text);
+    std::filesystem::last_write_time(path_, made_);  // has not changed since it was read
+  }
+
+ private:
+  std::string path_;
+  std::filesystem::file_time_type made_;
+  int pipe_ = -1;
+};
+
+/// What the ball of kScene or kAnimated is called, or where it is.
+std::string nameOf(const Workspace& workspace) { return workspace.document.scene().objects.at(0).name; }
+Real xOf(const Workspace& workspace) {
+  return workspace.document.scene().objects.at(0).worldFromObject.offset.x;
+}
+std::string sceneWith(const std::string& name) {
+  std::string text = kScene;
+  return text.replace(text.find("ball"), 4, name);
+}
+
+TEST_F(WorkspaceTest, ASceneIsOpenedInTheBackgroundAndTheOneBeforeStaysIfThatFails) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  SlowFile slow(path("slow.ray"));
+  workspace.open(path("slow.ray"), {{"width", "30", {}}});
+  workspace.update();
+  EXPECT_TRUE(workspace.reading());
+  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
+  workspace.document.choose("depth", "1");  // the window goes on
+  slow.release(sceneWith("moon"));
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.file(), path("slow.ray"));
+  EXPECT_EQ(workspace.recent().front(), path("slow.ray"));
+  EXPECT_EQ(nameOf(workspace), "moon");
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.picture().width, 30);
+
+  EXPECT_FALSE(opened(workspace, path("nothing.ray")));
+  EXPECT_EQ(workspace.document.file(), path("slow.ray"));
+  const auto& log = workspace.log();
+  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const Workspace::LogEntry& entry) {
+    return entry.level == Workspace::LogEntry::Level::error &&
+           entry.text.find("nothing") != std::string::npos;
+  }));
+}
+
+TEST_F(WorkspaceTest, OfSeveralFilesTheLastIsOpened) {
+  Workspace workspace;
+  SlowFile slow(path("slow.ray"));
+  workspace.open(path("slow.ray"));
+  slow.awaitReader();
+  for (const char* name : {"nothing.ray", "scene.ray"}) workspace.open(path(name));
+  slow.release(kScene);
+  settled(workspace);
+  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
+}
+
+TEST_F(WorkspaceTest, AChangeOnDiskIsReadInTheBackgroundAndDestroysNoEdit) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  SlowFile slow(path("scene.ray"));
+  for (; !workspace.reading(); workspace.update()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  workspace.document.edit("name", renamed(workspace.document.scene(), "moon"));
+  workspace.document.choose("depth", "7");
+  slow.release(sceneWith("star"));
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(nameOf(workspace), "star");
+  EXPECT_EQ(workspace.document.settings().depth, 7);
+  workspace.undo();
+  EXPECT_EQ(nameOf(workspace), "moon");
+}
+
+TEST_F(WorkspaceTest, ADraggedTimeIsShownAtOnceAndReadInTheBackgroundAsOneStep) {
+  write("scene.ray", kAnimated);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  SlowFile slow(path("scene.ray"));
+  workspace.choose("time", "0.5");
+  workspace.choose("time", "1", true);
+  workspace.document.choose("depth", "7");
+  workspace.choose("time", "2", true);
+  EXPECT_EQ(workspace.chosenSettings().time, 2);
+  EXPECT_EQ(workspace.chosenSettings().depth, 7);
+  EXPECT_EQ(workspace.document.settings().time, 0);
+  EXPECT_EQ(xOf(workspace), 0);
+  slow.release(kAnimated);
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.settings().time, 2);
+  EXPECT_EQ(workspace.document.settings().depth, 7);
+  EXPECT_EQ(xOf(workspace), 1);
+  workspace.undo();
+  EXPECT_EQ(xOf(workspace), 0);
+  EXPECT_EQ(workspace.undoName(), "depth");
+  EXPECT_THROW(workspace.choose("time", "soon"), Error);
+  EXPECT_FALSE(workspace.reading());
+}
+
+TEST_F(WorkspaceTest, UndoTakesATimeBackThatIsStillBeingRead) {
+  write("scene.ray", kAnimated);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  SlowFile slow(path("scene.ray"));
+  workspace.choose("time", "2");
+  EXPECT_EQ(workspace.undoName(), "time");
+  workspace.undo();
+  EXPECT_EQ(workspace.undoName(), "");
+  slow.release(kAnimated);
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.settings().time, 0);
+  EXPECT_EQ(xOf(workspace), 0);
+}
+
+TEST_F(WorkspaceTest, ATimeThatCannotBeReadStaysWhatItWas) {
+  write("scene.ray", kAnimated);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  std::filesystem::remove(path("scene.ray"));
+  workspace.choose("time", "2");
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_EQ(workspace.chosenSettings().time, 0);
+  EXPECT_FALSE(workspace.document.canUndo());
+}
+
+TEST_F(WorkspaceTest, AReferenceIsLoadedInTheBackground) {
+  Picture picture(3, 2);
+  picture.at(1, 1) = Color(1);
+  writePicture(path("ordinary.png"), picture, Rounding::nearest);
+  SlowFile slow(path("slow.png"));
+  Workspace workspace;
+  workspace.openReference(path("slow.png"));
+  workspace.update();
+  EXPECT_FALSE(workspace.reference());
+  slow.release(readFile(path("ordinary.png")));
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.reference(), picture);
+  EXPECT_EQ(workspace.referenceFile(), path("slow.png"));
+}
+
+TEST_F(WorkspaceTest, WhatIsBeingSavedIsSavedWhenTheWindowCloses) {
+  {
+    Workspace workspace;
+    ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "900", {}}}));
+    waitFor(workspace.render);
+    for (const char* name : {"a.png", "b.png", "c.png"}) workspace.savePicture(path(name));
+    workspace.document.edit("name", renamed(workspace.document.scene(), "moon"));
+    workspace.saveScene(path("saved.ray"));
+    EXPECT_TRUE(workspace.saving());
+  }
+  for (const char* name : {"a.png", "b.png", "c.png"}) EXPECT_EQ(readPicture(path(name)).width, 900) << name;
+  EXPECT_NE(readFile(path("saved.ray")).find("moon"), std::string::npos);
+}
+
+TEST_F(WorkspaceTest, ASavedSceneIsWhatWasThereThenAndIsNotReadAgain) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  workspace.document.edit("name", renamed(workspace.document.scene(), "moon"));
+  workspace.saveScene(path("scene.ray"));
+  workspace.document.edit("name", renamed(workspace.document.scene(), "star"));  // while it is written
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_NE(readFile(path("scene.ray")).find("moon"), std::string::npos);
+  EXPECT_TRUE(workspace.document.edited());
+  workspace.undo();
+  EXPECT_FALSE(workspace.document.edited());
+  const auto readings = workspace.document.readings();
+  for (int i = 0; i < 60; ++i, workspace.update()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(workspace.document.readings(), readings);
+
+  workspace.saveScene(path("no/such/folder.ray"));
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
+  workspace.saveScene(path("late.ray"));
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));  // another document by then
+  EXPECT_EQ(workspace.document.file(), path("scene.ray"));
+}
+
+TEST(BackgroundTask, DoesAllJobsInTurnOrOnlyTheNewest) {
+  std::vector<int> done;
+  {
+    BackgroundTask<int> all(Jobs::all);
+    for (int i = 0; i < 5; ++i)
+      all.start([&done, i](const Cancelled& cancelled) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        EXPECT_FALSE(cancelled());
+        return done.push_back(i), i;
+      });
+    while (!all.take()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(all.pending());
+  }
+  EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
+
+  BackgroundTask<int> newest;
+  for (int i = 0; i < 5; ++i)
+    newest.start([i](const Cancelled&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return i;
+    });
+  while (newest.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(newest.pending());
+  EXPECT_EQ(newest.take(), 4);
+  EXPECT_FALSE(newest.pending());
+}
+
+}  // namespace
+}  // namespace trace::test
