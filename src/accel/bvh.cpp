@@ -234,7 +234,7 @@ struct Bvh::Builder {
     std::array<float, 8> cost;
     std::array<std::uint8_t, 9> left;
   };
-  std::vector<Forests> forests;
+  std::vector<Forests> forests{};
 
   /// Ylitie, Karras and Laine 2017, Efficient incoherent ray traversal on GPUs through compressed wide BVHs,
   /// section 3: from the leaves up, the cheapest forest of each size.
