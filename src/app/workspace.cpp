@@ -115,9 +115,10 @@ void Workspace::reset(const std::string& option) {
 /// One change after the other, of which the last counts: a time that is dragged, the file that changes.
 void Workspace::want(Document::Change change) {
   if (wanted_) {
-    if (change.option.empty()) change = *wanted_;
-    change.anew = change.anew || wanted_->anew;
-    change.continues = change.continues && wanted_->continues;
+    const bool anew = change.anew || wanted_->anew;
+    const bool continues = change.continues && wanted_->continues;
+    if (change.option.empty()) change.option = wanted_->option, change.value = wanted_->value;
+    change.continues = continues, change.anew = anew;
   }
   wanted_ = change;
   rereading_.start([change, number = ++wantedNumber_, source = document.source(change)](const Cancelled&) {

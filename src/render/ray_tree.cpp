@@ -20,9 +20,9 @@ bool same(const Color& a, const Color& b) {
 }
 
 /// For the eye.
-std::string shortText(Real x) {
+std::string shortText(Real x, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
   return text;
 }
 
@@ -49,7 +49,7 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
   return match(end,
                Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
                           [&](const CutOff& e) {
-                            return objectName(scene, e.object) + " at distance " + toText(e.t) +
+                            return objectName(scene, e.object) + " at distance " + shortText(e.t, 6) +
                                    (e.t < e.limit ? " is nearer than the camera's near "
                                                   : " is farther than the camera's far ") +
                                    toText(e.limit) + ": background";
@@ -146,7 +146,7 @@ std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& 
   std::string text;
   for (const MaterialShare& share : materials) {
     text += (text.empty() ? "" : " + ") + nameOf(scene.materials[share.material], share.material);
-    if (materials.size() > 1) text += " " + shortText(share.weight);
+    if (materials.size() > 1) text += " " + shortText(share.weight, 3);
   }
   return text;
 }

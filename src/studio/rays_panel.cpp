@@ -77,18 +77,11 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   if (ImGui::Button("All")) view.step = -1;
 }
 
-void drawTree(Studio& studio, const TracedPixel& pixel) {
+/// With so much room left free below it.
+void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
-  std::vector<int> rows;
-  int below = -1;  // the level of a closed node whose children are passed over
-  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    if (below >= 0 && pixel.level[n] > below) continue;
-    below = view.closed[n] ? pixel.level[n] : -1;
-    if (view.inStep(i)) rows.push_back(i);
-  }
-  if (!ImGui::BeginTable("tree", 4, kTableFlags)) return;
+  if (!ImGui::BeginTable("tree", 4, kTableFlags, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
@@ -133,6 +126,7 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
         view.selected = i;
       if (overRow || ImGui::IsItemHovered()) {
         view.hovered = i;
+        if (ImGui::IsMouseDoubleClicked(0)) studio.raysTab = "Ray";
         ImGui::SetTooltip("%s", sentence(node, pixel.scene()).c_str());
       }
       ImGui::TableNextColumn();
@@ -144,6 +138,29 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
       ImGui::PopID();
     }
   ImGui::EndTable();
+}
+
+void drawTree(Studio& studio, const TracedPixel& pixel) {
+  RaysView& view = studio.rays;
+  const std::vector<RayNode>& nodes = pixel.tree().nodes;
+  std::vector<int> rows;
+  int below = -1;  // the level of a closed node whose children are passed over
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    if (below >= 0 && pixel.level[n] > below) continue;
+    below = view.closed[n] ? pixel.level[n] : -1;
+    if (view.inStep(i)) rows.push_back(i);
+  }
+  const bool any = view.selected >= 0;
+  drawTreeTable(studio, pixel, rows, any ? ImGui::GetFrameHeightWithSpacing() : 0);
+  if (!any) return;
+  if (ImGui::Button("Numbers")) studio.raysTab = "Ray";
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("all that is known of the selected ray (double click on its row)");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(textColour(studio, pixel, view.selected), "%s",
+                     sentence(nodeAt(pixel.tree(), view.selected), pixel.scene()).c_str());
 }
 
 void drawBoxes(Studio& studio) {
