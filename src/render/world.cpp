@@ -67,10 +67,14 @@ Phong World::material(const Found& found) const {
     return mix(at(0), at(1), at(2), found.triangle.b);
   }
   return match(instance.shape, [&](const auto& shape) -> Phong {
-    if constexpr (requires { formOf(shape).material(std::int64_t{}); })
-      return materials_[formOf(shape).material(static_cast<std::int64_t>(found.part))];
-    else
+    if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
+      const MaterialShare of =
+          formOf(shape).material(static_cast<std::int64_t>(found.part), instance.material);
+      const Phong &a = materials_[of.first], &b = materials_[of.second];
+      return of.share > 0 ? mix(a, b, b, {1 - of.share, of.share, 0}) : a;
+    } else {
       return materials_[instance.material];
+    }
   });
 }
 
@@ -239,7 +243,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      },
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
-                       if constexpr (requires { formOf(shape).material(std::int64_t{}); }) {
+                       if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
                          std::vector<std::uint32_t> materials;
                          formOf(shape).addMaterials(materials);
                          for (std::uint32_t m : materials)
