@@ -4,7 +4,7 @@
 #
 #   shapes.sh BIN OUT [--size PIXELS] [--runs N]
 #
-# BIN holds ray and bench_difference; OUT gets NAME.ray, NAME.pov, NAME-ray.png and NAME-pov.png.
+# BIN holds ray; OUT gets NAME.ray, NAME.pov, NAME-ray.png and NAME-pov.png.
 set -euo pipefail
 export LC_ALL=C
 
@@ -76,7 +76,7 @@ timed() {  # appends CPU seconds to the file named first
   awk '{ print $1 + $2 }' "$series.time" >>"$series.cpu"
 }
 
-echo "CPU seconds of the whole program, ${size}x$size, one thread; last, how far apart the pictures are (mean levels, share"
+echo "CPU seconds of the whole program, ${size}x$size, one thread; last, how far apart the pictures are (mean levels, values"
 echo "beyond 8 levels)"
 echo
 echo "| shape          |    ray | POV-Ray | ray / POV-Ray | pictures differ |"
@@ -89,6 +89,7 @@ for scene in torus thin_torus superellipsoid lathe prism sphere_sweep metaballs 
   done
   a="$(median "$scene-ray.cpu")" b="$(median "$scene-pov.cpu")"
   printf '| %-14s | %6.3f | %7.3f | %13s | %15s |\n' "$scene" "$a" "$b" \
-    "$(awk -v a="$a" -v b="$b" 'BEGIN { printf "%.2f", a / b }')" "$("$bin/bench_difference" "$scene-ray.png" "$scene-pov.png")"
+    "$(awk -v a="$a" -v b="$b" 'BEGIN { printf "%.2f", a / b }')" "$({ "$bin/ray" diff --print mean,beyond --tolerance 8 "$scene-ray.png" "$scene-pov.png" || (($? == 1)); } |
+      awk '{ printf "%.3f %.3f %%", $1, $2 }')"
   rm -f "$scene"-{ray,pov}.{cpu,log,time}
 done

@@ -400,9 +400,6 @@ class Reader {
         findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
       }
     }
-    if constexpr (std::is_same_v<S, Puff>)
-      if (shape.materials.empty())
-        shape.materials = {{materials_.index(clear()), materials_.index(material)}};
     if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
     if constexpr (requires { shape.prepared(); }) {
       if (findings_.errors() != errors) return;  // what is wrong is said
@@ -434,16 +431,6 @@ class Reader {
       return true;
     }
     return false;
-  }
-
-  /// What is seen through as if it were not there.
-  static Material clear() {
-    Phong phong;
-    phong.ambient = phong.diffuse = phong.specular = phong.reflective = phong.emissive = Color(0);
-    phong.transmissive = Color(1), phong.index = 1;
-    Material material;
-    material.model = phong;
-    return material;
   }
 
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "math/vec.h"
@@ -13,6 +14,9 @@ namespace trace {
 
 /// Indices into Scene::materials, and how much the second counts, from 0 to 1.
 struct MaterialShare {
+  static constexpr std::uint32_t kClear =
+      std::numeric_limits<std::uint32_t>::max();  ///< as if nothing were there
+
   std::uint32_t first = 0, second = 0;
   Real share = 0;
 };

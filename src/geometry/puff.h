@@ -44,10 +44,13 @@ struct Puff {
 
   std::int64_t partCount() const { return kLevels; }
   MaterialShare material(std::int64_t part, std::uint32_t own) const {
-    if (materials.empty()) return {own, own, 0};
-    return materials.at(static_cast<Real>(part) / static_cast<Real>(kLevels - 1));
+    const Real share = static_cast<Real>(part) / static_cast<Real>(kLevels - 1);
+    return materials.empty() ? MaterialShare{MaterialShare::kClear, own, share} : materials.at(share);
   }
-  void addMaterials(std::vector<std::uint32_t>& all) const { materials.addTo(all); }
+  void addMaterials(std::vector<std::uint32_t>& all) const {
+    materials.addTo(all);
+    if (materials.empty()) all.push_back(MaterialShare::kClear);
+  }
 
  private:
   static constexpr std::int64_t kLevels = 1 << 16;

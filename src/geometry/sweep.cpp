@@ -221,10 +221,7 @@ TracedProfileSweep::TracedProfileSweep(const Sweep& shape) {
   std::erase_if(arcs, [](const PathArc& arc) {
     return slopeOf(arc, 0) == Vec3{} && slopeOf(arc, 0.5) == Vec3{} && slopeOf(arc, 1) == Vec3{};
   });
-  if (profile.arcs.empty())
-    throw Error(Fault::scene, "the profile of a sweep has too few points for its spline");
-  if (arcs.empty())
-    throw Error(Fault::scene, "the path of a sweep has too few points for its spline, or no length");
+  if (profile.arcs.empty() || arcs.empty()) return;
   const Path path(shape, std::move(arcs));
   across_ = profile.arcs.size(), along_ = path.pieces.size();
   constexpr std::size_t kMostPatches = 1'000'000;

@@ -49,7 +49,7 @@ struct Sweep {
   }
   bool operator==(const Sweep&) const = default;
 
-  /// Throws Error for a path or profile without length, and for too many patches.
+  /// Throws Error for too many patches. Without length of path or profile it is empty.
   std::shared_ptr<const TracedProfileSweep> prepared() const;
 };
 

@@ -56,6 +56,21 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   return transformed(s, instance.worldFromObject, instance.objectFromWorld);
 }
 
+namespace {
+
+/// What is seen through as if it were not there.
+const Phong& clear() {
+  static const Phong kClear = [] {
+    Phong phong;
+    phong.emissive = phong.ambient = phong.diffuse = phong.specular = phong.reflective = Color(0);
+    phong.transmissive = Color(1);
+    return phong;
+  }();
+  return kClear;
+}
+
+}  // namespace
+
 Phong World::material(const Found& found) const {
   const Instance& instance = objects_[found.object];
   if (instance.mesh && !instance.mesh->data().materials.empty()) {
@@ -70,7 +85,10 @@ Phong World::material(const Found& found) const {
     if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
       const MaterialShare of =
           formOf(shape).material(static_cast<std::int64_t>(found.part), instance.material);
-      const Phong &a = materials_[of.first], &b = materials_[of.second];
+      const auto at = [&](std::uint32_t index) -> const Phong& {
+        return index == MaterialShare::kClear ? clear() : materials_[index];
+      };
+      const Phong &a = at(of.first), &b = at(of.second);
       return of.share > 0 ? mix(a, b, b, {1 - of.share, of.share, 0}) : a;
     } else {
       return materials_[instance.material];
@@ -247,7 +265,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                          std::vector<std::uint32_t> materials;
                          formOf(shape).addMaterials(materials);
                          for (std::uint32_t m : materials)
-                           if (world.materials_.at(m).transmits()) instance.opaque = false;
+                           if (m == MaterialShare::kClear || world.materials_.at(m).transmits())
+                             instance.opaque = false;
                        }
                      }});
     if (invertible(object.worldFromObject)) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "support/shapes.h"
 
 namespace trace::test {
@@ -85,15 +84,15 @@ TEST(Sweep, OpenOnesAreSheets) {
   EXPECT_FALSE(isSolid(sweep));
 }
 
-TEST(Sweep, RefusesWhatHasNoLength) {
+TEST(Sweep, IsEmptyWithoutLength) {
   Sweep sweep;
   sweep.points = {{1, 1, 1, 1}};
-  EXPECT_THROW(sweep.prepared(), Error);
+  EXPECT_TRUE(boundsOf(prepare(Shape(sweep))).empty());
   sweep.spline = Spline::linear, sweep.points = {{1, 1, 1, 1}, {1, 1, 1, 2}};
-  EXPECT_THROW(sweep.prepared(), Error);
+  EXPECT_EQ(crossingsOf(sweep, {{0, 1, 1}, {1, 0, 0}}).size(), 0u);
   Sweep profile;
   profile.profile = {};
-  EXPECT_THROW(profile.prepared(), Error);
+  EXPECT_TRUE(boundsOf(prepare(Shape(profile))).empty());
 }
 
 }  // namespace
