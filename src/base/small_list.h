@@ -19,6 +19,12 @@ class SmallList {
       few_[count_] = item;
     ++count_;
   }
+  /// Takes the last away. Precondition: not empty.
+  T take() {
+    const T last = all()[--count_];
+    if (count_ >= kFew) many_.pop_back();
+    return last;
+  }
   std::size_t size() const { return count_; }
   std::span<T> all() { return {count_ > kFew ? many_.data() : few_.data(), count_}; }
 

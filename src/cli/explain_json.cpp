@@ -61,6 +61,8 @@ class Writer {
   }
 
  private:
+  static bool isClear(const MaterialShare& share) { return share.material == MaterialMix::kClear; }
+
   /// `materials`: of the place on it that was met. The one of the object as a whole may be another.
   ordered_json object(std::uint32_t index, const std::vector<MaterialShare>& materials) const {
     const Object& o = scene_.objects[index];
@@ -69,14 +71,14 @@ class Writer {
                          [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
     ordered_json shares = ordered_json::array();
     for (const MaterialShare& share : materials)
-      shares.push_back({{"index", share.material},
-                        {"name", scene_.materials[share.material].name},
+      shares.push_back({{"index", isClear(share) ? ordered_json() : ordered_json(share.material)},
+                        {"name", isClear(share) ? "clear" : scene_.materials[share.material].name},
                         {"weight", share.weight}});
     return {{"index", index},
             {"name", o.name},
             {"shape", match(o.shape, [](const auto& s) { return s.kKeyword; })},
             {"place", toJson(o.place)},
-            {"material", scene_.materials[most->material].name},
+            {"material", shares[static_cast<std::size_t>(most - materials.begin())]["name"]},
             {"materials", shares}};
   }
 

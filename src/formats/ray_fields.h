@@ -120,7 +120,9 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   forEachField<Struct>([&](const auto& f) {
     if (f.keyword != key) return;
     found = true;
-    if constexpr (!requires { (target.*f.member).list(); })  // objects are read as objects
+    // Objects are read as objects, materials as materials.
+    if constexpr (
+        !requires { (target.*f.member).list(); } && !requires { (target.*f.member).indices; })
       read(findings, f.keyword, field.value(), target.*f.member);
   });
   return found;

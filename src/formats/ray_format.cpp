@@ -395,6 +395,7 @@ class Reader {
         material = materials_.read(item.value(), materials_.current);
       } else if (item.key() == "name") {
         rayfile::read(findings_, "name", item.value(), name);
+      } else if (readMaterials(shape, item, material)) {
       } else if (!assignField(findings_, shape, item)) {
         findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
       }
@@ -413,6 +414,23 @@ class Reader {
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
+  template <class S>
+  bool readMaterials(S& shape, const Item& item, const Material& own) {
+    if constexpr (requires { shape.materials.indices; }) {
+      if (item.key() != "materials") return false;
+      std::vector<std::uint32_t> list;
+      if (!item.value().is(Kind::tuple))
+        findings_.expected(item.value(), "materials",
+                           "a list of materials, as in (gold, { diffuse = (1, 0, 0); })");
+      else
+        for (const Item one : item.value()) list.push_back(materials_.index(materials_.read(one, own)));
+      shape.materials.indices = std::move(list);
+      return true;
+    }
+    return false;
   }
 
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.

@@ -174,6 +174,10 @@ class MeshReader {
       ++count;
     }
     if (count < 3) return findings_.expected(face, name, "at least 3 points"), false;
+    const std::size_t triangles = count - 2;
+    if (triangles > 1)
+      data_.polygons.push_back({static_cast<std::uint32_t>(data_.triangles.size() - triangles),
+                                static_cast<std::uint32_t>(triangles)});
     return true;
   }
 

@@ -25,6 +25,13 @@ bool MeshOperations::read(Findings& findings, const Item& field) {
     if (!uv) findings.expected(field.value(), key, "spherical, cylindrical, planar or cubic");
     return true;
   }
+  if (key == "scheme") {
+    const bool word = field.value().is(Kind::word);
+    catmullClark = word && field.value().text() == "catmull_clark";
+    if (!catmullClark && !(word && field.value().text() == "loop"))
+      findings.expected(field.value(), key, "loop or catmull_clark");
+    return true;
+  }
   if (key != "subdivide") return false;
   if (!rayfile::read(findings, key, field.value(), number)) return true;
   if (number >= 0 && number <= 10 && number == std::floor(number))
@@ -35,12 +42,16 @@ bool MeshOperations::read(Findings& findings, const Item& field) {
 }
 
 MeshData MeshOperations::apply(const MeshData& mesh, const Place& place) const {
-  const std::size_t most = kMostTriangles >> (2 * subdivide);
+  // A polygon of n triangles becomes 2 (n + 2) at the first level of Catmull and Clark's.
+  const std::size_t extra = catmullClark && subdivide > 0 ? 3 : 1;
+  const std::size_t most = (kMostTriangles >> (2 * subdivide)) * (extra > 1 ? 2 : 1) / extra;
   if (mesh.triangles.size() > most)
     throw Error(Fault::limit, place,
                 "subdivide: expected a mesh that gets at most 50 million triangles, found one of " +
                     std::to_string(mesh.triangles.size()) + " before");
-  MeshData result = subdivide > 0 ? subdivided(mesh, subdivide) : mesh;
+  MeshData result = subdivide == 0 ? mesh
+                    : catmullClark ? subdividedByCatmullClark(mesh, subdivide)
+                                   : subdivided(mesh, subdivide);
   if (subdivide > 0) {
     dropDegenerate(result);
     result.generateNormals = crease < 0;

@@ -15,12 +15,13 @@
 namespace trace::rayfile {
 
 struct MeshOperations {
-  static constexpr std::array<std::string_view, 3> kFields{"crease", "subdivide", "uv"};
+  static constexpr std::array<std::string_view, 4> kFields{"crease", "scheme", "subdivide", "uv"};
   /// More triangles than this are not made.
   static constexpr std::size_t kMostTriangles = 50'000'000;
 
   double crease = -1;  ///< degrees; below 0 for none
   int subdivide = 0;
+  bool catmullClark = false;  ///< polygons into quadrangles; else triangles into triangles
   std::optional<UvProjection> uv;
 
   auto operator<=>(const MeshOperations&) const = default;

@@ -54,6 +54,10 @@ class Writer {
   }
   /// They stand in the block, after the material, which they would inherit.
   void field(std::string_view, const Operands&) {}
+  void field(std::string_view keyword, const MaterialList& materials) {
+    if (!materials.empty())
+      list(keyword, materials.indices, [&](std::uint32_t material) { writeMaterial(material); });
+  }
 
   /// The objects that the shape is made of; none for most.
   template <class Visit>

@@ -211,7 +211,19 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
   });
 }
 
+bool TracedPatches::onEdge(std::int64_t part) {
+  constexpr std::int64_t kLast = (1 << kStepBits) - 1;
+  const std::int64_t u = (part >> kStepBits) & kLast, v = part & kLast;
+  return u <= 1 || v <= 1 || u >= kLast - 1 || v >= kLast - 1;
+}
+
 SurfacePoint TracedPatches::surface(const Ray& ray, const Crossing& crossing) const {
+  SurfacePoint s = place(ray, crossing);
+  if (dot(s.normal, ray.direction) > 0) s.normal = s.shading = -s.normal;
+  return s;
+}
+
+SurfacePoint TracedPatches::place(const Ray& ray, const Crossing& crossing) const {
   const Patch& patch = patches_[static_cast<std::size_t>(crossing.part >> (2 * kStepBits))];
   constexpr std::int64_t kMask = (1 << kStepBits) - 1;
   const auto coordinate = [](std::int64_t step) { return std::ldexp(static_cast<Real>(step), -kStepBits); };
@@ -235,7 +247,6 @@ SurfacePoint TracedPatches::surface(const Ray& ray, const Crossing& crossing) co
   }
   n = normalize(n);
   if (!isFinite(n)) n = normalize(-ray.direction);
-  if (dot(n, ray.direction) > 0) n = -n;
   return {s.at, {error_, error_, error_}, n, n, {r.u, r.v}};
 }
 

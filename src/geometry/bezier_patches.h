@@ -60,8 +60,13 @@ class TracedPatches {
   bool solid() const { return false; }
   Box3 bounds() const { return bounds_; }
   void crossings(const Ray& ray, VisitCrossing visit) const;
-  /// u and v are those of the patch.
+  /// u and v are those of the patch; the normal is turned to the ray.
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
+  /// As surface(), but the normal is that of the patch: along u across along v.
+  SurfacePoint place(const Ray& ray, const Crossing& crossing) const;
+  /// Of a part: its patch, and whether it lies on an edge of that.
+  static std::size_t patchOf(std::int64_t part) { return static_cast<std::size_t>(part >> (2 * kStepBits)); }
+  static bool onEdge(std::int64_t part);
   std::int64_t partCount() const { return static_cast<std::int64_t>(patches_.size()) << (2 * kStepBits); }
 
  private:

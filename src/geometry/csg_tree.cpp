@@ -182,24 +182,23 @@ SurfacePoint CsgTree::surface(const Ray& ray, const Crossing& crossing) const {
   return s;
 }
 
-std::uint32_t CsgTree::material(std::int64_t part) const {
+MaterialMix CsgTree::material(std::int64_t part, std::uint32_t) const {
   const auto count = static_cast<std::int64_t>(operands_.size());
   const auto operand = static_cast<std::size_t>(part % count);
-  return match(operands_[operand].shape(), [&](const auto& form) {
-    if constexpr (requires { formOf(form).material(part); })
-      return formOf(form).material(part / count);
+  const std::uint32_t own = materials_[operand];
+  return match(operands_[operand].shape(), [&](const auto& form) -> MaterialMix {
+    if constexpr (requires { formOf(form).material(part, own); })
+      return formOf(form).material(part / count, own);
     else
-      return materials_[operand];
+      return MaterialMix::only(own);
   });
 }
 
 void CsgTree::addMaterials(std::vector<std::uint32_t>& materials) const {
   for (std::size_t i = 0; i < operands_.size(); ++i) {
+    materials.push_back(materials_[i]);
     match(operands_[i].shape(), [&](const auto& form) {
-      if constexpr (requires { formOf(form).addMaterials(materials); })
-        formOf(form).addMaterials(materials);
-      else
-        materials.push_back(materials_[i]);
+      if constexpr (requires { formOf(form).addMaterials(materials); }) formOf(form).addMaterials(materials);
     });
   }
 }

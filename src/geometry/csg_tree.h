@@ -16,6 +16,7 @@
 #include "base/small_list.h"
 #include "geometry/csg.h"
 #include "geometry/line_tree.h"
+#include "geometry/materials.h"
 #include "geometry/placed.h"
 
 namespace trace {
@@ -44,8 +45,8 @@ class CsgTree {
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
 
   std::int64_t partCount() const { return partCount_; }
-  /// Of the operand, however deep, that the part belongs to: an index into Scene::materials.
-  std::uint32_t material(std::int64_t part) const;
+  /// Of the operand, however deep, that the part belongs to.
+  MaterialMix material(std::int64_t part, std::uint32_t own) const;
   /// Of all operands, however deep.
   void addMaterials(std::vector<std::uint32_t>& materials) const;
   /// Those of its operands that are meshes, however deep.

@@ -17,7 +17,7 @@ namespace trace {
 /// Step gives
 ///   radius()                what is farther out has escaped
 ///   half()                  half the width of the box
-///   iterations(), trap()
+///   iterations(), trap(), colored(): does a crossing tell how near its orbit came, as a TrapPart?
 ///   start(p), constant(p)   w and c of a place p; of which shareOfPlace(), 0 or 1, is how c follows p
 ///   unit()                  the length in the orbit's space of one in that of the ray
 ///   step(w)                 an Affine: its offset is f(w), its linear part the derivative
@@ -51,21 +51,24 @@ class EscapeSearch {
       return Along<Interval>{signs(ray.at(0.5 * (t.low + t.high)), radius), Interval::everything()};
     };
     const auto at = [&](Real t) { return excess(ray.at(t), ray.direction); };
-    if (in.t > range.from && at(in.t).value < 0) visit(in);
+    const auto visitAt = [&](const Crossing& c) {
+      visit({c.t, step_.colored() ? TrapPart::part(c.part, trapAt(ray.at(c.t)).x) : c.part});
+    };
+    if (in.t > range.from && at(in.t).value < 0) visitAt(in);
     constexpr int kMostDepth = 17;
     intervalCrossings<kMostDepth, false>({in.t, out.t}, range, over, at, [&](Real t, bool) {
-      visit(Crossing{t, kSurface});
+      visitAt(Crossing{t, kSurface});
     });
-    if (out.t > range.from && out.t <= range.to && at(out.t).value < 0) visit(out);
+    if (out.t > range.from && out.t <= range.to && at(out.t).value < 0) visitAt(out);
   }
 
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {
     Vec3 p = ray.at(crossing.t), n;
     const Real half = step_.half();
     Real error = half * gammaError(8);
-    if (crossing.part != kSurface) {
-      const int axis = static_cast<int>(crossing.part / 2);
-      n[axis] = crossing.part % 2 != 0 ? 1 : -1;
+    if (const std::int64_t face = TrapPart::face(crossing.part); face != kSurface) {
+      const int axis = static_cast<int>(face / 2);
+      n[axis] = face % 2 != 0 ? 1 : -1;
       p[axis] = n[axis] * half;
     } else {
       Real off = 0;
@@ -147,8 +150,9 @@ class EscapeSearch {
     }
   }
 
-  Vec2 uvAt(const Vec3& p) const {
-    if (step_.trap() == Trap::none) return sphereUv(p);
+  Vec2 uvAt(const Vec3& p) const { return step_.trap() == Trap::none ? sphereUv(p) : trapAt(p); }
+
+  Vec2 trapAt(const Vec3& p) const {
     OrbitTrap trap(step_.trap(), step_.radius());
     const Vec3 c = step_.constant(p);
     Vec3 w = step_.start(p);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/interval_search.h"
+#include "geometry/stride_search.h"
 
 namespace trace {
 namespace {
@@ -16,12 +17,6 @@ Number operator*(const Number& a, Real s) { return {a[0] * s, a[1] * s, a[2] * s
 Real dot(const Number& a, const Number& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 Real size(const Number& a) { return std::sqrt(dot(a, a)); }
 
-Number quaternionProduct(const Number& a, const Number& b) {
-  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-}
 Number hypercomplexProduct(const Number& a, const Number& b) {
   return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] + a[3] * b[3],
           a[0] * b[1] + a[1] * b[0] - a[2] * b[3] - a[3] * b[2],
@@ -30,6 +25,66 @@ Number hypercomplexProduct(const Number& a, const Number& b) {
 }
 /// |a b| <= kStretch |a| |b| for hypercomplex numbers, which have divisors of zero.
 constexpr Real kStretch = 1.4142135623730951;
+
+/// A number as two pairs, which the processor adds and multiplies at once.
+struct Pairs {
+  using Pair [[gnu::vector_size(16)]] = Real;
+  Pair low, high;
+
+  explicit Pairs(const Number& q) : low{q[0], q[1]}, high{q[2], q[3]} {}
+  Pairs(const Pair& l, const Pair& h) : low(l), high(h) {}
+  Real operator[](std::size_t i) const { return i < 2 ? low[i] : high[i - 2]; }
+};
+Pairs operator+(const Pairs& a, const Pairs& b) { return {a.low + b.low, a.high + b.high}; }
+Pairs operator*(const Pairs& a, Real s) { return {a.low * s, a.high * s}; }
+Real dot(const Pairs& a, const Pairs& b) {
+  const Pairs::Pair sum = a.low * b.low + a.high * b.high;
+  return sum[0] + sum[1];
+}
+Pairs lessReal(const Pairs& a, Real s) { return {a.low - Pairs::Pair{s, 0}, a.high}; }
+Pairs hypercomplexProduct(const Pairs& a, const Pairs& b) {
+  return Pairs(hypercomplexProduct(Number{a[0], a[1], a[2], a[3]}, Number{b[0], b[1], b[2], b[3]}));
+}
+
+/// The step, of a number whose square |q|^2 is known.
+template <Iteration kIteration>
+Pairs stepAs(const Pairs& q, Real square) {
+  if constexpr (kIteration == Iteration::hypercomplex) return hypercomplexProduct(q, q);
+  const Real a = 2 * q[0];
+  const Pairs r = lessReal(q * a, square);  // q^2 = 2 a q - |q|^2
+  if constexpr (kIteration == Iteration::cube) return r * a + q * -square;
+  return r;
+}
+/// How the step changes as q does by d, where |q|^2 and q . d are known.
+template <Iteration kIteration>
+Pairs slopeAs(const Pairs& q, const Pairs& d, Real square, Real product) {
+  if constexpr (kIteration == Iteration::hypercomplex) return hypercomplexProduct(q, d) * 2;
+  const Real a = 2 * q[0], b = 2 * d[0];
+  const Pairs r = lessReal(d * a + q * b, 2 * product);
+  if constexpr (kIteration == Iteration::cube)
+    return r * a + lessReal(q * a, square) * b + d * -square + q * (-2 * product);
+  return r;
+}
+Number number(const Pairs& q) { return {q[0], q[1], q[2], q[3]}; }
+/// The most that a step stretches at a number of size s.
+template <Iteration kIteration>
+Real stretchAs(Real s) {
+  if constexpr (kIteration == Iteration::square) return 2 * s;
+  if constexpr (kIteration == Iteration::cube) return 3 * s * s;
+  if constexpr (kIteration == Iteration::hypercomplex) return 2 * kStretch * s;
+}
+/// A bound of the second derivative of a step within w of a place where q is of size s and changes by l, and
+/// its second derivative is within m: |q| <= s + w l + w^2 m / 2, |q'| <= l + w m.
+template <Iteration kIteration>
+Real bendAs(Real s, Real l, Real m, Real w) {
+  if constexpr (kIteration == Iteration::cube) {
+    const Real speed = l + w * m, farthest = s + w * (l + 0.5 * w * m);
+    return 3 * farthest * (2 * speed * speed + farthest * m);
+  }
+  // 2 (|q'|^2 + |q| m), multiplied out for a short way from m to the result
+  const Real squares = 2 * (l * l) + m * (2 * s + 6 * (w * l) + 3 * (w * w) * m);
+  return kIteration == Iteration::square ? squares : kStretch * squares;
+}
 
 /// A quaternion as a + b n, with b >= 0 and n an imaginary unit: functions of it are those of a + b i.
 struct Polar {
@@ -59,7 +114,7 @@ std::shared_ptr<const TracedJulia> Julia::prepared() const {
 }
 
 TracedJulia::TracedJulia(const Julia& shape) : shape_(shape) {
-  shape_.iterations = std::clamp(shape.iterations, 1, 50);
+  shape_.iterations = std::clamp(shape.iterations, 1, kMostIterations);
   Number n = shape.normal;
   const Real l = size(n);
   n = l > 0 && std::isfinite(1 / l) ? n * (1 / l) : Number{0, 0, 0, 1};
@@ -77,6 +132,28 @@ TracedJulia::TracedJulia(const Julia& shape) : shape_(shape) {
     for (std::size_t k = 0; k < count; ++k) a = a + axes_[k] * -dot(a, axes_[k]);
     axes_[count++] = a * (1 / size(a));
   }
+  reach_ = kReach * (1 + std::ldexp(1.0, -40));
+  if (power()) findLimits();
+}
+
+/// Sizes from which a number surely escapes, and with them the ball that holds the set.
+void TracedJulia::findLimits() {
+  const Real c = size(shape_.constant);
+  // With q = c at the first step, |c| > 2.57 takes the second beyond 4.
+  const Real widest = shape_.iterations == 1 ? kEscaped : 2.57;
+  mostConstant_ = shape_.mandelbrot ? widest + 2 * c : c;
+  const auto n = static_cast<std::size_t>(shape_.iterations);
+  constexpr Real kRounding = 1 + gammaError(64);
+  limits_[n] = stays_[n] = kEscaped;
+  for (std::size_t i = n; i-- > 0;) {
+    const Real next = limits_[i + 1] + mostConstant_;
+    limits_[i] = (shape_.iteration == Iteration::cube ? std::cbrt(next) : std::sqrt(next)) * kRounding;
+    const Real left =
+        max(stays_[i + 1] - mostConstant_, 0) / (shape_.iteration == Iteration::hypercomplex ? kStretch : 1);
+    stays_[i] = (shape_.iteration == Iteration::cube ? std::cbrt(left) : std::sqrt(left)) / kRounding;
+  }
+  const Real all = (shape_.mandelbrot ? widest + c : limits_[0]) * (1 + std::ldexp(1.0, -30));
+  reach_ = std::sqrt(max(all * all - dot(shift_, shift_), 0));
 }
 
 TracedJulia::Number TracedJulia::lift(const Vec3& p) const {
@@ -85,9 +162,9 @@ TracedJulia::Number TracedJulia::lift(const Vec3& p) const {
 
 TracedJulia::Number TracedJulia::step(const Number& q) const {
   switch (shape_.iteration) {
-    case Iteration::square: return quaternionProduct(q, q);
-    case Iteration::cube: return quaternionProduct(quaternionProduct(q, q), q);
-    case Iteration::hypercomplex: return hypercomplexProduct(q, q);
+    case Iteration::square: return number(stepAs<Iteration::square>(Pairs(q), dot(q, q)));
+    case Iteration::cube: return number(stepAs<Iteration::cube>(Pairs(q), dot(q, q)));
+    case Iteration::hypercomplex: return number(stepAs<Iteration::hypercomplex>(Pairs(q), dot(q, q)));
     case Iteration::sine: {
       const Polar p = polar(q);
       return composed(std::sin(p.a) * std::cosh(p.b), p.n * (std::cos(p.a) * std::sinh(p.b)));
@@ -102,13 +179,11 @@ TracedJulia::Number TracedJulia::step(const Number& q) const {
 
 TracedJulia::Number TracedJulia::stepSlope(const Number& q, const Number& d) const {
   switch (shape_.iteration) {
-    case Iteration::square: return quaternionProduct(q, d) + quaternionProduct(d, q);
-    case Iteration::cube: {
-      const Number square = quaternionProduct(q, q);
-      return quaternionProduct(quaternionProduct(q, d) + quaternionProduct(d, q), q) +
-             quaternionProduct(square, d);
-    }
-    case Iteration::hypercomplex: return hypercomplexProduct(q, d) * 2;
+    case Iteration::square:
+      return number(slopeAs<Iteration::square>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
+    case Iteration::cube: return number(slopeAs<Iteration::cube>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
+    case Iteration::hypercomplex:
+      return number(slopeAs<Iteration::hypercomplex>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
     case Iteration::sine: {
       const Polar p = polar(q);
       const Real c = std::cos(p.a), s = std::sin(p.a), ch = std::cosh(p.b), sh = std::sinh(p.b);
@@ -143,9 +218,9 @@ Real TracedJulia::escapeSlope(const Number& q, const Number& change) const {
 Real TracedJulia::stretch(const Number& q, Real r) const {
   const Real s = size(q) + r;
   switch (shape_.iteration) {
-    case Iteration::square: return 2 * s;
-    case Iteration::cube: return 3 * s * s;
-    case Iteration::hypercomplex: return 2 * kStretch * s;
+    case Iteration::square: return stretchAs<Iteration::square>(s);
+    case Iteration::cube: return stretchAs<Iteration::cube>(s);
+    case Iteration::hypercomplex: return stretchAs<Iteration::hypercomplex>(s);
     case Iteration::sine: return std::cosh(polar(q).b + r);
     case Iteration::exponential: return std::exp(q[0] + r);
   }
@@ -204,66 +279,81 @@ Jet TracedJulia::value(const Vec3& p, const Vec3& direction) const {
   return {dot(q, q) - kEscaped * kEscaped, 2 * dot(q, d)};
 }
 
-Along<Interval> TracedJulia::over(const Vec3& center, Real radius, const Vec3& direction) const {
-  constexpr Real kRounding = 1 + gammaError(64), kHuge = 1e60;
-  const Interval outside{1, 1}, inside{-1, -1}, either{-1, 1};
-  if (!power()) return {functionSigns(center, radius), Interval::everything()};
-  const Number start = lift(center), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
-  const Number along = axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z;
-  const Real more = shape_.mandelbrot ? radius : 0;
-  Number q = shape_.mandelbrot ? Number{} : start, d = shape_.mandelbrot ? Number{} : along;
-  Real r = shape_.mandelbrot ? 0 : radius, e = 0;  // q and d are within r and e of where they would be
-  for (int i = 0; i < shape_.iterations; ++i) {
-    const Real s = size(q), l = size(d);
-    switch (shape_.iteration) {
-      case Iteration::square:
-        e = 2 * (s * e + r * (l + e));
-        r = (2 * s + r) * r;
-        break;
-      case Iteration::cube:
-        e = 3 * (s * s * e + (2 * s + r) * r * (l + e));
-        r = (3 * s * s + (3 * s + r) * r) * r;
-        break;
-      case Iteration::hypercomplex:
-        e = 2 * kStretch * (s * e + r * (l + e));
-        r = kStretch * (2 * s + r) * r;
-        break;
-      default: return {either, Interval::everything()};
+template <Iteration kIteration>
+Stride TracedJulia::look(const Number& place, const Number& unit, Real within) const {
+  constexpr Real kRounding = 1 + gammaError(32);
+  const Real share = shape_.mandelbrot ? 1 : 0;  // of the way that c goes along
+  const Pairs start(place), along(unit), c = Pairs(shape_.constant) + start * share, more = along * share;
+  Pairs q = start * (1 - share), d = along * (1 - share);  // d: the change of q with the way
+  const auto n = static_cast<std::size_t>(shape_.iterations);
+  Real reach = 0, m = 0;  // m: a bound of the second derivative of q
+  Real error = gammaError(8) * (reach_ + mostConstant_);
+  bool escaped = false;
+  constexpr Real kFar = 3;  // from here on following it farther tells less
+  for (std::size_t i = 0;; ++i) {
+    const Real square = dot(q, q), product = dot(q, d);
+    const Real s = std::sqrt(square), l = std::sqrt(dot(d, d));
+    escaped = escaped || s > limits_[i];
+    const bool stays = s < stays_[i];
+    if (escaped || stays || i == n) {
+      const Real limit = stays ? stays_[i] : limits_[i];
+      const Real value = square - limit * limit, slope = 2 * product, off = 2 * s * error;
+      const Real pull = (s + within * l + 0.5 * within * within * m) * m, speed = l + within * m;
+      const Interval bend{-2 * kRounding * pull, 2 * kRounding * (speed * speed + pull)};
+      reach = max(reach, keepsSign(value, slope, bend, within, off));
+      if (i == n) return {value, max(reach, nearsZero(value, slope, bend, within))};
+      if (escaped && s > kFar) return {1, reach};
     }
-    d = stepSlope(q, d);
-    if (shape_.mandelbrot) d = d + along;
-    q = step(q) + c;
-    r = (r + more) * kRounding, e = e * kRounding + l * gammaError(64);
-    const Real now = size(q);
-    if (now - r > kEscaped * kRounding) return {outside, Interval::everything()};
-    if (!(now + r < kHuge && e < kHuge)) return {either, Interval::everything()};
+    error =
+        stretchAs<kIteration>(s) * error + gammaError(32) * (stretchAs<kIteration>(s) * s + mostConstant_);
+    m = bendAs<kIteration>(s, l, m, within) * kRounding;
+    d = slopeAs<kIteration>(q, d, square, product) + more;
+    q = stepAs<kIteration>(q, square) + c;
   }
-  if ((size(q) + r) * kRounding < kEscaped) return {inside, Interval::everything()};
-  const Real slope = dot(q, d), unsure = (size(q) * e + (size(d) + e) * r) * kRounding;
-  return {either, {slope - unsure, slope + unsure}};
 }
 
 void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-  // Within a ball: what is farther out escapes, or is cut off; which the value tells just inside of its ends.
-  const Real reach = power() ? kReach : kReach * (1 + std::ldexp(1.0, -40));
   const Vec3& direction = ray.direction;
   const Real a = dot(direction, direction), b = dot(ray.origin, direction);
   const Vec3 nearest = ray.origin - direction * (b / a);
-  const Roots2 ball = solveQuadratic(a, b, dot(ray.origin, ray.origin) - reach * reach,
-                                     a * (reach * reach - dot(nearest, nearest)));
+  const Roots2 ball = solveQuadratic(a, b, dot(ray.origin, ray.origin) - reach_ * reach_,
+                                     a * (reach_ * reach_ - dot(nearest, nearest)));
   if (!ball.count) return;
   const Real speed = std::sqrt(a);
-  const auto bounds = [&](const Interval& t) {
-    return over(ray.at(0.5 * (t.low + t.high)), 0.5 * (t.high - t.low) * speed * (1 + gammaError(8)),
-                direction);
-  };
   const auto at = [&](Real t) { return value(ray.at(t), direction); };
-  const auto found = [&](Real t, bool) { visit(Crossing{t, 0}); };
+  const auto found = [&](Real t, bool) {
+    visit(Crossing{t, shape_.materials.empty() ? 0 : TrapPart::part(0, trapUv(ray.at(t)).x)});
+  };
+  if (power()) {
+    const Number origin = lift(ray.origin);
+    const Number unit = axes_[0] * (direction.x / speed) + axes_[1] * (direction.y / speed) +
+                        axes_[2] * (direction.z / speed);
+    const auto search = [&]<Iteration kIteration>() {
+      const auto stride = [&](Real t, Real wanted) {
+        const Number p = origin + unit * (t * speed);
+        Real within = wanted * speed;
+        Stride known = look<kIteration>(p, unit, within);
+        for (int again = 0; again < 5 && known.reach < 0.2 * within; ++again) {  // bounds over less say more
+          within = max(4 * known.reach, 0.1 * within);
+          known.reach = max(known.reach, look<kIteration>(p, unit, within).reach);
+        }
+        known.reach /= speed;
+        return known;
+      };
+      strideCrossings({ball.t0, ball.t1}, range, std::ldexp(reach_ / speed, -28), stride, at, found);
+    };
+    switch (shape_.iteration) {
+      case Iteration::square: return search.operator()<Iteration::square>();
+      case Iteration::cube: return search.operator()<Iteration::cube>();
+      default: return search.operator()<Iteration::hypercomplex>();
+    }
+  }
   // Functions fold space everywhere: looking as closely as at powers would take seconds.
-  if (power())
-    intervalCrossings<28, false>({ball.t0, ball.t1}, range, bounds, at, found);
-  else
-    intervalCrossings<14, false>({ball.t0, ball.t1}, range, bounds, at, found);
+  const auto bounds = [&](const Interval& t) {
+    const Real radius = 0.5 * (t.high - t.low) * speed * (1 + gammaError(8));
+    return Along<Interval>{functionSigns(ray.at(0.5 * (t.low + t.high)), radius), Interval::everything()};
+  };
+  intervalCrossings<14, false>({ball.t0, ball.t1}, range, bounds, at, found);
 }
 
 SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) const {

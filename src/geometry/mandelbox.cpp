@@ -15,6 +15,7 @@ class MandelboxStep {
   Real half() const { return 1; }
   int iterations() const { return shape_.iterations; }
   Trap trap() const { return shape_.trap; }
+  bool colored() const { return !shape_.materials.empty(); }
   Vec3 start(const Vec3& p) const { return p * half_; }
   Vec3 constant(const Vec3& p) const { return p * half_; }
   Real shareOfPlace() const { return 1; }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/field.h"
+#include "geometry/materials.h"
 #include "geometry/orbit_trap.h"
 #include "geometry/ray.h"
 #include "math/box.h"
@@ -21,6 +22,7 @@ struct Mandelbox {
   Real scale = 3, minRadius = 0.5;
   int iterations = 5;
   Trap trap = Trap::none;
+  MaterialList materials;
 
   static constexpr auto fields() {
     return std::tuple{Field{"scale", &Mandelbox::scale, "", -4, 4, "of the step; farther from 0 than 1.1"},
@@ -28,7 +30,9 @@ struct Mandelbox {
                             "of the ball within which points only move out"},
                       Field{"iterations", &Mandelbox::iterations, "", 1, 30,
                             "how often the step is repeated: more show more detail"},
-                      Field{"trap", &Mandelbox::trap, "", 0, 0, "what the texture coordinates tell"}};
+                      Field{"trap", &Mandelbox::trap, "", 0, 0, "what the texture coordinates tell"},
+                      Field{"materials", &Mandelbox::materials, "", 0, 0,
+                            "that follow each other as the trap's least distance grows"}};
   }
   bool operator==(const Mandelbox&) const = default;
 
@@ -40,6 +44,11 @@ class TracedMandelbox {
   explicit TracedMandelbox(const Mandelbox& shape) : shape_(shape) {}
 
   bool solid() const { return true; }
+  static constexpr std::int64_t partCount() { return TrapPart::kCount; }
+  MaterialMix material(std::int64_t part, std::uint32_t own) const {
+    return shape_.materials.empty() ? MaterialMix::only(own) : shape_.materials.at(TrapPart::level(part));
+  }
+  void addMaterials(std::vector<std::uint32_t>& to) const { shape_.materials.addTo(to); }
   Box3 bounds() const;
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;

@@ -33,6 +33,7 @@ class MandelbulbStep {
   Real half() const { return radius_; }
   int iterations() const { return shape_.iterations; }
   Trap trap() const { return shape_.trap; }
+  bool colored() const { return !shape_.materials.empty(); }
   Vec3 start(const Vec3& p) const { return p; }
   Vec3 constant(const Vec3& p) const { return shape_.julia ? shape_.constant : p; }
   Real shareOfPlace() const { return shape_.julia ? 0 : 1; }

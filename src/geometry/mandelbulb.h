@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/field.h"
+#include "geometry/materials.h"
 #include "geometry/orbit_trap.h"
 #include "geometry/ray.h"
 #include "math/box.h"
@@ -24,6 +25,7 @@ struct Mandelbulb {
   bool julia = false;
   Vec3 constant{-0.4, 0.6, 0.3};
   Trap trap = Trap::none;
+  MaterialList materials;
 
   static constexpr auto fields() {
     return std::tuple{
@@ -32,7 +34,9 @@ struct Mandelbulb {
               "how often the step is repeated: more show more detail"},
         Field{"julia", &Mandelbulb::julia, "", 0, 1, "the same constant everywhere; else the point itself"},
         Field{"constant", &Mandelbulb::constant, "", -2, 2, "what is added in a Julia set"},
-        Field{"trap", &Mandelbulb::trap, "", 0, 0, "what the texture coordinates tell"}};
+        Field{"trap", &Mandelbulb::trap, "", 0, 0, "what the texture coordinates tell"},
+        Field{"materials", &Mandelbulb::materials, "", 0, 0,
+              "that follow each other as the trap's least distance grows"}};
   }
   bool operator==(const Mandelbulb&) const = default;
 
@@ -44,6 +48,11 @@ class TracedMandelbulb {
   explicit TracedMandelbulb(const Mandelbulb& shape) : shape_(shape) {}
 
   bool solid() const { return true; }
+  static constexpr std::int64_t partCount() { return TrapPart::kCount; }
+  MaterialMix material(std::int64_t part, std::uint32_t own) const {
+    return shape_.materials.empty() ? MaterialMix::only(own) : shape_.materials.at(TrapPart::level(part));
+  }
+  void addMaterials(std::vector<std::uint32_t>& to) const { shape_.materials.addTo(to); }
   Box3 bounds() const;
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;

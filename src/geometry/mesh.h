@@ -29,7 +29,16 @@ struct MeshData {
   bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
   bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
 
-  bool operator==(const MeshData&) const = default;
+  /// Of polygons with more than three corners: the first of their triangles and how many. What is seen is the
+  /// same without; subdivision begins with them.
+  std::vector<std::array<std::uint32_t, 2>> polygons;
+
+  /// Is the same seen?
+  bool operator==(const MeshData& other) const {
+    return points == other.points && triangles == other.triangles && normals == other.normals &&
+           materials == other.materials && uvs == other.uvs && generateNormals == other.generateNormals &&
+           twoSided == other.twoSided;
+  }
 };
 
 struct Mesh {

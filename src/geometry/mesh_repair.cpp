@@ -76,7 +76,10 @@ void cutEars(MeshData& mesh, std::span<const std::uint32_t> polygon, const Vec3&
 
 void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) return;
-  if (corners.size() == 3 || corners.size() > kMostEarCorners) return appendFan(mesh, corners);
+  if (corners.size() == 3) return appendFan(mesh, corners);
+  const auto count = static_cast<std::uint32_t>(corners.size() - 2);
+  mesh.polygons.push_back({static_cast<std::uint32_t>(mesh.triangles.size()), count});
+  if (corners.size() > kMostEarCorners) return appendFan(mesh, corners);
   const Vec3 normal = areaNormal(mesh, corners);
   if (isConvex(mesh, corners, normal))
     appendFan(mesh, corners);
@@ -87,11 +90,21 @@ void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners) {
 std::size_t dropDegenerate(MeshData& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::uint32_t kept = 0;
+  std::vector<std::uint32_t> place;  // of each triangle, once those before it are gone
+  if (!mesh.polygons.empty()) place.reserve(count + 1);
   for (std::uint32_t i = 0; i < count; ++i) {
+    if (!mesh.polygons.empty()) place.push_back(kept);
     if (faceNormal(mesh, i) == Vec3{}) continue;
     mesh.triangles[kept++] = mesh.triangles[i];
   }
   mesh.triangles.resize(kept);
+  if (kept < count && !mesh.polygons.empty()) {  // what is left of a polygon is triangles
+    place.push_back(kept);
+    std::vector<std::array<std::uint32_t, 2>> whole;
+    for (const auto& [first, n] : mesh.polygons)
+      if (place[first + n] - place[first] == n) whole.push_back({place[first], n});
+    mesh.polygons = std::move(whole);
+  }
   return count - kept;
 }
 

@@ -11,7 +11,8 @@
 namespace trace {
 
 /// Appends the triangles of a polygon, whose corners are indices into mesh.points: a fan if that is right,
-/// else ears cut off one by one, so that a polygon with dents keeps its shape. Linear in the corners.
+/// else ears cut off one by one, so that a polygon with dents keeps its shape; and notes that they are one.
+/// Linear in the corners.
 /// Precondition: every corner < mesh.points.size().
 void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners);
 

@@ -1,4 +1,4 @@
-// Smoother meshes: normals that follow a crease angle, and Loop's subdivision.
+// Smoother meshes: normals that follow a crease angle, and the subdivisions of Loop and of Catmull and Clark.
 #pragma once
 
 #include <cstddef>
@@ -17,5 +17,11 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle);
 /// takes the material of one end of its edge.
 /// Precondition: 4^levels times the triangles fits into 32 bits.
 MeshData subdivided(const MeshData& mesh, int levels);
+
+/// Each polygon of n corners in n quadrangles, `levels` times, and the points moved toward a smooth surface
+/// (Catmull and Clark 1978; borders become cubic B-splines); then cut into triangles. Normals are left out;
+/// uv are mixed, and new points take the material of a corner. Precondition: 4^levels times the corners of
+/// all polygons fits into 32 bits.
+MeshData subdividedByCatmullClark(const MeshData& mesh, int levels);
 
 }  // namespace trace

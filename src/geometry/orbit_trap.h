@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include "math/vec.h"
@@ -23,7 +25,7 @@ constexpr std::array<std::string_view, 4> names(Trap) { return {"none", "point",
 class OrbitTrap {
  public:
   /// `reach`: a distance beyond which points have escaped.
-  OrbitTrap(Trap trap, Real reach) : trap_(trap), reach_(reach) {}
+  OrbitTrap(Trap trap, Real reach) : trap_(trap), reach_(reach) {}  // none: as point
 
   /// A point visited, by its coordinate along x and its distance from that axis.
   void visit(Real along, Real across) {
@@ -42,6 +44,21 @@ class OrbitTrap {
   Trap trap_;
   Real reach_, least_ = kInfinity;
   int count_ = 0, when_ = 0;
+};
+
+/// The place of an orbit between materials, as the part of a crossing: `face` of a few, and how near the
+/// orbit came.
+struct TrapPart {
+  static constexpr std::int64_t kFaces = 8, kLevels = 1 << 16;
+  static constexpr std::int64_t kCount = kFaces * kLevels;
+
+  static std::int64_t part(std::int64_t face, Real u) {
+    return face + kFaces * std::llround(std::clamp(u, 0.0, 1.0) * static_cast<Real>(kLevels - 1));
+  }
+  static std::int64_t face(std::int64_t part) { return part % kFaces; }
+  static Real level(std::int64_t part) {
+    return static_cast<Real>(part / kFaces) / static_cast<Real>(kLevels - 1);
+  }
 };
 
 /// Around z and up, for a place around the origin.

@@ -60,7 +60,8 @@ Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& mad
                                               return trace::bounds(mesh_->data());
                                             },
                                             [](const auto& form) { return formOf(form).bounds(); }});
-  bounds_ = outFromIn * box;
+  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  bounds_ = box.unbounded() ? kEverywhere : outFromIn * box;
 }
 
 bool Placed::solid() const {

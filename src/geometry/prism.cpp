@@ -78,16 +78,8 @@ TracedPrism::TracedPrism(const Prism& shape) : height_(std::abs(shape.height)) {
   }
 }
 
-void TracedPrism::addLoop(Spline spline, Prism::Outline points) {
-  if (points.empty()) return;
-  const bool wrapsThree = spline == Spline::bspline || spline == Spline::catmull;
-  const Prism::Outline begin(points.begin(),
-                             points.begin() + std::min<std::ptrdiff_t>(std::ssize(points), 3));
-  if (wrapsThree)
-    points.insert(points.end(), begin.begin(), begin.end());
-  else if (points.back() != points.front() && (spline == Spline::linear || points.size() % 3 == 0))
-    points.push_back(points.front());
-  const Arcs<2> loop = arcsOf<2>(spline, points);
+void TracedPrism::addLoop(Spline spline, const Prism::Outline& points) {
+  const Arcs<2> loop = loopOf(spline, points);
   for (std::size_t i = 0; i < loop.arcs.size(); ++i) {
     arcs_.push_back({loop.arcs[i], loop.ends[i], loop.ends[i + 1], 1});
     const auto &x = loop.arcs[i].c[0], &y = loop.arcs[i].c[1];
@@ -97,9 +89,6 @@ void TracedPrism::addLoop(Spline spline, Prism::Outline points) {
     const auto wide = hull(x), deep = hull(y);
     base_.extend(Box3{{wide.first, deep.first, 0}, {wide.second, deep.second, 0}});
   }
-  if (loop.ends.empty() || loop.ends.back() == loop.ends.front()) return;
-  const auto &a = loop.ends.back(), &b = loop.ends.front();  // what is left is closed by a line
-  arcs_.push_back({{{{{a[0], b[0] - a[0], 0, 0}, {a[1], b[1] - a[1], 0, 0}}}}, a, b, 1});
 }
 
 /// Calls visit(number, u) where an arc crosses the line normal . (x, y, 1) = 0.

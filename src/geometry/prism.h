@@ -78,7 +78,7 @@ class TracedPrism {
     std::size_t arc = 0;
   };
   class Twisted;
-  void addLoop(Spline spline, Prism::Outline points);
+  void addLoop(Spline spline, const Prism::Outline& points);
   bool inside(const std::array<Real, 2>& p) const;
   Real scaleAt(Real z) const { return 1 + slope_ * z; }
   /// A point of space brought down to the outline.

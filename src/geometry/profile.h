@@ -2,6 +2,7 @@
 // points; how they are joined is the Spline.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,23 @@ Arcs<N> arcsOf(Spline spline, const std::vector<std::array<Real, N>>& points) {
     curve.arcs.push_back(arc);
   }
   return curve;
+}
+
+/// The closed curve through (or near) the points, which a line closes if nothing else does.
+inline Arcs<2> loopOf(Spline spline, std::vector<std::array<Real, 2>> points) {
+  if (points.empty()) return {};
+  if (spline == Spline::bspline || spline == Spline::catmull) {  // goes on over its beginning
+    const std::vector begin(points.begin(), points.begin() + std::min<std::ptrdiff_t>(std::ssize(points), 3));
+    points.insert(points.end(), begin.begin(), begin.end());
+  } else if (points.back() != points.front() && (spline == Spline::linear || points.size() % 3 == 0)) {
+    points.push_back(points.front());
+  }
+  Arcs<2> loop = arcsOf<2>(spline, points);
+  if (loop.ends.empty() || loop.ends.back() == loop.ends.front()) return loop;
+  const auto a = loop.ends.back(), b = loop.ends.front();
+  loop.arcs.push_back({{{{a[0], b[0] - a[0], 0, 0}, {a[1], b[1] - a[1], 0, 0}}}});
+  loop.ends.push_back(b);
+  return loop;
 }
 
 }  // namespace trace

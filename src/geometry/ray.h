@@ -59,7 +59,7 @@ inline Vec3 offsetPoint(const SurfacePoint& surface, const Vec3& direction) {
   Vec3 p = surface.point + surface.normal * (side * distance);
   for (int i = 0; i < 3; ++i) {
     const Real move = side * surface.normal[i];
-    if (move != 0) p[i] = std::nextafter(p[i], move > 0 ? kInfinity : -kInfinity);
+    if (move != 0) p[i] = neighbour(p[i], move > 0);
   }
   return p;
 }

@@ -9,6 +9,10 @@
 //                       lie at infinity
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
 //
+// A shape of several materials adds
+//   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
+//   addMaterials(all)          the indices it may answer with beside that
+//
 // A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
 //   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
 // compile() asks for it once. What is costly to find everywhere may take the wanted part of the line:
@@ -21,6 +25,7 @@
 #include <variant>
 
 #include "geometry/bezier_patches.h"
+#include "geometry/blend.h"
 #include "geometry/cone.h"
 #include "geometry/conic.h"
 #include "geometry/copies.h"
@@ -39,6 +44,7 @@
 #include "geometry/plane.h"
 #include "geometry/plant.h"
 #include "geometry/prism.h"
+#include "geometry/puff.h"
 #include "geometry/quadric.h"
 #include "geometry/rounded_box.h"
 #include "geometry/sphere.h"
@@ -46,15 +52,17 @@
 #include "geometry/square.h"
 #include "geometry/superellipsoid.h"
 #include "geometry/supertoroid.h"
+#include "geometry/sweep.h"
 #include "geometry/terrain.h"
 #include "geometry/torus.h"
 
 namespace trace {
 
-using Shape = std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus,
-                           Ellipsoid, EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric,
-                           Superellipsoid, Supertoroid, Lathe, Prism, SphereSweep, Plant, BezierPatches,
-                           HeightField, Terrain, Metaballs, Isosurface, Menger, Sierpinski, Ifs, Julia,
-                           Mandelbulb, Mandelbox, Union, Intersection, Difference, Clip, Mesh>;
+using Shape =
+    std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus, Ellipsoid,
+                 EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Supertoroid,
+                 Lathe, Prism, SphereSweep, Sweep, Plant, BezierPatches, HeightField, Terrain, Metaballs,
+                 Isosurface, Menger, Sierpinski, Ifs, Julia, Mandelbulb, Mandelbox, Union, Intersection,
+                 Difference, Clip, Blend, Puff, Mesh>;
 
 }  // namespace trace

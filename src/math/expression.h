@@ -9,15 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "math/interval.h"
+#include "math/along.h"
 
 namespace trace {
-
-/// A value along a line and its derivative there; of intervals, bounds of both.
-template <class T>
-struct Along {
-  T value, slope;
-};
 
 class Expression {
  public:

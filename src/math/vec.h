@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace trace {
@@ -14,6 +16,19 @@ inline constexpr Real kPi = 3.14159265358979323846;
 constexpr Real gammaError(int n) {
   constexpr Real kHalfUlp = std::numeric_limits<Real>::epsilon() / 2;
   return n * kHalfUlp / (1 - n * kHalfUlp);
+}
+
+/// The next number above x, or below it; infinities and NaN stay. std::nextafter without its checks for
+/// errno.
+inline Real neighbour(Real x, bool above) {
+  if (!(std::abs(x) <= std::numeric_limits<Real>::max())) return x;
+  if (x == 0)
+    return above ? std::numeric_limits<Real>::denorm_min() : -std::numeric_limits<Real>::denorm_min();
+  std::int64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits += (x > 0) == above ? 1 : -1;
+  std::memcpy(&x, &bits, sizeof bits);
+  return x;
 }
 
 template <class T>

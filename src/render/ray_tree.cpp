@@ -142,10 +142,14 @@ std::string objectName(const Scene& scene, std::uint32_t index) {
   return named(object.shape, object.place);
 }
 
+std::string materialName(const Scene& scene, std::uint32_t index) {
+  return index == MaterialMix::kClear ? "clear" : nameOf(scene.materials[index], index);
+}
+
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials) {
   std::string text;
   for (const MaterialShare& share : materials) {
-    text += (text.empty() ? "" : " + ") + nameOf(scene.materials[share.material], share.material);
+    text += (text.empty() ? "" : " + ") + materialName(scene, share.material);
     if (materials.size() > 1) text += " " + shortText(share.weight, 3);
   }
   return text;

@@ -24,7 +24,7 @@ namespace trace {
 
 /// One of the materials that a place is made of.
 struct MaterialShare {
-  std::uint32_t material = 0;  ///< index into Scene::materials
+  std::uint32_t material = 0;  ///< index into Scene::materials, or MaterialMix::kClear
   Real weight = 1;
 };
 /// Each material of the mix once, in their order.
@@ -149,7 +149,9 @@ const Term* termOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
 std::string objectName(const Scene& scene, std::uint32_t object);
-/// "red", "material 3" for one without a name, or "red 0.25 + blue 0.75".
+/// "red", "material 3" for one without a name, "clear" for MaterialMix::kClear.
+std::string materialName(const Scene& scene, std::uint32_t material);
+/// The same of one, or "red 0.25 + blue 0.75".
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
 /// "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);

@@ -56,6 +56,21 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   return instance.moved ? transformed(s, instance.worldFromObject, instance.objectFromWorld) : s;
 }
 
+namespace {
+
+/// What is seen through as if it were not there.
+const Phong& clear() {
+  static const Phong kClear = [] {
+    Phong phong;
+    phong.emissive = phong.ambient = phong.diffuse = phong.specular = phong.reflective = Color(0);
+    phong.transmissive = Color(1);
+    return phong;
+  }();
+  return kClear;
+}
+
+}  // namespace
+
 MaterialMix World::materialMix(const Found& found) const {
   const Instance& instance = objects_[found.object];
   if (instance.mesh && !instance.mesh->data().materials.empty()) {
@@ -64,17 +79,19 @@ MaterialMix World::materialMix(const Found& found) const {
     const Real* b = found.triangle.b;
     return {{data.materials[t[0]], data.materials[t[1]], data.materials[t[2]]}, {b[0], b[1], b[2]}, 3};
   }
-  return {{match(instance.shape, [&](const auto& shape) {
-    if constexpr (requires { formOf(shape).material(std::int64_t{}); })
-      return formOf(shape).material(static_cast<std::int64_t>(found.part));
+  return match(instance.shape, [&](const auto& shape) {
+    if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); })
+      return formOf(shape).material(static_cast<std::int64_t>(found.part), instance.material);
     else
-      return instance.material;
-  })}};
+      return MaterialMix::only(instance.material);
+  });
 }
 
 Phong World::material(const Found& found) const {
   const MaterialMix m = materialMix(found);
-  const auto at = [&](int i) -> const Phong& { return materials_[m.material[i]]; };
+  const auto at = [&](int i) -> const Phong& {
+    return m.material[i] == MaterialMix::kClear ? clear() : materials_[m.material[i]];
+  };
   return m.count == 1 ? at(0) : mix(at(0), at(1), at(2), m.weight);
 }
 
@@ -252,11 +269,12 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      },
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
-                       if constexpr (requires { formOf(shape).material(std::int64_t{}); }) {
+                       if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
                          std::vector<std::uint32_t> materials;
                          formOf(shape).addMaterials(materials);
                          for (std::uint32_t m : materials)
-                           if (world.materials_.at(m).transmits()) instance.opaque = false;
+                           if (m == MaterialMix::kClear || world.materials_.at(m).transmits())
+                             instance.opaque = false;
                        }
                      }});
     if (invertible(object.worldFromObject)) {

@@ -13,6 +13,7 @@
 #include "accel/bvh.h"
 #include "base/match.h"
 #include "geometry/csg_tree.h"
+#include "geometry/materials.h"
 #include "geometry/mesh_tree.h"
 #include "render/statistics.h"
 #include "scene/scene.h"

@@ -1,7 +1,6 @@
 // THE list of material models, and a material as a scene keeps it.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,12 +29,5 @@ struct Material {
 inline std::string nameOf(const Material& material, std::size_t index) {
   return material.name.empty() ? "material " + std::to_string(index + 1) : material.name;
 }
-
-/// What a place on a surface is made of: one material, or those of a triangle's corners.
-struct MaterialMix {
-  std::uint32_t material[3] = {};  ///< indices into the scene's materials
-  Real weight[3] = {1, 0, 0};
-  int count = 1;  ///< 1 or 3
-};
 
 }  // namespace trace

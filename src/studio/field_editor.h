@@ -66,7 +66,9 @@ template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
   forEachField<Struct>([&](const auto& field) {
     auto& value = target.*field.member;
-    if constexpr (!requires { value.list(); }) {  // objects are edited as objects
+    // Objects are edited as objects; materials of a fractal stay as the file gave them.
+    if constexpr (
+        !requires { value.list(); } && !requires { value.indices; }) {
       const FieldFacts facts{field.unit, field.least, field.most};
       ImGui::PushID(field.keyword.data());
       fieldName(field.keyword, field.help, rangeText(facts));

@@ -77,6 +77,7 @@ std::string other(Heights& value) {
 std::string other(std::vector<Prism::Outline>& v) {
   return v = {{{1, 2}, {3, 4}}, {}}, "(((1, 2), (3, 4)), ())";
 }
+std::string other(MaterialList& value) { return value = {{0, 1}}, "({ }, { diffuse = (1, 0, 0); })"; }
 std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {}, 0}}), "{ sphere { } }"; }
 
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {

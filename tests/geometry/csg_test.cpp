@@ -52,6 +52,16 @@ TEST(Csg, VolumesOfRandomTreesAddUp) {
   }
 }
 
+TEST(Csg, PlanesCutInAnyPlace) {
+  for (const Affine& place : {Affine{}, Affine::rotation({0.3, 1, 0.2}, 1.3)}) {
+    const Intersection half{Operands({at(Sphere{}), at(Plane{}, place)})};
+    EXPECT_EQ(boundsOf(prepare(Shape(half))), boundsOf(prepare(Shape(Sphere{}))));
+    EXPECT_NEAR(volume(half, kUnit, 200), 2 * kPi / 3, 2e-3);
+    EXPECT_NEAR(volume(Difference{Operands({at(Sphere{}), at(Plane{}, place)})}, kUnit, 200), 2 * kPi / 3,
+                2e-3);
+  }
+}
+
 TEST(Csg, CoincidentFacesAreOneOrNone) {
   const Operand box = at(Cube{}), beside = at(Cube{}, move(1, 0, 0));
   const Ray along{{-3, 0.1, 0.2}, {1, 0, 0}};
@@ -66,7 +76,7 @@ TEST(Csg, CoincidentFacesAreOneOrNone) {
   // The first operand's face is the one seen.
   const auto seen = crossingsOf(Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}, along);
   const auto tree = Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}.prepared();
-  EXPECT_EQ(tree->material(seen[0].part), 7u);
+  EXPECT_EQ(tree->material(seen[0].part, 0).first, 7u);
 }
 
 TEST(Csg, FlushFacesUnderAnyTransform) {
@@ -125,8 +135,8 @@ TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
   const auto c = crossingsOf(shape, down);
   ASSERT_EQ(c.size(), 2u);
   EXPECT_GT(surfaceOf(shape, down, c[0]).normal.z, 0.9);
-  EXPECT_EQ(shape.prepared()->material(c[0].part), 2u);
-  EXPECT_EQ(shape.prepared()->material(c[1].part), 1u);
+  EXPECT_EQ(shape.prepared()->material(c[0].part, 0).first, 2u);
+  EXPECT_EQ(shape.prepared()->material(c[1].part, 0).first, 1u);
 }
 
 TEST(Csg, ClippedObjectsStayOpen) {

@@ -1,6 +1,8 @@
 // Fractals against what is known of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "support/shapes.h"
 
@@ -82,6 +84,88 @@ TEST(Julia, FunctionsAreThoseOfComplexNumbers) {
   const auto s = crossingsOf(julia, {{0, 3, 0}, {0, -1, 0}});
   ASSERT_EQ(s.size(), 2u);
   EXPECT_NEAR(3 - s[0].t, std::asinh(4), 1e-12);
+}
+
+/// Does the number stay under the repetition? As the definition says, and with other words than the shape's.
+bool stays(const Julia& julia, const Vec3& p) {
+  using Number = std::array<Real, 4>;
+  const auto product = [&](const Number& a, const Number& b) -> Number {
+    if (julia.iteration == Iteration::hypercomplex)
+      return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] + a[3] * b[3],
+              a[0] * b[1] + a[1] * b[0] - a[2] * b[3] - a[3] * b[2],
+              a[0] * b[2] + a[2] * b[0] - a[1] * b[3] - a[3] * b[1],
+              a[0] * b[3] + a[3] * b[0] + a[1] * b[2] + a[2] * b[1]};
+    const Vec3 u{a[1], a[2], a[3]}, v{b[1], b[2], b[3]}, w = v * a[0] + u * b[0] + cross(u, v);
+    return {a[0] * b[0] - dot(u, v), w.x, w.y, w.z};
+  };
+  const Number start{p.x, p.y, p.z, julia.offset};
+  Number q = julia.mandelbrot ? Number{} : start, c = julia.constant;
+  if (julia.mandelbrot)
+    for (std::size_t i = 0; i < 4; ++i) c[i] += start[i];
+  for (int i = 0; i < julia.iterations; ++i) {
+    const Number square = product(q, q);
+    q = julia.iteration == Iteration::cube ? product(square, q) : square;
+    Real size = 0;
+    for (std::size_t k = 0; k < 4; ++k) q[k] += c[k], size += q[k] * q[k];
+    if (size > 16) return false;
+  }
+  return true;
+}
+
+TEST(Julia, IsInsideWhereTheNumbersStay) {
+  Random random(20);
+  for (const Iteration iteration : {Iteration::square, Iteration::cube, Iteration::hypercomplex})
+    for (const bool mandelbrot : {false, true}) {
+      Julia julia;
+      julia.iteration = iteration, julia.mandelbrot = mandelbrot, julia.offset = 0.1;
+      if (mandelbrot) julia.constant = {0.1, 0, 0.2, 0};
+      const TracedShape shape = prepare(Shape(julia));
+      int inside = 0, changes = 0;
+      for (int i = 0; i < (kSanitized ? 10 : 100); ++i) {
+        const Vec3 d = random.direction();
+        const Ray ray{random.inCube(1) - d * 4, d};
+        const auto c = crossingsOf(shape, ray);
+        changes += static_cast<int>(c.size());
+        for (int k = 0; k < 4000; ++k) {
+          const Real t = 8 * random.uniform();
+          const auto before =
+              std::lower_bound(c.begin(), c.end(), t, [](const Crossing& x, Real at) { return x.t < at; });
+          const bool within = (before - c.begin()) % 2 != 0;
+          const Real next = before == c.end() ? kInfinity : before->t - t;
+          const Real last = before == c.begin() ? kInfinity : t - (before - 1)->t;
+          if (std::min(next, last) < 1e-7) continue;
+          ASSERT_EQ(stays(julia, ray.at(t)), within)
+              << names(iteration)[static_cast<std::size_t>(iteration)] << ' ' << t;
+          inside += within;
+        }
+      }
+      EXPECT_GT(inside, 1000);
+      EXPECT_GT(changes, 100);
+    }
+}
+
+TEST(Fractals, MaterialsFollowTheTrap) {
+  Random random(21);
+  Julia julia;
+  julia.trap = Trap::axis, julia.materials = {{4, 5, 6}};
+  const auto traced = julia.prepared();
+  const TracedShape shape = prepare(Shape(julia));
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 d = random.direction();
+    const Ray ray{random.inCube(0.5) - d * 4, d};
+    for (const Crossing& c : crossingsOf(shape, ray)) {
+      const MaterialMix of = traced->material(c.part, 9);
+      const Real u = surfaceOf(shape, ray, c).uv.x;
+      EXPECT_NEAR((of.material[0] - 4 + (of.material[1] - of.material[0]) * of.weight[1]) / 2, u, 2e-4);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 100);
+  std::vector<std::uint32_t> all;
+  traced->addMaterials(all);
+  EXPECT_EQ(all.size(), 3u);
+  EXPECT_EQ(Julia{}.prepared()->material(0, 9).material[0], 9u);
 }
 
 TEST(Fractals, TrapsColourFromZeroToOne) {

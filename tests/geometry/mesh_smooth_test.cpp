@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "geometry/mesh_repair.h"
 #include "support/shapes.h"
 
@@ -52,6 +54,48 @@ TEST(MeshSmooth, SubdivisionOfAClosedMesh) {
   EXPECT_LT(test::volumeOf(thrice), test::volumeOf(once));
   EXPECT_GT(test::volumeOf(thrice), 2);
   EXPECT_LT(test::volumeOf(thrice), 8);
+}
+
+TEST(MeshSmooth, CatmullClarkOfACube) {
+  // Known by hand: a corner becomes 5/9 of itself, the middle of an edge (0, 3/4, 3/4), that of a face stays.
+  const MeshData once = subdividedByCatmullClark(cube(), 1);
+  ASSERT_EQ(once.points.size(), 8u + 12 + 6);
+  EXPECT_EQ(once.triangles.size(), 6u * 4 * 2);
+  EXPECT_EQ(once.polygons.size(), 24u);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_LT(length(Vec3(once.points[i]) - Vec3(cube().points[i]) * (5.0 / 9)), 1e-6);
+  for (std::size_t i = 8; i < 20; ++i) EXPECT_NEAR(length(Vec3(once.points[i])), 0.75 * std::sqrt(2.0), 1e-6);
+  for (std::size_t i = 20; i < 26; ++i) EXPECT_NEAR(length(Vec3(once.points[i])), 1, 1e-6);
+  // A closed surface that shrinks, and looks the same along all three axes, unlike Loop's of a cube cut into
+  // triangles.
+  const MeshData fine = subdividedByCatmullClark(cube(), 4);
+  EXPECT_EQ(fine.triangles.size(), 6u * 256 * 2);
+  EXPECT_LT(test::volumeOf(fine), test::volumeOf(once));
+  const Box3 box = bounds(fine);
+  EXPECT_NEAR(box.high.x, box.high.y, 1e-6);
+  EXPECT_NEAR(box.high.x, box.high.z, 1e-6);
+}
+
+TEST(MeshSmooth, CatmullClarkTakesPolygonsAndTrianglesAndBorders) {
+  MeshData mesh;  // a pentagon and a triangle in a plane
+  mesh.points = {{0, 0, 2}, {2, 0, 2}, {3, 1, 2}, {1, 3, 2}, {-1, 1, 2}, {3, -1, 2}};
+  mesh.uvs = {{0, 0}, {2, 0}, {3, 1}, {1, 3}, {-1, 1}, {3, -1}};
+  appendPolygon(mesh, std::array<std::uint32_t, 5>{0, 1, 2, 3, 4});
+  appendPolygon(mesh, std::array<std::uint32_t, 3>{1, 5, 2});
+  ASSERT_EQ(mesh.polygons.size(), 1u);
+  const MeshData fine = subdividedByCatmullClark(mesh, 2);
+  EXPECT_EQ(fine.polygons.size(), (5u + 3) * 4);
+  EXPECT_EQ(fine.uvs.size(), fine.points.size());
+  for (std::size_t i = 0; i < fine.points.size(); ++i) EXPECT_EQ(fine.points[i].z, 2);
+  for (std::uint32_t i = 0; i < fine.triangles.size(); ++i) EXPECT_GT(faceNormal(fine, i).z, 0);
+}
+
+TEST(MeshSmooth, PolygonsSurviveWhatIsLeftOut) {
+  MeshData mesh = cube();
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  for (auto& polygon : mesh.polygons) ++polygon[0];
+  EXPECT_EQ(dropDegenerate(mesh), 1u);
+  EXPECT_EQ(mesh.polygons, cube().polygons);
 }
 
 TEST(MeshSmooth, SubdivisionKeepsAPlaneAndItsCorners) {

@@ -6,7 +6,8 @@
 namespace trace::test {
 namespace {
 
-constexpr int kRays = kSanitized ? 500 : 5000;  // for each sample of each shape
+// For each sample of each shape, of which there are about ten.
+const int kRays = kSanitized ? 500 : thorough() ? 100000 : 5000;
 
 /// A ray that passes near the shape, from well outside.
 Ray rayToward(const Box3& box, Random& random) {

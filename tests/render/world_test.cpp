@@ -64,7 +64,7 @@ TEST(World, AllCrossingsAreThoseOfBruteForce) {
 }
 
 constexpr std::array<double, 5> kScales{1e-4, 1e-2, 1.0, 1e3, 1e6};
-constexpr int kRestarts = kSanitized ? 5000 : 100000;  // for each shape
+const int kRestarts = kSanitized ? 5000 : thorough() ? 1000000 : 100000;  // for each shape
 
 /// A ray restarted from a hit, on either side, does not meet the same place again, at any scale.
 TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {

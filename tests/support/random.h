@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "math/transform.h"
@@ -15,6 +16,9 @@ inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
+
+/// `./dev test thorough` asks for as many rays as it takes to find what is one in a million.
+inline bool thorough() { return std::getenv("TRACE_THOROUGH") != nullptr; }
 
 class Random {
  public:

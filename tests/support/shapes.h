@@ -99,6 +99,7 @@ inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Pri
   return {{{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.2, 0.3}}}};
 }
 inline std::vector<Operands> variations(const Operands&) { return {}; }
+inline std::vector<MaterialList> variations(const MaterialList&) { return {{{0, 0}}}; }
 
 /// Something to see of the shape: its default, where that is not empty and soon met.
 template <class S>

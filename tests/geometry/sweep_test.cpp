@@ -1,0 +1,99 @@
+// Profiles carried along paths, against what is known of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/shapes.h"
+
+namespace trace::test {
+namespace {
+
+const Prism::Outline kSquare{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+
+Sweep straight(Real length, Real endScale) {
+  Sweep sweep;
+  sweep.profile = kSquare, sweep.spline = Spline::linear;
+  sweep.points = {{0, 0, 0, 1}, {0, 0, length, endScale}};
+  return sweep;
+}
+
+/// Four Bezier arcs that are nearly a circle around the origin.
+template <std::size_t N>
+std::vector<std::array<Real, N>> circle(Real radius) {
+  const Real k = 0.5522847498, corners[][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+  std::vector<std::array<Real, N>> points;
+  const auto add = [&](Real x, Real y) {
+    std::array<Real, N> p{};
+    p[0] = radius * x, p[1] = radius * y;
+    if constexpr (N == 4) p[3] = 1;
+    points.push_back(p);
+  };
+  add(1, 0);
+  for (int i = 0; i < 4; ++i) {
+    const auto &a = corners[i], &b = corners[i + 1];
+    add(a[0] + k * b[0], a[1] + k * b[1]), add(b[0] + k * a[0], b[1] + k * a[1]), add(b[0], b[1]);
+  }
+  return points;
+}
+
+Real volumeOf(const Sweep& sweep, int n) { return volume(sweep, boundsOf(prepare(Shape(sweep))), n); }
+
+TEST(Sweep, HasTheVolumeOfProfileTimesPath) {
+  EXPECT_NEAR(volumeOf(straight(2, 1), 50), 2, 1e-12);
+  EXPECT_NEAR(volumeOf(straight(2, 0), 100), 2.0 / 3, 1e-3);  // a pyramid
+  Sweep twisted = straight(2, 1);
+  twisted.twist = 180;
+  EXPECT_NEAR(volumeOf(twisted, 80), 2, 3e-3);
+  Sweep ring;  // Pappus
+  ring.profile = circle<2>(0.25), ring.profileSpline = Spline::bezier, ring.points = circle<4>(1);
+  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+  ring.twist = 720;
+  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+  std::reverse(ring.profile.begin(), ring.profile.end());  // either way around
+  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+}
+
+TEST(Sweep, MitresCornersAndClosesRings) {
+  Sweep frame;
+  frame.profile = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}, frame.spline = Spline::linear;
+  frame.points = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}, {-1, -1, 0, 1}};
+  const Box3 box = boundsOf(prepare(Shape(frame)));
+  EXPECT_NEAR(box.high.x, 1.1, 1e-12);
+  EXPECT_NEAR(box.high.z, 0.1, 1e-12);
+  EXPECT_TRUE(isSolid(frame));
+  // Along the diagonal through two corners.
+  const auto c = crossingsOf(frame, {{-3, -3, 0.05}, {1, 1, 0}});
+  ASSERT_EQ(c.size(), 4u);
+  const Real places[] = {-1.1, -0.9, 0.9, 1.1};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(c[i].t - 3, places[i], 1e-12);
+}
+
+TEST(Sweep, IsOneBodyWhereItPassesThroughItself) {
+  Sweep cross = straight(4, 1);
+  cross.points = {{-2, 0, 0, 0.5}, {2, 0, 0, 0.5}, {2, 2, 0, 0.5}, {0, 2, 0, 0.5}, {0, -2, 0, 0.5}};
+  const auto c = crossingsOf(cross, {{-3, 0.1, 0.05}, {1, 0, 0}});
+  ASSERT_EQ(c.size(), 2u);
+  EXPECT_NEAR(c[0].t, 1, 1e-12);
+}
+
+TEST(Sweep, OpenOnesAreSheets) {
+  Sweep sweep;
+  sweep.capped = false;
+  EXPECT_FALSE(isSolid(sweep));
+  sweep.capped = true, sweep.closed = false;
+  EXPECT_FALSE(isSolid(sweep));
+}
+
+TEST(Sweep, IsEmptyWithoutLength) {
+  Sweep sweep;
+  sweep.points = {{1, 1, 1, 1}};
+  EXPECT_TRUE(boundsOf(prepare(Shape(sweep))).empty());
+  sweep.spline = Spline::linear, sweep.points = {{1, 1, 1, 1}, {1, 1, 1, 2}};
+  EXPECT_EQ(crossingsOf(sweep, {{0, 1, 1}, {1, 0, 0}}).size(), 0u);
+  Sweep profile;
+  profile.profile = {};
+  EXPECT_TRUE(boundsOf(prepare(Shape(profile))).empty());
+}
+
+}  // namespace
+}  // namespace trace::test
