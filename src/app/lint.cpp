@@ -222,6 +222,8 @@ void addMaterials(const Shape& shape, std::set<std::uint32_t>& used) {
                             used.insert(mesh.data->materials.begin(), mesh.data->materials.end());
                           },
                           [&](const auto& s) {
+                            if constexpr (requires { s.materials.indices; })
+                              used.insert(s.materials.indices.begin(), s.materials.indices.end());
                             if constexpr (requires { s.objects.list(); })
                               for (const Operand& operand : s.objects.list()) {
                                 used.insert(operand.material);
