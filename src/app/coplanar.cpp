@@ -49,7 +49,7 @@ class Faces {
   void add(std::uint32_t number, const Object& object) {
     const auto face = [&](std::vector<Vec3> corners, bool sheet, Real precision) {
       if (faces_.size() >= kMostFlatFaces) return;
-      Face f{.object = number, .corners = std::move(corners), .sheet = sheet};
+      Face f{.object = number, .corners = std::move(corners), .normal = {}, .sheet = sheet};
       Real largest = 0;
       for (Vec3& corner : f.corners) {
         corner = object.worldFromObject * corner;

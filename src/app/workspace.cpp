@@ -78,9 +78,9 @@ void Workspace::fail(const std::vector<Message>& errors) {
 void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
   opening_.start([path = absolute(file), commandLine = std::move(commandLine)](const Cancelled&) {
     return outcomeOf(path, [&] {
-      Document document;
-      document.open(path, commandLine);
-      return document;
+      Document opened;
+      opened.open(path, commandLine);
+      return opened;
     });
   });
 }

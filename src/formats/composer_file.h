@@ -26,7 +26,7 @@ struct View {
 struct Lamp {
   enum class Kind { point, directional, spot };
   Kind kind = Kind::point;
-  Vec3 position, direction{0, 0, -1};
+  Vec3 position{}, direction{0, 0, -1};
   Color color{1};
   Real dropOffRate = 0, cutOffAngle = 0.785398;  ///< radians, between axis and side
 };

@@ -76,7 +76,7 @@ TEST(Csg, CoincidentFacesAreOneOrNone) {
   // The first operand's face is the one seen.
   const auto seen = crossingsOf(Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}, along);
   const auto tree = Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}.prepared();
-  EXPECT_EQ(tree->material(seen[0].part, 0).first, 7u);
+  EXPECT_EQ(tree->material(seen[0].part, 0).material[0], 7u);
 }
 
 TEST(Csg, FlushFacesUnderAnyTransform) {
@@ -135,8 +135,8 @@ TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
   const auto c = crossingsOf(shape, down);
   ASSERT_EQ(c.size(), 2u);
   EXPECT_GT(surfaceOf(shape, down, c[0]).normal.z, 0.9);
-  EXPECT_EQ(shape.prepared()->material(c[0].part, 0).first, 2u);
-  EXPECT_EQ(shape.prepared()->material(c[1].part, 0).first, 1u);
+  EXPECT_EQ(shape.prepared()->material(c[0].part, 0).material[0], 2u);
+  EXPECT_EQ(shape.prepared()->material(c[1].part, 0).material[0], 1u);
 }
 
 TEST(Csg, ClippedObjectsStayOpen) {

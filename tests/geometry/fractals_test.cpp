@@ -18,7 +18,7 @@ TEST(Mandelbulb, LiesWithinItsRadius) {
   Random random(1);
   for (const int power : {2, 3, 8}) {
     const Real most = std::pow(2.0, 1.0 / (power - 1));
-    const TracedShape shape = prepare(Shape(Mandelbulb{.power = power, .iterations = 3}));
+    const TracedShape shape = prepare(Shape(Mandelbulb{.power = power, .iterations = 3, .materials = {}}));
     for (int i = 0; i < 200; ++i) {
       const auto c = crossingsOf(shape, toCentre(random, 4));
       ASSERT_GE(c.size(), 2u);
@@ -33,7 +33,7 @@ TEST(Mandelbulb, LiesWithinItsRadius) {
 TEST(Mandelbulb, IsTurnedOntoItselfByItsPower) {
   // Around z by 1 / (power - 1) of a turn.
   Random random(2);
-  const TracedShape shape = prepare(Shape(Mandelbulb{.power = 5, .iterations = 2}));
+  const TracedShape shape = prepare(Shape(Mandelbulb{.power = 5, .iterations = 2, .materials = {}}));
   const Affine turn = Affine::rotation({0, 0, 1}, 2 * kPi / 4);
   int hits = 0;
   for (int i = 0; i < 200; ++i) {
@@ -50,7 +50,8 @@ TEST(Mandelbulb, IsTurnedOntoItselfByItsPower) {
 
 TEST(Mandelbulb, OfAConstantOfZeroIsABall) {
   Random random(3);
-  const TracedShape shape = prepare(Shape(Mandelbulb{.iterations = 12, .julia = true, .constant = {}}));
+  const TracedShape shape =
+      prepare(Shape(Mandelbulb{.iterations = 12, .julia = true, .constant = {}, .materials = {}}));
   for (int i = 0; i < 50; ++i) {
     const auto c = crossingsOf(shape, toCentre(random, 3));
     ASSERT_EQ(c.size(), 2u);
