@@ -41,7 +41,9 @@ bool differInPicture(const Settings& a, const Settings& b) {
 void Workspace::report(const std::vector<Message>& messages) {
   for (const Message& message : messages) {
     const Level level = message.severity == Message::Severity::error ? Level::error : Level::warning;
-    log_.push_back({level, message.what, message.hint, message.place});
+    Place place = message.place;
+    if (!place.file.empty()) place.file = shown(place.file);
+    log_.push_back({level, message.what, message.hint, std::move(place)});
   }
 }
 

@@ -93,7 +93,10 @@ int run(const Arguments& arguments) {
     const std::string& file = studio.workspace.document.file();
     const std::string now =
         file.empty() ? "Trace" : std::filesystem::path(file).filename().string() + " - Trace";
-    if (now != title) window.setTitle(title = now);
+    if (now != title) {
+      window.setTitle(title = now);
+      remember(studio);  // what was opened, should the window not come to its end
+    }
   }
   remember(studio);
   window.hide();  // what still runs has to be waited for

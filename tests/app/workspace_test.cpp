@@ -142,6 +142,17 @@ TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
   EXPECT_FALSE(workspace.reference());
 }
 
+TEST_F(WorkspaceTest, TheLogNamesFilesAsSeenFromTheCurrentFolder) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(std::filesystem::path(path("scene.ray")).parent_path());
+  Workspace workspace;
+  writeFile("bad.ray", "SBT-raytracer 1.1\nsphere {");
+  EXPECT_FALSE(opened(workspace, path("bad.ray")));
+  EXPECT_EQ(workspace.log().back().place.file, "bad.ray");
+  EXPECT_EQ(workspace.log().back().place.line, 2);
+  std::filesystem::current_path(before);
+}
+
 TEST_F(WorkspaceTest, FilesOpenedLatelyComeNewestFirstAndOnce) {
   Workspace workspace;
   write("b.ray", kScene);
