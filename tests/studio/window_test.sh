@@ -24,7 +24,8 @@ env -u DISPLAY "$studio" scene.ray >log 2>&1 || code=$?
 grep -q 'display' log || fail "without a display it does not say so"
 
 mkfifo display
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
+# -noreset: without it the server starts anew when the last window closes, and refuses the next one meanwhile.
+Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
 server=$!
 read -r -t 60 number <display || skip "Xvfb does not start"
 export DISPLAY=":$number"
@@ -112,7 +113,7 @@ code=0
 if command -v xdotool >/dev/null; then
   "$(dirname -- "$studio")/ray" >log 2>&1 &
   program=$!
-  for ((i = 0; i < 100; ++i)); do
+  for ((i = 0; i < 600; ++i)); do
     xdotool search --name '^Trace$' >/dev/null 2>&1 && break
     sleep 0.1
   done
