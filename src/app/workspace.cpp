@@ -137,18 +137,21 @@ void Workspace::takeReread() {
   const std::optional<Reread> reread = rereading_.take();
   if (!reread || !wanted_ || reread->number <= givenUp_) return;
   const bool last = reread->number == wantedNumber_;
+  Document::Change change = reread->change;  // of which a part may be in the document by now
+  if (change.option == wanted_->option) change.continues = change.continues || wanted_->continues;
+  change.anew = change.anew && wanted_->anew;
   if (!reread->reading.value) {
     fail(reread->reading.errors);
     if (last) wanted_.reset();
-  } else if (!document.apply(reread->change, *reread->reading.value)) {
+  } else if (!document.apply(change, *reread->reading.value)) {
     if (last) want(*std::exchange(wanted_, std::nullopt));
   } else {
-    if (reread->change.anew)
+    if (change.anew)
       note(shown(document.file()) + " changed on disk and was read again; undo takes that back");
     if (last)
       wanted_.reset();
     else  // the drag goes on
-      wanted_->continues = wanted_->option == reread->change.option, wanted_->anew = false;
+      wanted_->continues = wanted_->option == change.option, wanted_->anew = false;
   }
 }
 

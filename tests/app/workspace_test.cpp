@@ -179,10 +179,9 @@ class SlowFile {
   explicit SlowFile(const std::string& path) : path_(path) {
     std::error_code none;
     const auto before = std::filesystem::last_write_time(path, none);
-    std::filesystem::remove(path);
-    EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
-    made_ = none ? std::filesystem::last_write_time(path) : before + std::chrono::seconds(2);
-    std::filesystem::last_write_time(path, made_);
+    EXPECT_EQ(mkfifo(next().c_str(), 0600), 0);
+    made_ = none ? std::filesystem::last_write_time(next()) : before + std::chrono::seconds(2);
+    replace();
   }
   ~SlowFile() {
     if (pipe_ >= 0) ::close(pipe_);
@@ -198,14 +197,32 @@ class SlowFile {
   }
   void release(const std::string& text) {
     awaitReader();
-    EXPECT_EQ(::write(pipe_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-    ::close(std::exchange(pipe_, -1));
-    std::filesystem::remove(path_);
-    writeFile(path_, text);
-    std::filesystem::last_write_time(path_, made_);  // has not changed since it was read
+    writeFile(next(), text);
+    answer(text);
+  }
+  /// Only who reads it now: the next one has to wait again.
+  void releaseOne(const std::string& text) {
+    awaitReader();
+    EXPECT_EQ(mkfifo(next().c_str(), 0600), 0);
+    answer(text);
   }
 
  private:
+  std::string next() const { return path_ + ".next"; }
+  /// The next file takes the place of this one, at once, and looks as old: it has not changed since it was
+  /// read.
+  void replace() const {
+    std::filesystem::last_write_time(next(), made_);
+    std::filesystem::rename(next(), path_);
+  }
+  /// What the reader has been waiting for. Who comes after it must not find the pipe, which has no writer
+  /// then.
+  void answer(const std::string& text) {
+    EXPECT_EQ(::write(pipe_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    replace();
+    ::close(std::exchange(pipe_, -1));
+  }
+
   std::string path_;
   std::filesystem::file_time_type made_;
   int pipe_ = -1;
@@ -296,6 +313,27 @@ TEST_F(WorkspaceTest, ADraggedTimeIsShownAtOnceAndReadInTheBackgroundAsOneStep) 
   EXPECT_EQ(workspace.undoName(), "depth");
   EXPECT_THROW(workspace.choose("time", "soon"), Error);
   EXPECT_FALSE(workspace.reading());
+}
+
+TEST_F(WorkspaceTest, ADraggedTimeIsOneStepAlsoIfItIsShownOnTheWay) {
+  write("scene.ray", kAnimated);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  workspace.document.choose("depth", "7");
+  SlowFile slow(path("scene.ray"));
+  workspace.choose("time", "0.5");
+  slow.releaseOne(kAnimated);
+  workspace.choose("time", "1", true);
+  slow.awaitReader();  // so the first is read
+  workspace.choose("time", "2", true);
+  workspace.update();
+  EXPECT_EQ(xOf(workspace), 0.25);
+  slow.release(kAnimated);
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(xOf(workspace), 1);
+  workspace.undo();
+  EXPECT_EQ(xOf(workspace), 0);
+  EXPECT_EQ(workspace.undoName(), "depth");
 }
 
 TEST_F(WorkspaceTest, UndoTakesATimeBackThatIsStillBeingRead) {
