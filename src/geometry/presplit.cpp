@@ -7,9 +7,8 @@
 namespace trace {
 namespace {
 
-constexpr Real kMostParts = 0.25;  // added, of the number of triangles
+constexpr Real kMostParts = 0.15;  // added, of the number of triangles
 constexpr Real kUneven = 8;  // splits pay from this spread of sizes on (measured: scans 1 to 3, buildings 50)
-constexpr int kGridBits = 20;  // planes lie on a grid of 2^20 cells over the mesh
 
 /// What a box leaves of a triangle: a convex polygon of at most nine corners.
 struct Piece {
@@ -42,34 +41,43 @@ Piece clip(const Piece& piece, int axis, Real plane, bool below) {
   return kept;
 }
 
-/// The coarsest plane of the grid through a box: all triangles are cut along the same planes.
-struct Cut {
-  int axis = -1, bit = -1;
-  Real plane = 0;
-};
-Cut coarsestCut(const Box3& box, const Box3& grid) {
-  Cut cut;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real size = grid.high[axis] - grid.low[axis];
-    if (!(size > 0)) continue;
-    const auto cell = [&](Real x) {
-      return static_cast<std::uint32_t>(std::clamp((x - grid.low[axis]) / size, 0.0, 1.0) *
-                                        ((1 << kGridBits) - 1));
-    };
-    const std::uint32_t low = cell(box.low[axis]), high = cell(box.high[axis]);
-    int bit = -1;
-    for (std::uint32_t differs = low ^ high; differs != 0; differs >>= 1) ++bit;
-    if (bit <= cut.bit) continue;
-    const Real plane = grid.low[axis] + size * (high >> bit << bit) / ((1 << kGridBits) - 1);
-    if (plane > box.low[axis] && plane < box.high[axis]) cut = {axis, bit, plane};
+/// Planes over the mesh, along which all its triangles are cut.
+class Grid {
+ public:
+  explicit Grid(const Box3& box) : low_(box.low), cell_((box.high - box.low) * (1.0 / kCells)) {
+    for (int axis = 0; axis < 3; ++axis) perUnit_[axis] = cell_[axis] > 0 ? 1 / cell_[axis] : 0;
   }
-  return cut;
-}
+
+  /// The coarsest of them through a box.
+  struct Cut {
+    int axis = -1, bit = -1;
+    Real plane = 0;
+  };
+  Cut coarsestCut(const Box3& box) const {
+    Cut cut;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto cell = [&](Real x) {
+        return static_cast<std::uint32_t>(max(0, min((x - low_[axis]) * perUnit_[axis], kCells)));
+      };
+      const std::uint32_t low = cell(box.low[axis]), high = cell(box.high[axis]);
+      if (low == high) continue;
+      const int bit = 31 - __builtin_clz(low ^ high);
+      if (bit <= cut.bit) continue;
+      const Real plane = low_[axis] + cell_[axis] * (high >> bit << bit);
+      if (plane > box.low[axis] && plane < box.high[axis]) cut = {axis, bit, plane};
+    }
+    return cut;
+  }
+
+ private:
+  static constexpr Real kCells = (1 << 20) - 1;
+  Vec3 low_, cell_, perUnit_;
+};
 
 /// Cuts the piece `times` times; appends the boxes.
-void split(const Piece& piece, const Box3& box, int times, const Box3& grid, std::uint32_t triangle,
+void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std::uint32_t triangle,
            TriangleParts& parts) {
-  const Cut cut = times > 0 ? coarsestCut(box, grid) : Cut{};
+  const Grid::Cut cut = times > 0 ? grid.coarsestCut(box) : Grid::Cut{};
   if (cut.axis < 0) {
     parts.add(box, triangle);
     return;
@@ -88,14 +96,19 @@ void split(const Piece& piece, const Box3& box, int times, const Box3& grid, std
 TriangleParts triangleParts(const MeshData& mesh, bool wholeOnly) {
   TriangleParts whole;
   whole.reserve(mesh.triangles.size());
-  Box3 grid;
+  std::vector<Real>
+      empty;  // of the box of a triangle, which it fills at best by half: what cutting can spare
+  empty.reserve(mesh.triangles.size());
+  Box3 all;
   Real sum = 0, sumOfSquares = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (faceNormal(mesh, i) == Vec3{}) continue;
+    const Vec3 n = faceNormal(mesh, i);
+    if (n == Vec3{}) continue;
     const Box3 box = bounds(mesh, i);
     whole.add(box, i);
-    grid.extend(box);
+    all.extend(box);
     const Real area = halfArea(box);
+    empty.push_back(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))));
     sum += area, sumOfSquares += area * area;
   }
   // How uneven the sizes are: 1 if all boxes are alike.
@@ -104,26 +117,28 @@ TriangleParts triangleParts(const MeshData& mesh, bool wholeOnly) {
   if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return whole;
 
   // What cutting a triangle gains: empty space in its box, more at the tree's coarse planes.
-  std::vector<Real> gain(wholes);
+  const Grid grid(all);
+  std::vector<float> gain(wholes);
+  const Real share = 1 / halfArea(all);
   Real allGains = 0;
   for (std::size_t i = 0; i < wholes; ++i) {
-    const Cut cut = coarsestCut(whole.boxes[i], grid);
+    const Grid::Cut cut = grid.coarsestCut(whole.boxes[i]);
     if (cut.axis < 0) continue;
-    const Vec3 n = abs(faceNormal(mesh, whole.triangles[i]));
-    const Real empty = max(0.0, halfArea(whole.boxes[i]) - 0.5 * (n.x + n.y + n.z));
-    gain[i] = std::cbrt(empty * std::ldexp(1.0, cut.bit - kGridBits));
+    gain[i] = std::cbrt(static_cast<float>(empty[i] * share * (1 << cut.bit)));
     allGains += gain[i];
   }
   if (!(allGains > 0)) return whole;
   TriangleParts parts;
   parts.reserve(wholes + static_cast<std::size_t>(kMostParts * count) + 1);
+  const Real cuts = kMostParts * count * 1.5 / allGains;  // for a gain of 1
   for (std::size_t i = 0; i < wholes; ++i) {
-    const Corners v = corners(mesh, whole.triangles[i]);
-    const int times = static_cast<int>(min(gain[i] / allGains * kMostParts * count * 1.5, 1000.0));
-    if (times == 0)
+    const int times = static_cast<int>(min(gain[i] * cuts, 1000));
+    if (times == 0) {
       parts.add(whole.boxes[i], whole.triangles[i]);
-    else
-      split({{v.a, v.b, v.c}, 3}, whole.boxes[i], times, grid, whole.triangles[i], parts);
+      continue;
+    }
+    const Corners v = corners(mesh, whole.triangles[i]);
+    split({{v.a, v.b, v.c}, 3}, whole.boxes[i], times, grid, whole.triangles[i], parts);
   }
   return parts;
 }
