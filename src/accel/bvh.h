@@ -54,7 +54,7 @@ class Bvh {
 
   /// All items, in leaves one after the other; without a tree simply all.
   std::span<const std::uint32_t> items() const { return items_; }
-  /// The items of a leaf of a tree; unused places hold kNoItem.
+  /// The items of a leaf of a tree, then kNoItem in the places left over.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
     return std::span<const std::uint32_t, kLeafSize>(items_.data() + std::size_t{number} * kLeafSize,
                                                      kLeafSize);
@@ -95,8 +95,10 @@ template <class Visit>
 void Bvh::queryTree(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
                     NodeCount& nodes, Visit visit) const {
   auto visitLeaf = [&](std::uint32_t number) {
-    for (std::uint32_t item : leaf(number))
-      if (item != kNoItem && visit(item)) return true;
+    for (std::uint32_t item : leaf(number)) {
+      if (item == kNoItem) return false;
+      if (visit(item)) return true;
+    }
     return false;
   };
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};

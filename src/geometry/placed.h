@@ -11,15 +11,16 @@ namespace trace {
 
 /// A place on an object brought out of the object's space, with the rounding of the way there and of the way
 /// back, which the next ray takes, added to its error.
-inline SurfacePoint transformed(SurfacePoint s, const Affine& outFromIn, const Affine& inFromOut) {
-  const Vec3 p = s.point;
-  const Vec3 size = absLinear(outFromIn, abs(p)) + abs(outFromIn.offset);
+inline SurfacePoint transformed(const SurfacePoint& in, const Affine& outFromIn, const Affine& inFromOut) {
+  const Vec3 size = absLinear(outFromIn, abs(in.point)) + abs(outFromIn.offset);
   const Vec3 back = (absLinear(inFromOut, size) + abs(inFromOut.offset)) * gammaError(8);
-  s.error = (size * gammaError(4) + absLinear(outFromIn, s.error + back)) * (1 + gammaError(8));
-  s.point = outFromIn * p;
-  s.normal = normalize(transposed(inFromOut, s.normal));
-  s.shading = normalize(transposed(inFromOut, s.shading));
-  return s;
+  SurfacePoint out;
+  out.point = outFromIn * in.point;
+  out.error = (size * gammaError(4) + absLinear(outFromIn, in.error + back)) * (1 + gammaError(8));
+  out.normal = normalize(transposed(inFromOut, in.normal));
+  out.shading = in.shading == in.normal ? out.normal : normalize(transposed(inFromOut, in.shading));
+  out.uv = in.uv;
+  return out;
 }
 
 /// A shape and the transform out of its space. Precondition: the transform can be undone.

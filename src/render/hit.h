@@ -8,15 +8,21 @@
 
 namespace trace {
 
+class World;
+struct Found;
+
 struct Hit {
-  Real t = 0;
-  std::uint32_t object = 0;  ///< index into Scene::objects
-  std::uint64_t part = 0;    ///< of the object: the crossing's part; of a mesh: the triangle
+  /// What `ray` found in the world, around which there is `airIndex`.
+  Hit(const World& world, const Ray& ray, const Found& found, Real airIndex);
+
+  Real t;
+  std::uint32_t object;  ///< index into Scene::objects
+  std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle
   SurfacePoint surface;
   Phong material;
-  bool leaving = false;                   ///< the ray comes from inside: it runs along the true normal
-  bool twoSided = false;                  ///< the surface is shaded from both sides
-  Real indexBefore = 1, indexBehind = 1;  ///< of refraction, on the ray's side and on the other
+  bool leaving;                   ///< the ray comes from inside: it runs along the true normal
+  bool twoSided;                  ///< the surface is shaded from both sides
+  Real indexBefore, indexBehind;  ///< of refraction, on the ray's side and on the other
 };
 
 }  // namespace trace

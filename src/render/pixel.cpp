@@ -7,12 +7,14 @@ PixelTracer::PixelTracer(const World& world, const Settings& settings, const Siz
       radiance_(integratorRow(settings.integrator).radiance),
       size_(size),
       grid_(gridSize(settings)),
-      // A cell of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
-      within_(settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0),
-      toBorder_(settings.pixelPosition == PixelPosition::border) {}
+      toBorder_(settings.pixelPosition == PixelPosition::border) {
+  // A cell of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
+  const Real within = settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
+  for (int cell = 0; cell < grid_; ++cell) places_.push_back((cell + within) / grid_);
+}
 
 Real PixelTracer::place(int pixel, int cell, int pixels) const {
-  if (!toBorder_) return (pixel + (cell + within_) / grid_) / pixels;
+  if (!toBorder_) return (pixel + places_[static_cast<std::size_t>(cell)]) / pixels;
   const int last = pixels * grid_ - 1;
   return last > 0 ? static_cast<Real>(pixel * grid_ + cell) / last : 0.5;
 }

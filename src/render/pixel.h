@@ -55,8 +55,8 @@ class PixelTracer {
   Color (*radiance_)(Tracer&, const Ray&);
   Size size_;
   int grid_;
-  Real within_;    ///< where a ray goes through its cell of the grid
-  bool toBorder_;  ///< unless the outermost rays are to go through the border of the picture
+  bool toBorder_;             ///< the outermost rays go through the border of the picture
+  std::vector<Real> places_;  ///< if they do not: of the cells of the grid within a pixel
 };
 
 template <class BadSample>

@@ -11,6 +11,17 @@ Faces Tracer::facesSeenBy(RayKind kind) const {
   return settings_.backFaces == BackFaces::cullSeen && seen ? Faces::shadedFront : Faces::both;
 }
 
+Hit::Hit(const World& world, const Ray& ray, const Found& found, Real airIndex)
+    : t(found.t),
+      object(found.object),
+      part(found.part),
+      surface(world.surface(ray, found)),
+      material(world.material(found)),
+      leaving(dot(ray.direction, surface.normal) > 0),
+      twoSided(world.twoSided(object)),
+      indexBefore(leaving ? material.index : airIndex),
+      indexBehind(leaving ? airIndex : material.index) {}
+
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   ++statistics_.rays[static_cast<std::size_t>(kind)];
   if (records()) begin(ray, kind, kInfinity);
@@ -23,18 +34,14 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
                 : LeftScene{});
     }
-    return {};
+    return std::nullopt;
   }
-  Hit hit{found->t, found->object, found->part, world_.surface(ray, *found), world_.material(*found)};
-  hit.leaving = dot(ray.direction, hit.surface.normal) > 0;
-  hit.twoSided = world_.twoSided(found->object);
-  const Real air = settings_.airIndex, inside = hit.material.index;
-  hit.indexBefore = hit.leaving ? inside : air, hit.indexBehind = hit.leaving ? air : inside;
   if (records()) {
     RayNode& node = finish();
-    node.hit = hit, node.materials = sharesOf(world_.materialMix(*found));
+    node.materials = sharesOf(world_.materialMix(*found));
+    return node.hit.emplace(world_, ray, *found, settings_.airIndex);
   }
-  return hit;
+  return std::optional<Hit>(std::in_place, world_, ray, *found, settings_.airIndex);
 }
 
 bool Tracer::tooNear(const Ray& ray) const {
@@ -69,6 +76,7 @@ Color Tracer::passed(const Ray& ray, Real distance) {
     return blocked;
   });
   if (blocked) return Color(0);
+  if (crossed_.empty()) return Color(1);
 
   // In order along the ray, so that the product's last bit does not depend on the hierarchy; each once.
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });

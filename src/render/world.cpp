@@ -14,7 +14,7 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
     std::optional<Ray> moved;
     const Ray& ray = instance.objectRay(worldRay, moved);
     const auto keepNearest = [&](const Found& found) {
-      if (!(found.t > 0 && found.before(*best))) return;
+      if (!found.before(*best)) return;
       ++statistics.hits[kind];
       *best = found;
     };
@@ -29,7 +29,10 @@ std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics
         keepNearest({met.hit.t, object, met.triangle, met.hit});
       statistics.nodes.owner = NodeCount::kTop;
     } else {
-      crossingsOfShape(object, ray, best->t, statistics, keepNearest);
+      crossingsOfShape(instance, ray, best->t, statistics, [&](const Crossing& crossing) {
+        if (crossing.t > 0 && crossing.t <= best->t)
+          keepNearest({crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+      });
     }
     return false;
   };
@@ -43,7 +46,7 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
   std::optional<Ray> moved;
   const Ray& ray = instance.objectRay(worldRay, moved);
-  const SurfacePoint s =
+  SurfacePoint s =
       match(instance.shape,
             Overloaded{[&](const Mesh&) {
                          return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
@@ -52,8 +55,8 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
                        [&](const auto& shape) {
                          return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
                        }});
-
-  return instance.moved ? transformed(s, instance.worldFromObject, instance.objectFromWorld) : s;
+  if (instance.moved) s = transformed(s, instance.worldFromObject, instance.objectFromWorld);
+  return s;
 }
 
 namespace {
@@ -73,7 +76,8 @@ const Phong& clear() {
 
 MaterialMix World::materialMix(const Found& found) const {
   const Instance& instance = objects_[found.object];
-  if (instance.mesh && !instance.mesh->data().materials.empty()) {
+  if (!instance.mixed) return MaterialMix::only(instance.material);
+  if (instance.mesh) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
     const Real* b = found.triangle.b;
@@ -263,6 +267,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                          tree = std::make_shared<const MeshTree>(data, bruteForce, settings.threads);
                        }
                        instance.mesh = tree;
+                       instance.mixed = !tree->data().materials.empty();
                        for (std::uint32_t m : tree->data().materials)
                          if (world.materials_.at(m).transmits()) instance.opaque = false;
                        box = bounds(tree->data());
@@ -270,6 +275,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
                        if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
+                         instance.mixed = true;
                          std::vector<std::uint32_t> materials;
                          formOf(shape).addMaterials(materials);
                          for (std::uint32_t m : materials)

@@ -80,7 +80,9 @@ class World {
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   /// What a camera ray sees that meets nothing.
-  Color background(const Ray& ray) const { return background_.at(1 - camera_.heightOf(ray.direction)); }
+  Color background(const Ray& ray) const {
+    return background_.at(background_.colors.size() > 1 ? 1 - camera_.heightOf(ray.direction) : 0);
+  }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
@@ -101,6 +103,7 @@ class World {
     Box3 bounds;
     std::uint32_t material = 0;
     bool opaque = true;
+    bool mixed = false;                    ///< parts of it are made of other materials
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
 
     /// The ray in the object's space: as it is, or moved to `place`.
@@ -110,10 +113,10 @@ class World {
     }
   };
 
-  /// Calls visit(Found) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
+  /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
   template <class Visit>
-  void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
+  void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
 
   std::vector<Instance> objects_;
@@ -143,16 +146,13 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages,
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
-                             const Visit& visit) const {
-  const TracedShape& shape = objects_[object].shape;
-  ++statistics.tests[shape.index()];
-  match(shape, Overloaded{[](const Mesh&) {},
-                          [&](const auto& form) {
-                            visitCrossings(formOf(form), ray, Range{0, tMost}, [&](const Crossing& crossing) {
-                              visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
-                            });
-                          }});
+void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost,
+                             Statistics& statistics, const Visit& visit) const {
+  ++statistics.tests[instance.shape.index()];
+  match(instance.shape, Overloaded{[](const Mesh&) {},
+                                   [&](const auto& form) {
+                                     visitCrossings(formOf(form), ray, Range{0, tMost}, visit);
+                                   }});
 }
 
 template <class Visit>
@@ -165,10 +165,8 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
     bool ended = false;
     Real wanted = tMost;
     const auto report = [&](const Found& found) {
-      if (ended || !(found.t > 0 && found.t < tMost)) return;
       ++statistics.hits[instance.shape.index()];
       ended = visit(found);
-      if (ended) wanted = -kInfinity;
     };
     if (const MeshTree* mesh = instance.mesh.get()) {
       statistics.nodes.owner = object;
@@ -181,7 +179,11 @@ void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& 
                       {statistics.nodes, statistics.tests[instance.shape.index()]});
       statistics.nodes.owner = NodeCount::kTop;
     } else {
-      crossingsOfShape(object, ray, wanted, statistics, report);
+      crossingsOfShape(instance, ray, wanted, statistics, [&](const Crossing& crossing) {
+        if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
+        report({crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+        if (ended) wanted = -kInfinity;
+      });
     }
     return ended;
   };
