@@ -1,7 +1,6 @@
 #include "geometry/lathe.h"
 
 #include <algorithm>
-#include <span>
 
 namespace trace {
 
@@ -58,11 +57,11 @@ void TracedLathe::add(const Cubic<2>& curve, std::array<Real, 2> from, std::arra
   }
 }
 
-Real TracedLathe::Arc::at(Real z) const {
+Real TracedLathe::Arc::at(Real z, Real guess) const {
   if (z <= z0) return u0;
   if (z >= z1) return u1;
   const auto height = [&](Real u) { return Jet{curve.at(1, u) - z, curve.slope(1, u)}; };
-  return u0 < u1 ? rootBetween(height, u0, u1, true) : rootBetween(height, u1, u0, false);
+  return u0 < u1 ? rootBetween(height, u0, u1, true, guess) : rootBetween(height, u1, u0, false, guess);
 }
 
 void TracedLathe::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
@@ -76,34 +75,6 @@ void TracedLathe::crossings(const Ray& ray, const Range& range, VisitCrossing vi
     meetArc(arcs_[number], static_cast<std::int64_t>(number), ray, span, range, visit);
   }
 }
-
-namespace {
-
-/// How often the sign changes among the Bernstein coefficients of a polynomial over [a, b]: at least as often
-/// as the polynomial has roots there. 2 if rounding hides it.
-int signVariations(std::span<const Real, 7> coefficients, Real a, Real b) {
-  std::array<Real, 7> c;
-  std::copy(coefficients.begin(), coefficients.end(), c.begin());
-  Real size = 0, power = 1;
-  for (const Real k : c) size += std::abs(k) * power, power *= max(1, max(std::abs(a), std::abs(b)));
-  for (std::size_t i = 0; i < 6; ++i)  // around a
-    for (std::size_t k = 6; k-- > i;) c[k] += a * c[k + 1];
-  power = 1;
-  for (Real& k : c) k *= power, power *= b - a;
-  // b_i = sum of binomial(i, k) / binomial(6, k) c_k
-  constexpr Real kBinomial[] = {1, 6, 15, 20, 15, 6, 1};
-  for (std::size_t k = 0; k < 7; ++k) c[k] /= kBinomial[k];
-  for (std::size_t i = 1; i < 7; ++i)
-    for (std::size_t k = 6; k >= i; --k) c[k] += c[k - 1];
-  int variations = 0;
-  for (std::size_t i = 0; i < 7; ++i) {
-    if (!(std::abs(c[i]) > 64 * size * gammaError(64))) return 2;
-    variations += i > 0 && (c[i] < 0) != (c[i - 1] < 0);
-  }
-  return variations;
-}
-
-}  // namespace
 
 void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span,
                           const Range& range, VisitCrossing visit) const {
@@ -137,28 +108,29 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     return;                                                             // it passes outside of all of it
   if (max(square(begin), square(end)) < arc.least * arc.least) return;  // or inside of all of it
 
+  Real u = 0.5 * (arc.u0 + arc.u1);  // the latest place on the arc, where the next one is sought first
   const auto distance = [&](Real t) {
-    const Real u = arc.at(o.z + d.z * t), r = arc.curve.at(0, u), x = o.x + d.x * t, y = o.y + d.y * t;
+    u = arc.at(o.z + d.z * t, u);
+    const Real r = arc.curve.at(0, u), x = o.x + d.x * t, y = o.y + d.y * t;
     const Real rise = arc.curve.slope(1, u);
     return Jet{x * x + y * y - r * r,
                2 * (x * d.x + y * d.y) - (rise != 0 ? 2 * r * arc.curve.slope(0, u) * d.z / rise : 0)};
   };
-  // Where the distance may turn: along the arc it is a polynomial of degree six.
-  std::array<Real, 16> nodes{};
-  std::size_t count = 0;
+  // Places with one crossing between neighbours at most, and where a crossing is to be looked for first.
+  std::array<Real, 10> nodes, guesses;
+  std::size_t count = 0, guessCount = 0;
   if (begin < 0 && 0 < end) nodes[count++] = 0;
-  std::array<Real, 7> polynomial{};
-  const Real low = min(arc.u0, arc.u1), high = max(arc.u0, arc.u1);
-  bool helps = false;  // the polynomial, as a first guess
   const auto &r = arc.curve.c[0], &z = arc.curve.c[1];
   const bool straight = r[2] == 0 && r[3] == 0 && z[2] == 0 && z[3] == 0;
-  if (d.z != 0 && straight) {  // a cone: the distance turns once
+  if (d.z == 0) {
+    nodes[count++] = closest;
+  } else if (straight) {  // a cone: the distance turns once
     const Real slope = r[1] / z[1], at0 = r[0] + slope * (o.z - z[0]);
     const Real t = -(o.x * d.x + o.y * d.y - at0 * slope * d.z) / (dd - slope * slope * d.z * d.z);
     nodes[count++] = closest;
     if (begin < t && t < end) nodes[count++] = t;
-  } else if (d.z != 0) {
-    helps = true;
+  } else {  // along the arc the distance is a polynomial of degree six
+    std::array<Real, 7> polynomial{};
     for (const auto& [start, slope] : {std::pair{o.x, d.x}, std::pair{o.y, d.y}}) {
       std::array<Real, 4> place{};
       for (std::size_t i = 0; i < 4; ++i) place[i] = slope * z[i] + (i == 0 ? start * d.z - slope * o.z : 0);
@@ -167,20 +139,14 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) polynomial[i + j] -= d.z * d.z * r[i] * r[j];
-    // Most lines go in on one side of their place nearest to the axis and out on the other.
-    const bool one = signVariations(polynomial, low, high) <= 1;
-    if (!one) nodes[count++] = closest;
-    const Real middle = one ? low : std::clamp(arc.at(o.z + d.z * closest), low, high);
-    if (!one &&
-        (signVariations(polynomial, low, middle) > 1 || signVariations(polynomial, middle, high) > 1)) {
-      const Nodes turns = extremaWithEnds(polynomial, low, high);
-      for (std::size_t i = 1; i + 1 < turns.count; ++i) {
-        const Real t = (arc.curve.at(1, turns.at[i]) - o.z) / d.z;
-        if (begin < t && t < end) nodes[count++] = t;
-      }
+    const Real low = min(arc.u0, arc.u1), high = max(arc.u0, arc.u1);
+    if (signVariations(polynomial, low, high) == 0) return;
+    const Nodes roots = rootsWithEnds(polynomial, low, high);
+    const auto lineAt = [&](Real place) { return (arc.curve.at(1, place) - o.z) / d.z; };
+    for (std::size_t i = 1; i + 1 < roots.count; ++i) {
+      guesses[guessCount++] = lineAt(roots.at[i]);
+      if (i > 1) nodes[count++] = lineAt(0.5 * (roots.at[i - 1] + roots.at[i]));
     }
-  } else {
-    nodes[count++] = closest;
   }
   std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(count));
   const auto insideAtEnd = [&](Real t, bool exact, bool bottom) {
@@ -190,18 +156,11 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
   };
   bool inside = insideAtEnd(begin, beginIsEnd, bottomFirst);
   Real last = begin;
-  // Between a and b, of which one is inside: the polynomial's root first, since the distance takes longer.
   const auto root = [&](Real a, Real b) {
-    if (!helps) return rootBetween(distance, a, b, inside);
-    const Real ua = arc.at(o.z + d.z * a), ub = arc.at(o.z + d.z * b);
-    const auto value = [&](Real u) { return evaluate(polynomial, u); };
-    const Real u = rootBetween(value, min(ua, ub), max(ua, ub), (ua < ub) == inside);
-    const Real guess = (arc.curve.at(1, u) - o.z) / d.z;
-    const Real near = std::ldexp(max(std::abs(guess), (b - a)), -44);
-    const Real before = guess - near, behind = guess + near;
-    const bool brackets = a < before && behind < b && (distance(before).value < 0) == inside &&
-                          (distance(behind).value < 0) != inside;
-    return brackets ? rootBetween(distance, before, behind, inside) : rootBetween(distance, a, b, inside);
+    Real guess = a;
+    for (std::size_t i = 0; i < guessCount; ++i)
+      if (a < guesses[i] && guesses[i] < b) guess = guesses[i];
+    return rootBetween(distance, a, b, inside, guess);
   };
   const auto advance = [&](Real t, bool after) {
     if (after != inside) visit({last < t ? root(last, t) : t, number});

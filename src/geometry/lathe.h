@@ -56,7 +56,9 @@ class TracedLathe {
     Real least, most;  ///< distance from the axis, at least and at most
     bool flat() const { return z0 == z1; }
     /// Precondition: not flat. Where the arc is at that height.
-    Real at(Real z) const;
+    Real at(Real z) const { return at(z, 0.5 * (u0 + u1)); }
+    /// ... which is near `guess`.
+    Real at(Real z, Real guess) const;
   };
   void add(const Cubic<2>& curve, std::array<Real, 2> from, std::array<Real, 2> to);
   void meetArc(const Arc& arc, std::int64_t number, const Ray& ray, const Span& span, const Range& range,

@@ -37,18 +37,21 @@ Vec3 TracedMetaballs::Component::nearest(const Vec3& p) const {
   return from + axis * std::clamp(dot(p - from, axis) / axisSquare, 0.0, 1.0);
 }
 
-/// The part of a ray on which a component's field is strength (1 - q)^2 with q = a t^2 + 2 b t + c < 1.
+/// A part of a ray along which one point of a component, or its line, is the nearest, and nearer than its
+/// radius. Nothing in it sets itself to zero, so that room for many costs nothing.
 struct TracedMetaballs::Piece {
+  enum Nearest { first, line, last };
   const Component* component;
-  Vec3 from, axis;  ///< distance is measured from this line, or from the point if the axis is zero
-  Real a, b, c;     ///< with t counted from `origin`
+  Nearest nearest;
+  Real speed;  ///< the square of that at which the offset changes, in radii
   Real begin, end;
 
-  /// The offset from the line or point, which is linear in t.
+  /// The way from the nearest point, which is linear in t.
   Vec3 offset(const Vec3& p) const {
-    const Vec3 v = p - from;
-    return component->axisSquare > 0 && axis != Vec3{} ? v - axis * (dot(v, axis) / component->axisSquare)
-                                                       : v;
+    const Vec3 v = p - component->from;
+    if (nearest == first) return v;
+    if (nearest == last) return v - component->axis;
+    return v - component->axis * (dot(v, component->axis) / component->axisSquare);
   }
 };
 
@@ -60,21 +63,20 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
 
   SmallList<Piece, 24> pieces;
   SmallList<Real, 64> ends;
-  const auto addPiece = [&](const Component& c, const Vec3& from, const Vec3& axis, Real begin, Real end) {
-    Piece piece{&c, from, axis, 0, 0, 0, begin, end};
+  const auto addPiece = [&](const Component& c, Piece::Nearest nearest, Real begin, Real end) {
+    Piece piece{&c, nearest, 0, begin, end};
     const Vec3 v = piece.offset(o);
-    const Vec3 w = axis != Vec3{} ? d - axis * (dot(d, axis) / c.axisSquare) : d;
-    const Real r2 = c.radius * c.radius;
-    piece.a = dot(w, w) / r2, piece.b = dot(v, w) / r2, piece.c = dot(v, v) / r2;
-    if (piece.a > 0) {
-      const Vec3 near = v - w * (dot(v, w) / dot(w, w));
-      const Roots2 roots =
-          solveQuadratic(piece.a, piece.b, piece.c - 1, piece.a * (1 - dot(near, near) / r2));
+    const Vec3 w = nearest == Piece::line ? d - c.axis * (dot(d, c.axis) / c.axisSquare) : d;
+    const Real r2 = c.radius * c.radius, ww = dot(w, w), vw = dot(v, w), vv = dot(v, v);
+    if (ww > 0) {
+      const Vec3 near = v - w * (vw / ww);
+      const Roots2 roots = solveQuadratic(ww, vw, vv - r2, ww * (r2 - dot(near, near)));
       if (!roots.count) return;
       piece.begin = max(begin, origin + roots.t0), piece.end = min(end, origin + roots.t1);
-    } else if (piece.c >= 1) {
+    } else if (vv >= r2) {
       return;
     }
+    piece.speed = ww / r2;
     piece.begin = max(piece.begin, first), piece.end = min(piece.end, span.to);
     if (!(piece.begin < piece.end)) return;
     pieces.add(piece);
@@ -82,18 +84,16 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
   };
   tree_.query(ray, [&](std::uint32_t number) {
     const Component& c = components_[number];
-    if (c.axisSquare == 0) return addPiece(c, c.from, {}, -kInfinity, kInfinity);
-    // Beside one end, beside the line between, beside the other end.
+    if (c.axisSquare == 0) return addPiece(c, Piece::first, -kInfinity, kInfinity);
     const Real along = dot(d, c.axis), start = -dot(o - c.from, c.axis);
     if (along == 0) {
-      if (start > 0) return addPiece(c, c.from, {}, -kInfinity, kInfinity);
-      if (-start > c.axisSquare) return addPiece(c, c.from + c.axis, {}, -kInfinity, kInfinity);
-      return addPiece(c, c.from, c.axis, -kInfinity, kInfinity);
+      const auto nearest = start > 0 ? Piece::first : -start > c.axisSquare ? Piece::last : Piece::line;
+      return addPiece(c, nearest, -kInfinity, kInfinity);
     }
     const Real t0 = origin + start / along, t1 = origin + (start + c.axisSquare) / along;
-    addPiece(c, c.from, c.axis, min(t0, t1), max(t0, t1));
-    addPiece(c, along > 0 ? c.from : c.from + c.axis, {}, -kInfinity, min(t0, t1));
-    addPiece(c, along > 0 ? c.from + c.axis : c.from, {}, max(t0, t1), kInfinity);
+    addPiece(c, Piece::line, min(t0, t1), max(t0, t1));
+    addPiece(c, along > 0 ? Piece::first : Piece::last, -kInfinity, min(t0, t1));
+    addPiece(c, along > 0 ? Piece::last : Piece::first, max(t0, t1), kInfinity);
   });
   if (pieces.size() == 0) return;
 
@@ -107,15 +107,23 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
   for (; i + 1 < count && at[i] < range.to; ++i) {
     const Real begin = at[i], end = at[i + 1], middle = 0.5 * (begin + end);
     SmallList<const Piece*, 24> active;
-    Real quartic[5] = {threshold_, 0, 0, 0, 0};
     Real most = 0;
     for (const Piece& piece : pieces.all()) {
       if (!(piece.begin <= middle && middle <= piece.end)) continue;
       active.add(&piece);
       most += max(piece.component->strength, 0);
-      // q around the middle of the interval, then minus its share.
-      const Real s = middle - origin, a = piece.a, b = piece.b + a * s;
-      const Real c = 1 - (piece.c + s * (2 * piece.b + s * a)), k = piece.component->strength;
+    }
+    if (most <= threshold_) {  // the sum cannot reach it
+      if (inside) visit(Crossing{begin, 0});
+      inside = false, known = true;
+      continue;
+    }
+    Real quartic[5] = {threshold_, 0, 0, 0, 0};  // the sum around the middle
+    const Vec3 there = ray.at(middle);
+    for (const Piece* piece : active.all()) {
+      const Vec3 v = piece->offset(there);
+      const Real k = piece->component->strength, r2 = piece->component->radius * piece->component->radius;
+      const Real a = piece->speed, b = dot(v, d) / r2, c = 1 - dot(v, v) / r2;
       quartic[0] -= k * c * c, quartic[1] += 4 * k * c * b, quartic[2] += k * (2 * c * a - 4 * b * b);
       quartic[3] -= 4 * k * a * b, quartic[4] -= k * a * a;
     }
@@ -134,17 +142,14 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
     };
     const auto isInside = [&](Real t) { return sum(t).value < 0; };
     if (!known) inside = begin > span.from && isInside(begin), known = true;
-    if (most <= threshold_) {  // the sum cannot reach it
-      if (inside) visit(Crossing{begin, 0});
-      inside = false;
-      continue;
-    }
-    Nodes nodes = extremaWithEnds(quartic, begin - middle, end - middle);
+    // The polynomial tells where to look; the signs are those of the sum itself.
+    const Nodes roots = rootsWithEnds(quartic, begin - middle, end - middle);
     Real last = begin;
-    for (std::size_t n = 1; n < nodes.count; ++n) {
-      const Real node = n + 1 == nodes.count ? end : std::clamp(nodes.at[n] + middle, last, end);
+    for (std::size_t n = 1; n == 1 || n + 1 < roots.count; ++n) {
+      const bool toEnd = n + 2 >= roots.count;
+      const Real node = toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), last, end);
       const bool after = isInside(node);
-      if (after != inside) visit(Crossing{rootBetween(sum, last, node, inside), 0});
+      if (after != inside) visit(Crossing{rootBetween(sum, last, node, inside, middle + roots.at[n]), 0});
       inside = after, last = node;
     }
   }

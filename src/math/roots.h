@@ -37,11 +37,11 @@ struct Jet {
 };
 
 /// Where f changes sign in [a, b]: f(t) returns a Jet, and is negative at one end only, which is a if
-/// `negativeAtA`. Newton's steps while they stay in the bracket and shrink, else halving.
+/// `negativeAtA`. Newton's steps from `guess` while they stay in the bracket and shrink, else halving.
 template <class F>
-Real rootBetween(F&& f, Real a, Real b, bool negativeAtA) {
+Real rootBetween(F&& f, Real a, Real b, bool negativeAtA, Real guess) {
   constexpr int kMost = 200;  // halving alone needs fewer for any two numbers of like size
-  Real t = a + 0.5 * (b - a), lastStep = b - a;
+  Real t = a < guess && guess < b ? guess : a + 0.5 * (b - a), lastStep = b - a;
   for (int i = 0; i < kMost && a < t && t < b; ++i) {
     const Jet at = f(t);
     ((at.value < 0) == negativeAtA ? a : b) = t;
@@ -52,6 +52,10 @@ Real rootBetween(F&& f, Real a, Real b, bool negativeAtA) {
     t = next;
   }
   return t;
+}
+template <class F>
+Real rootBetween(F&& f, Real a, Real b, bool negativeAtA) {
+  return rootBetween(f, a, b, negativeAtA, a + 0.5 * (b - a));
 }
 
 /// Calls visit(root, negativeBefore) for each change of sign of f between neighbours of the ascending
@@ -94,52 +98,15 @@ struct Nodes {
   operator std::span<const Real>() const { return {at.data(), count}; }
 };
 
-/// a, the places in (a, b) where the polynomial changes sign, and b. Between the places where the derivative
-/// changes sign a polynomial is monotone: so from degree 2 upward (Yuksel, High-Performance Polynomial Root
-/// Finding for Graphics, 2022). The degree is at most kMostDegree; leading coefficients may be zero.
-inline Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b) {
-  const std::size_t degree = coefficients.size() - 1;
-  Nodes nodes;
-  nodes.add(a);
-  if (degree == 0) return nodes.add(b), nodes;
+/// a, the places in (a, b) where the polynomial changes sign, and b. Isolated by the signs of Bernstein
+/// ordinates (Lane and Riesenfeld, Bounds on a Polynomial, 1981): no change, no root; one change, one root;
+/// of several the interval is halved, until they are no more than rounding. The degree is at most kMostDegree;
+/// leading coefficients may be zero.
+Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b);
 
-  Real derivative[kMostDegree + 1][kMostDegree + 1];
-  for (std::size_t i = 0; i <= degree; ++i) derivative[degree][i] = coefficients[i];
-  for (std::size_t n = degree; n-- > 1;)
-    for (std::size_t i = 0; i <= n; ++i)
-      derivative[n][i] = static_cast<Real>(i + 1) * derivative[n + 1][i + 1];
-
-  const auto addInside = [&](Real t) {
-    if (a < t && t < b) nodes.add(t);
-  };
-  std::size_t solved = degree < 2 ? degree : 2;
-  const Real* p = derivative[solved];
-  if (solved == 1 || p[2] == 0) {
-    addInside(-p[0] / p[1]);
-  } else {
-    const Real half = 0.5 * p[1];
-    const Roots2 roots = solveQuadratic(p[2], half, p[0], half * half - p[2] * p[0]);
-    if (roots.count && roots.t0 < roots.t1) addInside(roots.t0), addInside(roots.t1);
-  }
-  nodes.add(b);
-
-  while (solved++ < degree) {
-    const std::span<const Real> q(derivative[solved], solved + 1);
-    Nodes finer;
-    finer.add(a);
-    bool negative = evaluate(q, a).value < 0;
-    for (std::size_t i = 0; i + 1 < nodes.count; ++i) {
-      const bool negativeAfter = evaluate(q, nodes.at[i + 1]).value < 0;
-      if (negative != negativeAfter)
-        finer.add(
-            rootBetween([&](Real t) { return evaluate(q, t); }, nodes.at[i], nodes.at[i + 1], negative));
-      negative = negativeAfter;
-    }
-    finer.add(b);
-    nodes = finer;
-  }
-  return nodes;
-}
+/// How often the sign changes among those ordinates over [a, b]: at least as often as that of the polynomial
+/// does. 2 if rounding hides it.
+int signVariations(std::span<const Real> coefficients, Real a, Real b);
 
 /// a, the places in (a, b) where the polynomial's derivative changes sign, and b: nodes for signChanges().
 inline Nodes extremaWithEnds(std::span<const Real> coefficients, Real a, Real b) {
