@@ -22,20 +22,17 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
   constexpr int kMostSteps = 20000;
   struct Stretch {
     Real a, b;
-    bool negativeAtB;
     int depth;
   };
   std::array<Stretch, kMostDepth + 2> stack{};
   std::size_t count = 0;
   const Real first = max(span.from, range.from);
   if (!(first < span.to)) return;
-  const auto negative = [&](Real t) { return at(t).value < 0; };
-  stack[count++] = {first, span.to, negative(span.to), 0};
-  bool before = negative(first);
-  if (first < 0 && 0 < span.to) {
-    stack[0].a = 0;
-    stack[count++] = {first, 0, negative(0), 0};
-  }
+  if (first < 0 && 0 < span.to)
+    stack[count++] = {0, span.to, 0}, stack[count++] = {first, 0, 0};
+  else
+    stack[count++] = {first, span.to, 0};
+  bool before = at(first).value < 0;
   int steps = 0;
   while (count > 0) {
     const Stretch s = stack[--count];
@@ -43,17 +40,19 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
     const Real middle = s.a + 0.5 * (s.b - s.a);
     const auto over = bounds(Interval{s.a, s.b});
     const bool monotone = !over.slope.contains(0);
-    bool none = !over.value.contains(0);
-    if (meanValue && !none && !monotone)  // sharper over short stretches
-      none = !(bounds(Interval(middle)).value + over.slope * (Interval{s.a, s.b} - middle)).contains(0);
+    Interval value = over.value;
+    if (meanValue && value.contains(0) && !monotone)  // sharper over short stretches
+      value = bounds(Interval(middle)).value + over.slope * (Interval{s.a, s.b} - middle);
+    const bool none = !value.contains(0);
     const bool least = s.depth == kMostDepth || !(s.a < middle && middle < s.b) || ++steps > kMostSteps;
     if (none || monotone || least) {
-      if (before != s.negativeAtB) visit(rootBetween(at, s.a, s.b, before), before);
-      before = s.negativeAtB;
+      const bool after = none ? value.high < 0 : at(s.b).value < 0;
+      if (before != after) visit(none ? s.a : rootBetween(at, s.a, s.b, before), before);
+      before = after;
       continue;
     }
-    stack[count++] = {middle, s.b, s.negativeAtB, s.depth + 1};
-    stack[count++] = {s.a, middle, negative(middle), s.depth + 1};
+    stack[count++] = {middle, s.b, s.depth + 1};
+    stack[count++] = {s.a, middle, s.depth + 1};
   }
 }
 
