@@ -45,7 +45,8 @@ Real norm(const Superellipsoid& shape, const Vec3& p, Vec3& slopes) {
 }  // namespace
 
 void Superellipsoid::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-  const Span span = spanIn(roomy(bounds()), ray);
+  Span span = spanIn(roomy(bounds()), ray);
+  if (range.from >= 0) span.from = max(span.from, 0);  // nothing behind the origin is wanted
   if (span.empty()) return;
   convexCrossings(
       span, range,
