@@ -103,6 +103,7 @@ inline Double4 operator*(Double4 a, Double4 b) { return {_mm256_mul_pd(a.v, b.v)
 inline Double4 operator/(Double4 a, Double4 b) { return {_mm256_div_pd(a.v, b.v)}; }
 inline Double4 min(Double4 a, Double4 b) { return {_mm256_min_pd(a.v, b.v)}; }
 inline Double4 max(Double4 a, Double4 b) { return {_mm256_max_pd(a.v, b.v)}; }
+inline Double4 sqrt(Double4 a) { return {_mm256_sqrt_pd(a.v)}; }
 /// -a where the sign bit of `sign` is set, else a.
 inline Double4 timesSign(Double4 a, Double4 sign) {
   return {_mm256_xor_pd(a.v, _mm256_and_pd(_mm256_set1_pd(-0.0), sign.v))};
@@ -152,6 +153,7 @@ inline Double4 operator*(Double4 a, Double4 b) { return {_mm_mul_pd(a.lo, b.lo),
 inline Double4 operator/(Double4 a, Double4 b) { return {_mm_div_pd(a.lo, b.lo), _mm_div_pd(a.hi, b.hi)}; }
 inline Double4 min(Double4 a, Double4 b) { return {_mm_min_pd(a.lo, b.lo), _mm_min_pd(a.hi, b.hi)}; }
 inline Double4 max(Double4 a, Double4 b) { return {_mm_max_pd(a.lo, b.lo), _mm_max_pd(a.hi, b.hi)}; }
+inline Double4 sqrt(Double4 a) { return {_mm_sqrt_pd(a.lo), _mm_sqrt_pd(a.hi)}; }
 inline Double4 timesSign(Double4 a, Double4 sign) {
   const __m128d minus = _mm_set1_pd(-0.0);
   return {_mm_xor_pd(a.lo, _mm_and_pd(minus, sign.lo)), _mm_xor_pd(a.hi, _mm_and_pd(minus, sign.hi))};
@@ -234,6 +236,10 @@ Lanes<T, N> max(const Lanes<T, N>& a, const Lanes<T, N>& b) {
 template <class T, int N>
 Lanes<T, N> abs(const Lanes<T, N>& a) {
   return map(a, a, [](T x, T) { return x < 0 ? -x : x; });
+}
+template <int N>
+Lanes<double, N> sqrt(const Lanes<double, N>& a) {
+  return map(a, a, [](double x, double) { return __builtin_sqrt(x); });
 }
 template <class T, int N>
 unsigned less(const Lanes<T, N>& a, const Lanes<T, N>& b) {

@@ -2,10 +2,26 @@
 
 #include <algorithm>
 
+#include "accel/bvh.h"
 #include "geometry/interval_search.h"
-#include "geometry/stride_search.h"
 
 namespace trace {
+
+// Compiled from julia_kernel.h, each in its own file with its own flags.
+#if defined(TRACE_HAS_AVX2)
+extern const JuliaKernel kJuliaKernelAvx2;
+#endif
+extern const JuliaKernel kJuliaKernelBase;
+
+std::span<const JuliaKernel> juliaKernels() {
+#if defined(TRACE_HAS_AVX2)
+  static const std::array<JuliaKernel, 2> kAll{kJuliaKernelAvx2, kJuliaKernelBase};
+  return std::span(kAll).subspan(hasAvx2() ? 0 : 1);
+#else
+  return {&kJuliaKernelBase, 1};
+#endif
+}
+
 namespace {
 
 using Number = std::array<Real, 4>;
@@ -17,73 +33,17 @@ Number operator*(const Number& a, Real s) { return {a[0] * s, a[1] * s, a[2] * s
 Real dot(const Number& a, const Number& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 Real size(const Number& a) { return std::sqrt(dot(a, a)); }
 
-Number hypercomplexProduct(const Number& a, const Number& b) {
-  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] + a[3] * b[3],
-          a[0] * b[1] + a[1] * b[0] - a[2] * b[3] - a[3] * b[2],
-          a[0] * b[2] + a[2] * b[0] - a[1] * b[3] - a[3] * b[1],
-          a[0] * b[3] + a[3] * b[0] + a[1] * b[2] + a[2] * b[1]};
-}
-/// |a b| <= kStretch |a| |b| for hypercomplex numbers, which have divisors of zero.
-constexpr Real kStretch = 1.4142135623730951;
+julia::Number<Real> named(const Number& q) { return {q[0], q[1], q[2], q[3]}; }
+Number numbered(const julia::Number<Real>& q) { return {q.a, q.i, q.j, q.k}; }
 
-/// A number as two pairs, which the processor adds and multiplies at once.
-struct Pairs {
-  using Pair [[gnu::vector_size(16)]] = Real;
-  Pair low, high;
-
-  explicit Pairs(const Number& q) : low{q[0], q[1]}, high{q[2], q[3]} {}
-  Pairs(const Pair& l, const Pair& h) : low(l), high(h) {}
-  Real operator[](std::size_t i) const { return i < 2 ? low[i] : high[i - 2]; }
-};
-Pairs operator+(const Pairs& a, const Pairs& b) { return {a.low + b.low, a.high + b.high}; }
-Pairs operator*(const Pairs& a, Real s) { return {a.low * s, a.high * s}; }
-Real dot(const Pairs& a, const Pairs& b) {
-  const Pairs::Pair sum = a.low * b.low + a.high * b.high;
-  return sum[0] + sum[1];
-}
-Pairs lessReal(const Pairs& a, Real s) { return {a.low - Pairs::Pair{s, 0}, a.high}; }
-Pairs hypercomplexProduct(const Pairs& a, const Pairs& b) {
-  return Pairs(hypercomplexProduct(Number{a[0], a[1], a[2], a[3]}, Number{b[0], b[1], b[2], b[3]}));
-}
-
-/// The step, of a number whose square |q|^2 is known.
-template <Iteration kIteration>
-Pairs stepAs(const Pairs& q, Real square) {
-  if constexpr (kIteration == Iteration::hypercomplex) return hypercomplexProduct(q, q);
-  const Real a = 2 * q[0];
-  const Pairs r = lessReal(q * a, square);  // q^2 = 2 a q - |q|^2
-  if constexpr (kIteration == Iteration::cube) return r * a + q * -square;
-  return r;
-}
-/// How the step changes as q does by d, where |q|^2 and q . d are known.
-template <Iteration kIteration>
-Pairs slopeAs(const Pairs& q, const Pairs& d, Real square, Real product) {
-  if constexpr (kIteration == Iteration::hypercomplex) return hypercomplexProduct(q, d) * 2;
-  const Real a = 2 * q[0], b = 2 * d[0];
-  const Pairs r = lessReal(d * a + q * b, 2 * product);
-  if constexpr (kIteration == Iteration::cube)
-    return r * a + lessReal(q * a, square) * b + d * -square + q * (-2 * product);
-  return r;
-}
-Number number(const Pairs& q) { return {q[0], q[1], q[2], q[3]}; }
-/// The most that a step stretches at a number of size s.
-template <Iteration kIteration>
-Real stretchAs(Real s) {
-  if constexpr (kIteration == Iteration::square) return 2 * s;
-  if constexpr (kIteration == Iteration::cube) return 3 * s * s;
-  if constexpr (kIteration == Iteration::hypercomplex) return 2 * kStretch * s;
-}
-/// A bound of the second derivative of a step within w of a place where q is of size s and changes by l, and
-/// its second derivative is within m: |q| <= s + w l + w^2 m / 2, |q'| <= l + w m.
-template <Iteration kIteration>
-Real bendAs(Real s, Real l, Real m, Real w) {
-  if constexpr (kIteration == Iteration::cube) {
-    const Real speed = l + w * m, farthest = s + w * (l + 0.5 * w * m);
-    return 3 * farthest * (2 * speed * speed + farthest * m);
+/// Calls f with the iteration, a power, as a constant.
+template <class F>
+decltype(auto) withPower(Iteration iteration, F&& f) {
+  switch (iteration) {
+    case Iteration::cube: return f.template operator()<Iteration::cube>();
+    case Iteration::hypercomplex: return f.template operator()<Iteration::hypercomplex>();
+    default: return f.template operator()<Iteration::square>();
   }
-  // 2 (|q'|^2 + |q| m), multiplied out for a short way from m to the result
-  const Real squares = 2 * (l * l) + m * (2 * s + 6 * (w * l) + 3 * (w * w) * m);
-  return kIteration == Iteration::square ? squares : kStretch * squares;
 }
 
 /// A quaternion as a + b n, with b >= 0 and n an imaginary unit: functions of it are those of a + b i.
@@ -113,8 +73,8 @@ std::shared_ptr<const TracedJulia> Julia::prepared() const {
   return std::make_shared<const TracedJulia>(*this);
 }
 
-TracedJulia::TracedJulia(const Julia& shape) : shape_(shape) {
-  shape_.iterations = std::clamp(shape.iterations, 1, kMostIterations);
+TracedJulia::TracedJulia(const Julia& shape, const JuliaKernel& kernel) : shape_(shape) {
+  shape_.iterations = std::clamp(shape.iterations, 1, JuliaSet::kMostIterations);
   Number n = shape.normal;
   const Real l = size(n);
   n = l > 0 && std::isfinite(1 / l) ? n * (1 / l) : Number{0, 0, 0, 1};
@@ -133,7 +93,11 @@ TracedJulia::TracedJulia(const Julia& shape) : shape_(shape) {
     axes_[count++] = a * (1 / size(a));
   }
   reach_ = kReach * (1 + std::ldexp(1.0, -40));
-  if (power()) findLimits();
+  if (!power()) return;
+  findLimits();
+  look_ = shape_.iteration == Iteration::square ? kernel.square
+          : shape_.iteration == Iteration::cube ? kernel.cube
+                                                : kernel.hypercomplex;
 }
 
 /// Sizes from which a number surely escapes, and with them the ball that holds the set.
@@ -141,19 +105,20 @@ void TracedJulia::findLimits() {
   const Real c = size(shape_.constant);
   // With q = c at the first step, |c| > 2.57 takes the second beyond 4.
   const Real widest = shape_.iterations == 1 ? kEscaped : 2.57;
-  mostConstant_ = shape_.mandelbrot ? widest + 2 * c : c;
-  const auto n = static_cast<std::size_t>(shape_.iterations);
+  set_.constant = named(shape_.constant), set_.share = shape_.mandelbrot ? 1 : 0;
+  set_.mostConstant = shape_.mandelbrot ? widest + 2 * c : c;
+  const int n = set_.iterations = shape_.iterations;
   constexpr Real kRounding = 1 + gammaError(64);
-  limits_[n] = stays_[n] = kEscaped;
-  for (std::size_t i = n; i-- > 0;) {
-    const Real next = limits_[i + 1] + mostConstant_;
-    limits_[i] = (shape_.iteration == Iteration::cube ? std::cbrt(next) : std::sqrt(next)) * kRounding;
-    const Real left =
-        max(stays_[i + 1] - mostConstant_, 0) / (shape_.iteration == Iteration::hypercomplex ? kStretch : 1);
-    stays_[i] = (shape_.iteration == Iteration::cube ? std::cbrt(left) : std::sqrt(left)) / kRounding;
+  set_.escapes[n] = set_.stays[n] = kEscaped;
+  for (int i = n; i-- > 0;) {
+    const Real next = set_.escapes[i + 1] + set_.mostConstant;
+    set_.escapes[i] = (shape_.iteration == Iteration::cube ? std::cbrt(next) : std::sqrt(next)) * kRounding;
+    const Real left = max(set_.stays[i + 1] - set_.mostConstant, 0) /
+                      (shape_.iteration == Iteration::hypercomplex ? julia::kStretch : 1);
+    set_.stays[i] = (shape_.iteration == Iteration::cube ? std::cbrt(left) : std::sqrt(left)) / kRounding;
   }
-  const Real all = (shape_.mandelbrot ? widest + c : limits_[0]) * (1 + std::ldexp(1.0, -30));
-  reach_ = std::sqrt(max(all * all - dot(shift_, shift_), 0));
+  const Real all = (shape_.mandelbrot ? widest + c : set_.escapes[0]) * (1 + std::ldexp(1.0, -30));
+  reach_ = set_.reach = std::sqrt(max(all * all - dot(shift_, shift_), 0));
 }
 
 TracedJulia::Number TracedJulia::lift(const Vec3& p) const {
@@ -162,9 +127,6 @@ TracedJulia::Number TracedJulia::lift(const Vec3& p) const {
 
 TracedJulia::Number TracedJulia::step(const Number& q) const {
   switch (shape_.iteration) {
-    case Iteration::square: return number(stepAs<Iteration::square>(Pairs(q), dot(q, q)));
-    case Iteration::cube: return number(stepAs<Iteration::cube>(Pairs(q), dot(q, q)));
-    case Iteration::hypercomplex: return number(stepAs<Iteration::hypercomplex>(Pairs(q), dot(q, q)));
     case Iteration::sine: {
       const Polar p = polar(q);
       return composed(std::sin(p.a) * std::cosh(p.b), p.n * (std::cos(p.a) * std::sinh(p.b)));
@@ -173,17 +135,15 @@ TracedJulia::Number TracedJulia::step(const Number& q) const {
       const Polar p = polar(q);
       return composed(std::exp(p.a) * std::cos(p.b), p.n * (std::exp(p.a) * std::sin(p.b)));
     }
+    default:
+      return withPower(shape_.iteration, [&]<Iteration kIteration>() {
+        return numbered(julia::step<kIteration>(named(q), dot(q, q)));
+      });
   }
-  return q;
 }
 
 TracedJulia::Number TracedJulia::stepSlope(const Number& q, const Number& d) const {
   switch (shape_.iteration) {
-    case Iteration::square:
-      return number(slopeAs<Iteration::square>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
-    case Iteration::cube: return number(slopeAs<Iteration::cube>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
-    case Iteration::hypercomplex:
-      return number(slopeAs<Iteration::hypercomplex>(Pairs(q), Pairs(d), dot(q, q), dot(q, d)));
     case Iteration::sine: {
       const Polar p = polar(q);
       const Real c = std::cos(p.a), s = std::sin(p.a), ch = std::cosh(p.b), sh = std::sinh(p.b);
@@ -194,8 +154,11 @@ TracedJulia::Number TracedJulia::stepSlope(const Number& q, const Number& d) con
       const Real a = std::exp(p.a) * std::cos(p.b), b = std::exp(p.a) * std::sin(p.b);
       return functionSlope(p, b, a, b, d);
     }
+    default:
+      return withPower(shape_.iteration, [&]<Iteration kIteration>() {
+        return numbered(julia::slope<kIteration>(named(q), named(d), dot(q, q), dot(q, d)));
+      });
   }
-  return d;
 }
 
 Real TracedJulia::escape(const Number& q) const {
@@ -218,13 +181,12 @@ Real TracedJulia::escapeSlope(const Number& q, const Number& change) const {
 Real TracedJulia::stretch(const Number& q, Real r) const {
   const Real s = size(q) + r;
   switch (shape_.iteration) {
-    case Iteration::square: return stretchAs<Iteration::square>(s);
-    case Iteration::cube: return stretchAs<Iteration::cube>(s);
-    case Iteration::hypercomplex: return stretchAs<Iteration::hypercomplex>(s);
     case Iteration::sine: return std::cosh(polar(q).b + r);
     case Iteration::exponential: return std::exp(q[0] + r);
+    default:
+      return withPower(shape_.iteration,
+                       [&]<Iteration kIteration>() { return julia::stretch<kIteration>(s); });
   }
-  return kInfinity;
 }
 
 Jet TracedJulia::functionValue(const Vec3& p, const Vec3& direction) const {
@@ -265,51 +227,27 @@ Interval TracedJulia::functionSigns(const Vec3& center, Real radius) const {
   return inside ? Interval{-1, -1} : Interval{-1, 1};
 }
 
-Jet TracedJulia::value(const Vec3& p, const Vec3& direction) const {
-  if (!power()) return functionValue(p, direction);
-  const Number start = lift(p), c = shape_.mandelbrot ? start + shape_.constant : shape_.constant;
-  const Number along = axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z;
-  Number q = shape_.mandelbrot ? Number{} : start, d = shape_.mandelbrot ? Number{} : along;
-  for (int i = 0; i < shape_.iterations; ++i) {
-    d = stepSlope(q, d);
-    if (shape_.mandelbrot) d = d + along;
-    q = step(q) + c;
-    if (dot(q, q) > kEscaped * kEscaped && i + 1 < shape_.iterations) return {1, 0};
+template <Iteration kIteration>
+Jet TracedJulia::powerValue(const Vec3& p, const Vec3& direction) const {
+  const julia::Number<Real> start = named(lift(p));
+  const julia::Number<Real> along =
+      named(axes_[0] * direction.x + axes_[1] * direction.y + axes_[2] * direction.z);
+  const Real share = set_.share;
+  const julia::Number<Real> c = set_.constant + start * share, more = along * share;
+  julia::Number<Real> q = start * (1 - share), d = along * (1 - share);
+  for (int i = 0;; ++i) {
+    const Real square = dot(q, q), product = dot(q, d);
+    if (i == set_.iterations) return {square - kEscaped * kEscaped, 2 * product};
+    if (i > 0 && square > kEscaped * kEscaped) return {1, 0};
+    d = julia::slope<kIteration>(q, d, square, product) + more;
+    q = julia::step<kIteration>(q, square) + c;
   }
-  return {dot(q, q) - kEscaped * kEscaped, 2 * dot(q, d)};
 }
 
-template <Iteration kIteration>
-Stride TracedJulia::look(const Number& place, const Number& unit, Real within) const {
-  constexpr Real kRounding = 1 + gammaError(32);
-  const Real share = shape_.mandelbrot ? 1 : 0;  // of the way that c goes along
-  const Pairs start(place), along(unit), c = Pairs(shape_.constant) + start * share, more = along * share;
-  Pairs q = start * (1 - share), d = along * (1 - share);  // d: the change of q with the way
-  const auto n = static_cast<std::size_t>(shape_.iterations);
-  Real reach = 0, m = 0;  // m: a bound of the second derivative of q
-  Real error = gammaError(8) * (reach_ + mostConstant_);
-  bool escaped = false;
-  constexpr Real kFar = 3;  // from here on following it farther tells less
-  for (std::size_t i = 0;; ++i) {
-    const Real square = dot(q, q), product = dot(q, d);
-    const Real s = std::sqrt(square), l = std::sqrt(dot(d, d));
-    escaped = escaped || s > limits_[i];
-    const bool stays = s < stays_[i];
-    if (escaped || stays || i == n) {
-      const Real limit = stays ? stays_[i] : limits_[i];
-      const Real value = square - limit * limit, slope = 2 * product, off = 2 * s * error;
-      const Real pull = (s + within * l + 0.5 * within * within * m) * m, speed = l + within * m;
-      const Interval bend{-2 * kRounding * pull, 2 * kRounding * (speed * speed + pull)};
-      reach = max(reach, keepsSign(value, slope, bend, within, off));
-      if (i == n) return {value, max(reach, nearsZero(value, slope, bend, within))};
-      if (escaped && s > kFar) return {1, reach};
-    }
-    error =
-        stretchAs<kIteration>(s) * error + gammaError(32) * (stretchAs<kIteration>(s) * s + mostConstant_);
-    m = bendAs<kIteration>(s, l, m, within) * kRounding;
-    d = slopeAs<kIteration>(q, d, square, product) + more;
-    q = stepAs<kIteration>(q, square) + c;
-  }
+Jet TracedJulia::value(const Vec3& p, const Vec3& direction) const {
+  if (!power()) return functionValue(p, direction);
+  return withPower(shape_.iteration,
+                   [&]<Iteration kIteration>() { return powerValue<kIteration>(p, direction); });
 }
 
 void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
@@ -328,25 +266,10 @@ void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing vi
     const Number origin = lift(ray.origin);
     const Number unit = axes_[0] * (direction.x / speed) + axes_[1] * (direction.y / speed) +
                         axes_[2] * (direction.z / speed);
-    const auto search = [&]<Iteration kIteration>() {
-      const auto stride = [&](Real t, Real wanted) {
-        const Number p = origin + unit * (t * speed);
-        Real within = wanted * speed;
-        Stride known = look<kIteration>(p, unit, within);
-        for (int again = 0; again < 5 && known.reach < 0.2 * within; ++again) {  // bounds over less say more
-          within = max(4 * known.reach, 0.1 * within);
-          known.reach = max(known.reach, look<kIteration>(p, unit, within).reach);
-        }
-        known.reach /= speed;
-        return known;
-      };
-      strideCrossings({ball.t0, ball.t1}, range, std::ldexp(reach_ / speed, -28), stride, at, found);
+    const auto look = [&](Real t, Real half) {
+      return look_(set_, named(origin + unit * (t * speed)), named(unit), half * speed);
     };
-    switch (shape_.iteration) {
-      case Iteration::square: return search.operator()<Iteration::square>();
-      case Iteration::cube: return search.operator()<Iteration::cube>();
-      default: return search.operator()<Iteration::hypercomplex>();
-    }
+    return stretchCrossings({ball.t0, ball.t1}, range, std::ldexp(reach_ / speed, -28), look, at, found);
   }
   // Functions fold space everywhere: looking as closely as at powers would take seconds.
   const auto bounds = [&](const Interval& t) {

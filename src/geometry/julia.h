@@ -2,10 +2,9 @@
 // Kauffman, Ray Tracing Deterministic 3-D Fractals, 1989): the points that stay within a radius under a
 // number of repetitions of q -> f(q) + c.
 //
-// No estimates of distance: from the sizes of the numbers that a place becomes follows, step by step
-// backward, the radius of a ball around it that surely does as the place does, escapes or stays. Along the
-// ray one goes from ball to ball, or farther where the last number surely only nears or only leaves the
-// limit. So no detail is missed that is thicker than some 4e-9 of the set.
+// No estimates of distance: the ray is parted into stretches that surely escape, surely stay, or along which
+// the last number surely only nears or only leaves the limit (julia_kernel.h). So no detail is missed that is
+// thicker than some 4e-9 of the set.
 //
 // Under a sine or an exponential a point may come back from anywhere. There the set is of the points whose
 // imaginary part, or real part, stays below a limit, within a ball.
@@ -16,24 +15,12 @@
 #include <string_view>
 
 #include "base/field.h"
+#include "geometry/julia_set.h"
 #include "geometry/materials.h"
 #include "geometry/orbit_trap.h"
-#include "geometry/stride_search.h"
-#include "math/expression.h"
+#include "math/along.h"
 
 namespace trace {
-
-/// What is repeated.
-enum class Iteration {
-  square,        ///< of quaternions
-  cube,          ///< of quaternions
-  hypercomplex,  ///< the square of commutative hypercomplex numbers, i^2 = j^2 = -1, k = ij
-  sine,          ///< of quaternions
-  exponential,   ///< of quaternions
-};
-constexpr std::array<std::string_view, 5> names(Iteration) {
-  return {"square", "cube", "hypercomplex", "sine", "exponential"};
-}
 
 class TracedJulia;
 
@@ -70,7 +57,7 @@ struct Julia {
 
 class TracedJulia {
  public:
-  explicit TracedJulia(const Julia& shape);
+  explicit TracedJulia(const Julia& shape, const JuliaKernel& kernel = juliaKernels().front());
 
   bool solid() const { return true; }
   static constexpr std::int64_t partCount() { return TrapPart::kCount; }
@@ -84,7 +71,6 @@ class TracedJulia {
 
  private:
   using Number = std::array<Real, 4>;
-  static constexpr int kMostIterations = 50;
   static constexpr Real kReach = 2.5, kEscaped = 4;  ///< kEscaped: from here on powers only grow
 
   Number lift(const Vec3& p) const;
@@ -105,18 +91,16 @@ class TracedJulia {
   /// Negative inside; the slope is along the direction.
   Jet value(const Vec3& p, const Vec3& direction) const;
   void findLimits();
-  /// What is known ahead of a place, a number of four dimensions as is the unit direction, if nothing farther
-  /// than `within` counts; of the powers.
+  /// The value where the step is a power.
   template <Iteration kIteration>
-  Stride look(const Number& place, const Number& unit, Real within) const;
+  Jet powerValue(const Vec3& p, const Vec3& direction) const;
 
   Julia shape_;
   std::array<Number, 3> axes_{};  ///< of the hyperplane
   Number shift_{};
-  /// Of the powers: a number that is greater at a step surely escapes, one that is less surely stays.
-  std::array<Real, kMostIterations + 1> limits_{}, stays_{};
-  Real mostConstant_ = 0;  ///< the size of c
-  Real reach_ = 0;         ///< the set lies within
+  JuliaSet set_{};  ///< of the powers
+  JuliaKernel::Look look_ = nullptr;
+  Real reach_ = 0;  ///< the set lies within
 };
 
 }  // namespace trace

@@ -113,6 +113,31 @@ bool stays(const Julia& julia, const Vec3& p) {
   return true;
 }
 
+TEST(Julia, AllKernelsFindTheSameBits) {
+  Random random(21);
+  for (const Iteration iteration : {Iteration::square, Iteration::cube, Iteration::hypercomplex})
+    for (const bool mandelbrot : {false, true}) {
+      Julia julia;
+      julia.iteration = iteration, julia.mandelbrot = mandelbrot, julia.offset = 0.05;
+      if (mandelbrot) julia.constant = {0.1, 0, 0.2, 0};
+      std::size_t found = 0;
+      for (int i = 0; i < 300; ++i) {
+        const Vec3 d = random.direction();
+        const Ray ray{random.inCube(1) - d * 4, d};
+        std::vector<std::vector<Real>> all;
+        for (const JuliaKernel& kernel : juliaKernels()) {
+          all.emplace_back();
+          const auto visit = [&](const Crossing& c) { all.back().push_back(c.t); };
+          const Real everywhere = kInfinity;
+          TracedJulia(julia, kernel).crossings(ray, Range{-kInfinity, everywhere}, visit);
+        }
+        for (const auto& of : all) ASSERT_EQ(of, all.front());
+        found += all.front().size();
+      }
+      EXPECT_GT(found, 50u);
+    }
+}
+
 TEST(Julia, IsInsideWhereTheNumbersStay) {
   Random random(20);
   for (const Iteration iteration : {Iteration::square, Iteration::cube, Iteration::hypercomplex})
