@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/near_root.h"
+
 namespace trace {
 
 std::shared_ptr<const TracedLathe> Lathe::prepared() const {
@@ -139,7 +141,12 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     }
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) polynomial[i + j] -= d.z * d.z * r[i] * r[j];
-    const Real low = min(arc.u0, arc.u1), high = max(arc.u0, arc.u1);
+    const auto placeAt = [&](Real t, bool exact, bool bottom) {
+      return !exact ? arc.at(o.z + d.z * t) : bottom ? arc.u0 : arc.u1;
+    };
+    const Real first = placeAt(begin, beginIsEnd, bottomFirst), past = placeAt(end, endIsEnd, !bottomFirst);
+    const Real low = min(first, past), high = max(first, past);
+    u = first;
     if (signVariations(polynomial, low, high) == 0) return;
     const Nodes roots = rootsWithEnds(polynomial, low, high);
     const auto lineAt = [&](Real place) { return (arc.curve.at(1, place) - o.z) / d.z; };
@@ -160,7 +167,7 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     Real guess = a;
     for (std::size_t i = 0; i < guessCount; ++i)
       if (a < guesses[i] && guesses[i] < b) guess = guesses[i];
-    return rootBetween(distance, a, b, inside, guess);
+    return rootNear(distance, a, b, inside, guess);
   };
   const auto advance = [&](Real t, bool after) {
     if (after != inside) visit({last < t ? root(last, t) : t, number});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/small_list.h"
+#include "math/near_root.h"
 
 namespace trace {
 
@@ -149,7 +150,7 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
       const bool toEnd = n + 2 >= roots.count;
       const Real node = toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), last, end);
       const bool after = isInside(node);
-      if (after != inside) visit(Crossing{rootBetween(sum, last, node, inside, middle + roots.at[n]), 0});
+      if (after != inside) visit(Crossing{rootNear(sum, last, node, inside, middle + roots.at[n]), 0});
       inside = after, last = node;
     }
   }
