@@ -29,12 +29,12 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
   const Numbers c = allOf(set.constant) + start * share, more = along * share;
   Numbers q = start * own, d = along * own;  // d: the change of q along the ray
   Double4 m = zero;                          // a bound of the second derivative of q
-  Double4 error = all(0x1p-49 * (set.reach + set.mostConstant));
+  Double4 error = all(0x1p-49 * (set.reach + set.mostConstant)), bent = zero;  // rounding of q, of d, at most
   FourStretches known;
   unsigned open = 15;  // those still followed
   for (int i = 0;; ++i) {
     const Double4 square = dot(q, q), product = dot(q, d);
-    const Double4 s = sqrt(square), l = sqrt(dot(d, d));
+    const Double4 s = sqrt(square) * up + error, l = sqrt(dot(d, d)) * up + bent;  // sizes, at most
     const Double4 escapes = all(set.escapes[i]), stays = all(set.stays[i]);
     const Double4 out = square - escapes * escapes, in = stays * stays - square;
     const unsigned beyond = less(zero, out), below = less(zero, in);
@@ -47,7 +47,7 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
       known.keeps |= sure;
       if (i == set.iterations) {
         known.inside |= below & open;
-        known.monotone = less(push * w * up, slope) & open;
+        known.monotone = less((push * w + all(2) * (s * bent + l * error)) * up, slope) & open;
         return known;
       }
       known.inside |= sure & below;
@@ -55,6 +55,8 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
       if (open == 0) return known;
     }
     const Double4 longer = julia::stretch<kIteration>(s);
+    const Double4 turn = kIteration == Iteration::cube ? all(6) * s : all(3);  // of the step's slope
+    bent = longer * bent + turn * (l * error) + rounding * (longer * l);
     error = longer * error + rounding * (longer * s + most);
     m = julia::bend<kIteration>(s, l, m, w) * up;
     d = julia::slope<kIteration>(q, d, square, product) + more;
