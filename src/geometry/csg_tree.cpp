@@ -35,14 +35,16 @@ std::shared_ptr<const CsgTree> Clip::prepared(const MeshTrees& made) const {
 
 // --- crossings ----------------------------------------------------------------------------------------
 
+/// No member sets itself to zero, so that room for many costs nothing.
 struct CsgTree::Event {
-  Crossing crossing;  ///< its part is already that of the whole
-  std::uint32_t operand = 0;
-  bool entering = false;
+  Real t;
+  std::int64_t part;  ///< already that of the whole
+  std::uint32_t operand;
+  bool entering;
 
   bool operator<(const Event& other) const {
-    if (crossing.t != other.crossing.t) return crossing.t < other.crossing.t;
-    return operand != other.operand ? operand < other.operand : crossing.part < other.crossing.part;
+    if (t != other.t) return t < other.t;
+    return operand != other.operand ? operand < other.operand : part < other.part;
   }
 };
 
@@ -115,23 +117,23 @@ void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
     const std::size_t before = events.size();
     const auto add = [&](const Crossing& c) {
       const auto count = static_cast<std::int64_t>(operands_.size());
-      events.add({{c.t, c.part * count + number}, number, false});
+      events.add({c.t, c.part * count + number, number, false});
     };
     operands_[number].crossings(ray, add);
     // Entry and exit take turns; a crossing too many, of a mesh that is not closed, leads nowhere.
     const std::span<Event> own = events.all().subspan(before);
     std::sort(own.begin(), own.end());
     for (std::size_t i = 0; i + 1 < own.size(); i += 2) own[i].entering = true;
-    if (own.size() % 2 != 0) own.back().crossing.t = kInfinity;
+    if (own.size() % 2 != 0) own.back().t = kInfinity;
   });
 }
 
 /// Do the crossings lie nearer together than their errors reach?
 bool CsgTree::coincide(const Ray& ray, const Event& a, const Event& b) const {
-  const Real apart = b.crossing.t - a.crossing.t;
+  const Real apart = b.t - a.t;
   if (a.operand == b.operand || !(apart * length(ray.direction) <= near_)) return false;
   const auto reach = [&](const Event& event) {
-    const SurfacePoint s = operandSurface(ray, event.crossing);
+    const SurfacePoint s = operandSurface(ray, {event.t, event.part});
     return dot(abs(s.normal), s.error) / std::abs(dot(s.normal, ray.direction));
   };
   return apart <= reach(a) + reach(b);
@@ -162,7 +164,7 @@ void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
           shown = &events[k];
       }
     }
-    if (shown) visit({events[i].crossing.t, shown->crossing.part});
+    if (shown) visit({events[i].t, shown->part});
     i = end;
   }
 }
