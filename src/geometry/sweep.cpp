@@ -88,15 +88,23 @@ class Path {
 
 std::size_t Path::stationsOf(const PathArc& arc) const {
   if (straight(arc) && turn_ == 0) return 1;
-  constexpr int kSamples = 16;
-  Real angle = std::abs(turn_);
-  for (int i = 0; i < kSamples; ++i) {
+  // A cubic that meets a direction's ends with its slopes there is off by turn^4 / 384 where it turns evenly.
+  constexpr Real kMostTurn = kPi / 24;
+  constexpr std::size_t kMost = 256, kSamples = 4 * kMost;
+  std::vector<Real> turned{0};  // by the path, up to each sample
+  for (std::size_t i = 0; i < kSamples; ++i) {
     const Vec3 a = directionOf(arc, static_cast<Real>(i) / kSamples);
     const Vec3 b = directionOf(arc, static_cast<Real>(i + 1) / kSamples);
-    angle += std::atan2(length(cross(a, b)), dot(a, b));
+    turned.push_back(turned.back() + std::atan2(length(cross(a, b)), dot(a, b)));
   }
-  constexpr Real kMostTurn = kPi / 12;  // then the cubics stay within 1e-5 of their size
-  return static_cast<std::size_t>(std::clamp(std::ceil(angle / kMostTurn), 2.0, 256.0));
+  std::size_t count = 2;
+  for (; count < kMost; count *= 2) {
+    const std::size_t each = kSamples / count;
+    Real most = 0;
+    for (std::size_t i = 0; i < kSamples; i += each) most = max(most, turned[i + each] - turned[i]);
+    if (most + std::abs(turn_) / static_cast<Real>(count) <= kMostTurn) break;
+  }
+  return count;
 }
 
 Section Path::sectionAt(const PathArc& arc, Real u, const Frame& frame, Real turn, Real piece) const {
