@@ -131,7 +131,9 @@ void checkCrossings(const Place& place, const Ray& ray, const std::vector<Found>
       EXPECT_EQ(along < 0, in) << "crossing " << i << " of " << found.size();
     }
   }
-  if (place.solid && !place.endless) EXPECT_EQ(found.size() % 2, 0u);
+  if (place.solid && !place.endless) {
+    EXPECT_EQ(found.size() % 2, 0u);
+  }
 }
 
 /// Hits lie on the ray and in the bounds, solids are entered and left in turn, and two neighbouring hits
