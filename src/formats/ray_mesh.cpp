@@ -1,11 +1,14 @@
 #include "formats/ray_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "formats/ray_fields.h"
 #include "formats/ray_mesh_operations.h"
@@ -14,9 +17,9 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 13> kFields{
-    "uv",   "shared",  "crease", "faces",     "gennormals", "material", "materials",
-    "name", "normals", "points", "subdivide", "texture_uv", "two_sided"};
+constexpr std::array<std::string_view, 15> kFields{
+    "uv",      "shared", "crease", "faces",       "gennormals", "material",   "materials", "name",
+    "normals", "points", "scheme", "sharp_edges", "subdivide",  "texture_uv", "two_sided"};
 
 class MeshReader {
  public:
@@ -28,10 +31,11 @@ class MeshReader {
   std::optional<MeshNode> read(const Item& block) {
     for (const Item item : block) good_ &= field(item);
     if (sharedAs_ && data_.points.empty() && !faces_) return again();
-    if (good_) good_ = checkCounts() && readFaces();
+    if (good_) good_ = checkCounts() && readFaces() && readSharpEdges();
     if (!good_) return {};
     repair(block);
-    if (!operations_.none()) data_ = operations_.apply(data_, findings_.syntax().shortPlace(block.offset()));
+    if (!operations_.none())
+      data_ = operations_.apply(data_, findings_.syntax().shortPlace(block.offset()), creases_);
     node_.mesh.data = std::make_shared<const MeshData>(std::move(data_));
     if (sharedAs_) shared_.insert_or_assign(sharedName_, node_.mesh);
     return std::move(node_);
@@ -72,6 +76,7 @@ class MeshReader {
     if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
+    if (key == "sharp_edges") return isList(sharpEdges_.emplace(value), key);
     if (key == "shared") return rayfile::read(findings_, key, sharedAs_.emplace(item).value(), sharedName_);
     if (key == "name") return rayfile::read(findings_, key, value, node_.name);
     if (key == "material") {
@@ -194,6 +199,52 @@ class MeshReader {
     return true;
   }
 
+  // --- edges that stay sharp ---
+
+  bool readSharpEdges() {
+    if (!sharpEdges_) return true;
+    const std::set<std::array<std::uint32_t, 2>> edges = edgesOfFaces();
+    std::size_t number = 0;
+    for (const Item item : *sharpEdges_) {
+      const std::string name = "sharp edge " + std::to_string(number++);
+      Real n[3];
+      if (!numbers(item, n, 3) || !(n[2] >= 0))
+        return findings_.expected(item, name, "(point, point, sharpness from 0)"), false;
+      const auto point = [&](Real x) {  // none of those there are for what is no number of a point
+        return x >= 0 && x < static_cast<Real>(data_.points.size()) && x == std::floor(x)
+                   ? static_cast<std::uint32_t>(x)
+                   : std::numeric_limits<std::uint32_t>::max();
+      };
+      const std::uint32_t a = point(n[0]), b = point(n[1]);
+      if (!edges.contains({std::min(a, b), std::max(a, b)}))
+        return findings_.expected(item, name, "two neighbouring points of a face"), false;
+      creases_.push_back({a, b, n[2]});
+    }
+    if (operations_.subdivide == 0)
+      findings_.warn(*sharpEdges_, "sharp_edges: they shape the mesh only where `subdivide` is above 0");
+    return true;
+  }
+
+  /// As the file gives the faces, the lesser point first.
+  std::set<std::array<std::uint32_t, 2>> edgesOfFaces() const {
+    std::set<std::array<std::uint32_t, 2>> edges;
+    const auto add = [&](const Item& from, const Item& to) {
+      const auto a = static_cast<std::uint32_t>(from.number()), b = static_cast<std::uint32_t>(to.number());
+      edges.insert({std::min(a, b), std::max(a, b)});
+    };
+    if (!faces_) return edges;
+    for (const Item face : *faces_) {
+      std::optional<Item> first, last;
+      for (const Item item : face) {
+        if (last) add(*last, item);
+        if (!first) first.emplace(item);
+        last.emplace(item);
+      }
+      if (last) add(*last, *first);
+    }
+    return edges;
+  }
+
   void repair(const Item& block) {
     if (const std::size_t n = dropDegenerate(data_); n > 0)
       findings_.warnOfNumber(faces_.value_or(block), std::string(kWithoutArea), n);
@@ -209,7 +260,8 @@ class MeshReader {
   std::optional<Item> sharedAs_;
   MeshData data_;
   MeshOperations operations_;
-  std::optional<Item> normals_, uvs_, materialList_, faces_;
+  std::vector<Crease> creases_;
+  std::optional<Item> normals_, uvs_, materialList_, faces_, sharpEdges_;
   bool good_ = true;
 };
 

@@ -5,7 +5,6 @@
 
 #include "formats/ray_fields.h"
 #include "geometry/mesh_repair.h"
-#include "geometry/mesh_smooth.h"
 
 namespace trace::rayfile {
 
@@ -41,7 +40,8 @@ bool MeshOperations::read(Findings& findings, const Item& field) {
   return true;
 }
 
-MeshData MeshOperations::apply(const MeshData& mesh, const Place& place) const {
+MeshData MeshOperations::apply(const MeshData& mesh, const Place& place,
+                               const std::vector<Crease>& creases) const {
   // A polygon of n triangles becomes 2 (n + 2) at the first level of Catmull and Clark's.
   const std::size_t extra = catmullClark && subdivide > 0 ? 3 : 1;
   const std::size_t most = (kMostTriangles >> (2 * subdivide)) * (extra > 1 ? 2 : 1) / extra;
@@ -50,8 +50,8 @@ MeshData MeshOperations::apply(const MeshData& mesh, const Place& place) const {
                 "subdivide: expected a mesh that gets at most 50 million triangles, found one of " +
                     std::to_string(mesh.triangles.size()) + " before");
   MeshData result = subdivide == 0 ? mesh
-                    : catmullClark ? subdividedByCatmullClark(mesh, subdivide)
-                                   : subdivided(mesh, subdivide);
+                    : catmullClark ? subdividedByCatmullClark(mesh, subdivide, creases)
+                                   : subdivided(mesh, subdivide, creases);
   if (subdivide > 0) {
     dropDegenerate(result);
     result.generateNormals = crease < 0;

@@ -6,10 +6,11 @@
 #include <compare>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh_smooth.h"
 #include "geometry/mesh_uv.h"
 
 namespace trace::rayfile {
@@ -30,9 +31,9 @@ struct MeshOperations {
   /// Takes the field if it is one of these. Reports what is wrong with its value.
   bool read(Findings& findings, const Item& field);
 
-  /// Subdivides, then makes normals, then uv. Throws Error(Fault::limit) at `place` if the mesh would become
-  /// too large.
-  MeshData apply(const MeshData& mesh, const Place& place) const;
+  /// Subdivides with these creases, then makes normals, then uv. Throws Error(Fault::limit) at `place` if the
+  /// mesh would become too large.
+  MeshData apply(const MeshData& mesh, const Place& place, const std::vector<Crease>& creases = {}) const;
 };
 
 }  // namespace trace::rayfile

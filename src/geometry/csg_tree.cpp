@@ -124,7 +124,7 @@ void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
     const std::span<Event> own = events.all().subspan(before);
     std::sort(own.begin(), own.end());
     for (std::size_t i = 0; i + 1 < own.size(); i += 2) own[i].entering = true;
-    if (own.size() % 2 != 0) own.back().t = kInfinity;
+    if (own.size() % 2 != 0 && operands_[number].solid()) own.back().t = kInfinity;
   });
 }
 

@@ -38,8 +38,10 @@ Along<T> DistanceForm::along(const Vec3& o, const Vec3& d, const T& t) const {
       case Kind::ball: return lengthOf({x, y, z}) - radius;
       case Kind::box: {
         const Along<T> a = abs(x) - size.x, b = abs(y) - size.y, c = abs(z) - size.z;
-        const Along<T> inside = min(max(max(a, b), c), Along<T>{T(0), T(0)});
-        return lengthOf({max(a, 0), max(b, 0), max(c, 0)}) + inside - radius;
+        const Along<T> most = max(max(a, b), c);
+        // Before a face alone it is that face's, whose slope never is 0 where a ray goes through.
+        if (mayBePositive(a) + mayBePositive(b) + mayBePositive(c) <= 1) return most - radius;
+        return lengthOf({max(a, 0), max(b, 0), max(c, 0)}) + min(most, Along<T>{T(0), T(0)}) - radius;
       }
       case Kind::cone: {
         const Real slope = (other - radius) / size.z, steep = std::sqrt(1 + slope * slope);

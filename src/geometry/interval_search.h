@@ -13,8 +13,8 @@ namespace trace {
 /// Calls visit(t, insideBefore) in order along the span for the changes of sign of a function, negative
 /// inside, in the range. `bounds`(Interval) gives its value and slope over a stretch, `at`(Real) its Jet.
 ///
-/// Nothing hangs: a search that takes very many steps, where a function is flat or rounding hides it, goes on
-/// by the signs at the ends of the stretches left.
+/// Where the function differs from zero by no more than rounding all along a stretch the signs at its ends
+/// decide. Nothing hangs: after very many steps they decide about all that is left.
 /// `kMostDepth`: how often the span is halved at most.
 /// `meanValue`: the value is worth more than its sign, so that the mean value theorem says something.
 template <int kMostDepth = 60, bool meanValue = true, class Bounds, class At, class Visit>
@@ -41,10 +41,15 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
     const auto over = bounds(Interval{s.a, s.b});
     const bool monotone = !over.slope.contains(0);
     Interval value = over.value;
-    if (meanValue && value.contains(0) && !monotone)  // sharper over short stretches
-      value = bounds(Interval(middle)).value + over.slope * (Interval{s.a, s.b} - middle);
+    bool blurred = false;
+    if (meanValue && value.contains(0) && !monotone) {  // sharper over short stretches
+      const Interval here = bounds(Interval(middle)).value;
+      value = here + over.slope * (Interval{s.a, s.b} - middle);
+      blurred = value.high - value.low <= 2 * (here.high - here.low);  // halving tells no more
+    }
     const bool none = !value.contains(0);
-    const bool least = s.depth == kMostDepth || !(s.a < middle && middle < s.b) || ++steps > kMostSteps;
+    const bool least =
+        blurred || s.depth == kMostDepth || !(s.a < middle && middle < s.b) || ++steps > kMostSteps;
     if (none || monotone || least) {
       const bool after = none ? value.high < 0 : at(s.b).value < 0;
       if (before != after) visit(none ? s.a : rootBetween(at, s.a, s.b, before), before);

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/unique.h"
+#include "geometry/mesh_crease.h"
 #include "geometry/mesh_repair.h"
-#include "geometry/mesh_smooth.h"
 
 namespace trace {
 namespace {
@@ -56,12 +55,9 @@ std::vector<Polygon> polygonsOf(const MeshData& mesh) {
   return all;
 }
 
-/// Two points, the lesser number first.
-using Edge = std::array<Index, 2>;
-Edge edgeOf(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// The points of the mesh and its polygons become those one level finer; its triangles are of no concern.
-void divide(MeshData& mesh, std::vector<Polygon>& polygons) {
+/// The points of the mesh, its polygons and creases become those one level finer; its triangles are of no
+/// concern.
+void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>& creases) {
   const auto points = static_cast<Index>(mesh.points.size());
   const auto at = [&](Index i) { return Vec3(mesh.points[i]); };
   Unique<Edge> edges;
@@ -82,30 +78,35 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons) {
 
   // An old point: (Q + 2 R + (n - 3) P) / n, with the means of the middles around it and of those of its
   // edges.
-  std::vector<Vec3> around(points), across(points), along(points);
+  SharpEdges sharp(edges, uses, creases, points);
+  creases = std::move(sharp.finer);
+  std::vector<Vec3> around(points), across(points);
   std::vector<int> faces(points), valence(points), borders(points);
+  std::vector<PointCreases> creasesAt(points);
   for (std::size_t i = 0; i < polygons.size(); ++i)
     for (const Index corner : polygons[i]) around[corner] += middles[i], ++faces[corner];
-  for (std::size_t i = 0; i < uses.size(); ++i)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Index p = edges.keys()[i][end], other = edges.keys()[i][1 - end];
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const Edge e = edges.keys()[i];
+    for (const auto& [p, other] : {Edge{e.a, e.b}, Edge{e.b, e.a}}) {
       across[p] += (at(p) + at(other)) * 0.5, ++valence[p];
-      if (uses[i] != 2) along[p] += at(other), ++borders[p];
+      creasesAt[p].add(at(other), sharp.sharpness[i]);
+      if (uses[i] != 2) ++borders[p];
     }
+  }
   std::vector<Vec3f> moved;
   for (Index i = 0; i < points; ++i) {
     const Real n = faces[i];
-    if (borders[i] == 2)
-      moved.push_back(Vec3f(at(i) * 0.75 + along[i] * 0.125));
-    else if (borders[i] > 0 || faces[i] != valence[i] || faces[i] < 3)
-      moved.push_back(mesh.points[i]);  // a corner
+    const bool inside = borders[i] == 0 && faces[i] == valence[i] && faces[i] >= 3;
+    if (borders[i] == 2 || inside)
+      moved.push_back(
+          Vec3f(creasesAt[i].moved(at(i), (around[i] / n + across[i] * (2 / n) + at(i) * (n - 3)) / n)));
     else
-      moved.push_back(Vec3f((around[i] / n + across[i] * (2 / n) + at(i) * (n - 3)) / n));
+      moved.push_back(mesh.points[i]);  // a corner
   }
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const auto [a, b] = edges.keys()[i];
     const Vec3 ends = at(a) + at(b);
-    moved.push_back(Vec3f(uses[i] == 2 ? (ends + beside[i]) * 0.25 : ends * 0.5));
+    moved.push_back(Vec3f(creased((ends + beside[i]) * 0.25, ends * 0.5, sharp.sharpness[i])));
     if (!mesh.materials.empty()) mesh.materials.push_back(mesh.materials[a]);
     if (!mesh.uvs.empty())
       mesh.uvs.push_back({(mesh.uvs[a].x + mesh.uvs[b].x) / 2, (mesh.uvs[a].y + mesh.uvs[b].y) / 2});
@@ -137,11 +138,12 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons) {
 
 }  // namespace
 
-MeshData subdividedByCatmullClark(const MeshData& mesh, int levels) {
+MeshData subdividedByCatmullClark(const MeshData& mesh, int levels, const std::vector<Crease>& creases) {
   MeshData result = mesh;
+  std::vector<Crease> left = creases;
   result.normals.clear();
   std::vector<Polygon> polygons = polygonsOf(mesh);
-  for (int level = 0; level < levels; ++level) divide(result, polygons);
+  for (int level = 0; level < levels; ++level) divide(result, polygons, left);
   result.triangles.clear(), result.polygons.clear();
   for (const Polygon& polygon : polygons) appendPolygon(result, polygon);
   return result;

@@ -1,22 +1,15 @@
 #include "geometry/mesh_smooth.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "base/unique.h"
+#include "geometry/mesh_crease.h"
 
 namespace trace {
 namespace {
 
 using Index = std::uint32_t;
-
-/// Two points, the lesser number first.
-struct Edge {
-  Index a, b;
-};
-Edge edgeOf(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Sets that are joined (Tarjan 1975, with halved paths).
 class Sets {
@@ -100,7 +93,8 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
 
 namespace {
 
-MeshData subdividedOnce(const MeshData& mesh) {
+/// The creases become those one level finer.
+MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
   const auto points = static_cast<Index>(mesh.points.size());
   MeshData result;
   result.materials = mesh.materials;
@@ -121,30 +115,33 @@ MeshData subdividedOnce(const MeshData& mesh) {
     }
   }
 
-  // Old points move toward the mean of their neighbours; of those on a border, only those along it count.
-  std::vector<Vec3> around(points), along(points);
+  // Old points move toward the mean of their neighbours; of those on a crease, only those along it count.
+  SharpEdges sharp(edges, uses, creases, points);
+  creases = std::move(sharp.finer);
+  std::vector<Vec3> around(points);
   std::vector<int> valence(points), borders(points);
+  std::vector<PointCreases> at(points);
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Edge e = edges.keys()[i];
     const Vec3 a(mesh.points[e.a]), b(mesh.points[e.b]);
     around[e.a] += b, around[e.b] += a, ++valence[e.a], ++valence[e.b];
-    if (uses[i] != 2) along[e.a] += b, along[e.b] += a, ++borders[e.a], ++borders[e.b];
+    at[e.a].add(b, sharp.sharpness[i]), at[e.b].add(a, sharp.sharpness[i]);
+    if (uses[i] != 2) ++borders[e.a], ++borders[e.b];
   }
   for (Index i = 0; i < points; ++i) {
     const Vec3 p(mesh.points[i]);
-    if (borders[i] == 2) {
-      result.points.push_back(Vec3f(p * 0.75 + along[i] * 0.125));
-    } else if (borders[i] > 0 || valence[i] < 3) {
-      result.points.push_back(mesh.points[i]);  // a corner
-    } else {
+    if (borders[i] == 2 || (borders[i] == 0 && valence[i] >= 3)) {
       const Real weight = valence[i] == 3 ? 3.0 / 16 : 3.0 / (8 * valence[i]);
-      result.points.push_back(Vec3f(p * (1 - valence[i] * weight) + around[i] * weight));
+      result.points.push_back(Vec3f(at[i].moved(p, p * (1 - valence[i] * weight) + around[i] * weight)));
+    } else {
+      result.points.push_back(mesh.points[i]);  // a corner
     }
   }
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Edge e = edges.keys()[i];
     const Vec3 ends = Vec3(mesh.points[e.a]) + Vec3(mesh.points[e.b]);
-    result.points.push_back(Vec3f(uses[i] == 2 ? ends * 0.375 + opposite[i] * 0.125 : ends * 0.5));
+    result.points.push_back(
+        Vec3f(creased(ends * 0.375 + opposite[i] * 0.125, ends * 0.5, sharp.sharpness[i])));
     if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[e.a]);
     if (!mesh.uvs.empty()) {
       const Vec2 &a = mesh.uvs[e.a], &b = mesh.uvs[e.b];
@@ -164,9 +161,10 @@ MeshData subdividedOnce(const MeshData& mesh) {
 
 }  // namespace
 
-MeshData subdivided(const MeshData& mesh, int levels) {
+MeshData subdivided(const MeshData& mesh, int levels, const std::vector<Crease>& creases) {
   MeshData result = mesh;
-  for (int level = 0; level < levels; ++level) result = subdividedOnce(result);
+  std::vector<Crease> left = creases;
+  for (int level = 0; level < levels; ++level) result = subdividedOnce(result, left);
   return result;
 }
 

@@ -52,7 +52,7 @@ TracedPrism::TracedPrism(const Prism& shape) : height_(std::abs(shape.height)) {
     const Real reach = radius_ * max(1, top);
     bounds_ = {{-reach, -reach, 0}, {reach, reach, height_}};
   }
-  error_ = maxComponent(max(abs(bounds_.low), abs(bounds_.high))) * gammaError(100);
+  error_ = maxComponent(max(abs(bounds_.low), abs(bounds_.high))) * gammaError(200);
 
   // On which side each loop has its outside: it turns left or right, and lies in an even or odd number of
   // others.
@@ -88,6 +88,7 @@ void TracedPrism::addLoop(Spline spline, const Prism::Outline& points) {
     };
     const auto wide = hull(x), deep = hull(y);
     base_.extend(Box3{{wide.first, deep.first, 0}, {wide.second, deep.second, 0}});
+    arcs_.back().low = {wide.first, deep.first}, arcs_.back().high = {wide.second, deep.second};
   }
 }
 
@@ -130,9 +131,16 @@ std::array<Real, 2> TracedPrism::unfolded(const Vec3& p) const {
   return {(c * p.x + s * p.y) / scale, (c * p.y - s * p.x) / scale};
 }
 
-TracedPrism::Nearest TracedPrism::nearest(const std::array<Real, 2>& p) const {
+TracedPrism::Nearest TracedPrism::nearest(const std::array<Real, 2>& p, Real care) const {
   Nearest found;
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const Real atLeast = arcs_[i].distance(p) * (1 - gammaError(8));
+    if (atLeast >= found.others) continue;
+    if (atLeast > care) {
+      found.others = atLeast;
+      if (found.others < found.distance) std::swap(found.distance, found.others);
+      continue;
+    }
     const Cubic<2>& curve = arcs_[i].curve;
     Real least = kInfinity, where = 0;
     const auto consider = [&](Real u) {
@@ -192,18 +200,22 @@ class TracedPrism::Twisted {
     const Real radius = half * speed + prism_.error_;
     if (!(scale > 0 && radius < 0.25 * prism_.radius_)) return {{-1, 1}, everything};
     const std::array<Real, 2> p = prism_.unfolded(ray_.at(middle));
-    const Nearest near = prism_.nearest(p);
+    const Nearest near = prism_.nearest(p, 3 * radius);
     if (near.distance * (1 - gammaError(64)) > radius) {
       const Real sign = prism_.inside(p) ? -1 : 1;
       return {{sign, sign}, everything};
     }
     const Arc& arc = prism_.arcs_[near.arc];
     if (!(near.others > 3 * radius && 4 * radius * arc.curvature < 1)) return {{-1, 1}, everything};
-    // Nearest is the inside of one arc; within the disk its normal turns by so much.
+    // Nearest is the inside of one arc. From the middle of the disk to anywhere in it, at most 2 radius from
+    // the arc, the nearest place moves by so much, and its normal turns with it.
+    const Real moved = radius / (1 - 2 * radius * arc.curvature);
     const Real bend = 2 * (flat + reach * shrink) * (shrink + turn) + reach * turn * turn;
     const Real unsure =
-        (4 * radius * arc.curvature * speed + half * bend) * (1 + gammaError(64)) + speed * gammaError(64);
+        (moved * arc.curvature * speed + half * bend) * (1 + gammaError(64)) + speed * gammaError(64);
     const Real slope = approach(near, p, middle);
+    const bool hidden = max(near.distance, half * (std::abs(slope) + unsure)) < prism_.error_;
+    if (hidden) return {{-1, 1}, slope};  // by rounding: the ends of the stretch decide
     return {{-1, 1}, {slope - unsure, slope + unsure}};
   }
 

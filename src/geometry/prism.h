@@ -69,8 +69,15 @@ class TracedPrism {
   struct Arc {
     Cubic<2> curve;
     std::array<Real, 2> from, to;
-    Real outward = 1;    ///< 1 if outside is to the right
-    Real curvature = 0;  ///< at most
+    Real outward = 1;                   ///< 1 if outside is to the right
+    Real curvature = 0;                 ///< at most
+    std::array<Real, 2> low{}, high{};  ///< corners of a box around it
+    /// From a place, at least.
+    Real distance(const std::array<Real, 2>& p) const {
+      const Real x = max(max(low[0] - p[0], p[0] - high[0]), 0),
+                 y = max(max(low[1] - p[1], p[1] - high[1]), 0);
+      return std::sqrt(x * x + y * y);
+    }
   };
   /// The outline's nearest place, and how far all other arcs are at least.
   struct Nearest {
@@ -83,7 +90,8 @@ class TracedPrism {
   Real scaleAt(Real z) const { return 1 + slope_ * z; }
   /// A point of space brought down to the outline.
   std::array<Real, 2> unfolded(const Vec3& p) const;
-  Nearest nearest(const std::array<Real, 2>& p) const;
+  /// Distances beyond `care` are only told to be that large.
+  Nearest nearest(const std::array<Real, 2>& p, Real care = kInfinity) const;
   void meetTwisted(const Ray& ray, const Crossing& in, const Crossing& out, const Range& range,
                    const VisitCrossing& visit) const;
   SurfacePoint twistedSide(const Vec3& p) const;

@@ -88,15 +88,23 @@ class Path {
 
 std::size_t Path::stationsOf(const PathArc& arc) const {
   if (straight(arc) && turn_ == 0) return 1;
-  constexpr int kSamples = 16;
-  Real angle = std::abs(turn_);
-  for (int i = 0; i < kSamples; ++i) {
+  // A cubic that meets a direction's ends with its slopes there is off by turn^4 / 384 where it turns evenly.
+  constexpr Real kMostTurn = kPi / 24;
+  constexpr std::size_t kMost = 256, kSamples = 4 * kMost;
+  std::vector<Real> turned{0};  // by the path, up to each sample
+  for (std::size_t i = 0; i < kSamples; ++i) {
     const Vec3 a = directionOf(arc, static_cast<Real>(i) / kSamples);
     const Vec3 b = directionOf(arc, static_cast<Real>(i + 1) / kSamples);
-    angle += std::atan2(length(cross(a, b)), dot(a, b));
+    turned.push_back(turned.back() + std::atan2(length(cross(a, b)), dot(a, b)));
   }
-  constexpr Real kMostTurn = kPi / 12;  // then the cubics stay within 1e-5 of their size
-  return static_cast<std::size_t>(std::clamp(std::ceil(angle / kMostTurn), 2.0, 256.0));
+  std::size_t count = 2;
+  for (; count < kMost; count *= 2) {
+    const std::size_t each = kSamples / count;
+    Real most = 0;
+    for (std::size_t i = 0; i < kSamples; i += each) most = max(most, turned[i + each] - turned[i]);
+    if (most + std::abs(turn_) / static_cast<Real>(count) <= kMostTurn) break;
+  }
+  return count;
 }
 
 Section Path::sectionAt(const PathArc& arc, Real u, const Frame& frame, Real turn, Real piece) const {
@@ -266,6 +274,13 @@ struct TracedProfileSweep::Event {
   bool entering = false, onEdge = false;
 };
 
+namespace {
+
+/// Whether the surface is turned inside out there is the last bit of a part.
+Crossing turnedIf(bool turned, const Crossing& c) { return {c.t, turned ? c.part | 1 : c.part}; }
+
+}  // namespace
+
 Vec2 TracedProfileSweep::onCap(const Cap& cap, const Vec3& p) const {
   const Vec3 v = p - cap.center;
   return {dot(v, cap.x) / dot(cap.x, cap.x), dot(v, cap.y) / dot(cap.y, cap.y)};
@@ -287,11 +302,11 @@ void TracedProfileSweep::crossings(const Ray& ray, VisitCrossing visit) const {
   SmallList<Event, 16> list;
   const auto side = [&](const Crossing& c) {
     const Real away = outward_ * dot(sides_.place(ray, c).normal, ray.direction);
-    list.add({{c.t, c.part + kCaps}, away < 0, TracedPatches::onEdge(c.part)});
+    list.add({{c.t, kCaps + 2 * c.part}, away < 0, TracedPatches::onEdge(c.part)});
   };
   sides_.crossings(ray, side);
   for (std::size_t i = 0; i < caps_.size(); ++i) {
-    Crossing at{0, static_cast<std::int64_t>(i)};
+    Crossing at{0, 2 * static_cast<std::int64_t>(i)};
     if (hits(caps_[i], ray, at)) list.add({at, dot(caps_[i].outward, ray.direction) < 0, false});
   }
   std::span<Event> events = list.all();
@@ -312,19 +327,21 @@ void TracedProfileSweep::crossings(const Ray& ray, VisitCrossing visit) const {
     if (count == 0 || !same(events[count - 1], event)) events[count++] = event;
   events = events.first(count);
 
-  // Where the sweep passes through itself it is one body: inside as long as more was entered than left. If
-  // that does not come out, as on a ray that touches an edge, entries and exits simply take turns.
-  int depth = 0, least = 0;
-  for (const Event& event : events) depth += event.entering ? 1 : -1, least = std::min(least, depth);
-  const bool counts = depth == 0 && least == 0;
+  // Where the sweep passes through itself it is one body, and so is what a fold turns inside out: inside is
+  // where it goes around a place at all. If that does not come out, as on a ray that touches an edge, entries
+  // and exits simply take turns.
+  int depth = 0;
+  for (const Event& event : events) depth += event.entering ? 1 : -1;
+  const bool counts = depth == 0;
   std::optional<Crossing> in;
   for (const Event& event : events) {
+    const int before = depth;
     depth += event.entering ? 1 : -1;
-    if (event.entering) {
-      if (counts ? depth == 1 : !in) in = event.crossing;
-    } else if (in && (!counts || depth == 0)) {
-      visit(*in), visit(event.crossing);
+    if (in && (counts ? depth == 0 : !event.entering)) {
+      visit(*in), visit(turnedIf(event.entering, event.crossing));
       in.reset();
+    } else if (!in && (counts ? before == 0 : event.entering)) {
+      in = turnedIf(!event.entering, event.crossing);
     }
   }
 }
@@ -345,10 +362,15 @@ SurfacePoint TracedProfileSweep::capSurface(const Cap& cap, const Ray& ray, cons
 }
 
 SurfacePoint TracedProfileSweep::surface(const Ray& ray, const Crossing& crossing) const {
-  if (crossing.part < kCaps) return capSurface(caps_[static_cast<std::size_t>(crossing.part)], ray, crossing);
-  const Crossing onSide{crossing.t, crossing.part - kCaps};
+  const bool insideOut = crossing.part % 2 != 0;
+  if (crossing.part < kCaps) {
+    SurfacePoint s = capSurface(caps_[static_cast<std::size_t>(crossing.part / 2)], ray, crossing);
+    if (insideOut) s.normal = s.shading = -s.normal;
+    return s;
+  }
+  const Crossing onSide{crossing.t, (crossing.part - kCaps) / 2};
   SurfacePoint s = sides_.place(ray, onSide);
-  const bool away = solid_ ? outward_ < 0 : dot(s.normal, ray.direction) > 0;
+  const bool away = solid_ ? (outward_ < 0) != insideOut : dot(s.normal, ray.direction) > 0;
   if (away) s.normal = s.shading = -s.normal;
   const std::size_t patch = TracedPatches::patchOf(onSide.part);
   s.uv = {(static_cast<Real>(patch % across_) + s.uv.x) / static_cast<Real>(across_),

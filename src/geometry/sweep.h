@@ -61,10 +61,10 @@ class TracedProfileSweep {
   Box3 bounds() const { return bounds_; }
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
-  std::int64_t partCount() const { return kCaps + sides_.partCount(); }
+  std::int64_t partCount() const { return kCaps + 2 * sides_.partCount(); }
 
  private:
-  static constexpr std::int64_t kCaps = 2;  ///< the first parts: the flat ends
+  static constexpr std::int64_t kCaps = 4;  ///< the first parts: two for each flat end
 
   /// A flat end: the profile's x and y axis in space, of the size it has there.
   struct Cap {

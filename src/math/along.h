@@ -63,6 +63,9 @@ Along<T> abs(const Along<T>& a) {
   return max(a, -a);
 }
 
+inline bool mayBePositive(const Along<Real>& a) { return a.value > 0; }
+inline bool mayBePositive(const Along<Interval>& a) { return a.value.high > 0; }
+
 /// The length of the vector (a, b, ...).
 inline Along<Real> lengthOf(std::initializer_list<Along<Real>> parts) {
   Real square = 0, product = 0;

@@ -235,6 +235,21 @@ polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0,1,2)); subdivide = 
             "2:38: subdivide: expected a whole number from 0 to 10, found 1.5");
 }
 
+TEST(RayMesh, KeepsSharpEdges) {
+  const std::string points = "polymesh { points = ((0,0,0), (1,0,0), (1,1,0), (0,1,0), (0,0,1)); ";
+  const std::string faces = "faces = ((0,3,2,1), (0,1,4)); scheme = catmull_clark; subdivide = 1; ";
+  const Scene scene =
+      loadBeside(points + faces + "sharp_edges = ((1,0,9), (1,4,0)); }\n" + points + faces + "}").scene;
+  EXPECT_EQ(meshOf(scene, 0).points[8], (Vec3f{0.5f, 0, 0})) << "the middle of the edge between both";
+  EXPECT_GT(meshOf(scene, 1).points[8].z, 0);
+  EXPECT_EQ(errorsOf(points + faces + "sharp_edges = ((0,1,-1)); }"),
+            "2:152: sharp edge 0: expected (point, point, sharpness from 0), found (0,1,-1)");
+  EXPECT_EQ(errorsOf(points + faces + "sharp_edges = ((0,1,1), (0,2,1)); }"),
+            "2:161: sharp edge 1: expected two neighbouring points of a face, found (0,2,1)");
+  EXPECT_EQ(errorsOf(points + faces + "sharp_edges = ((0,99,1)); }"),
+            "2:152: sharp edge 0: expected two neighbouring points of a face, found (0,99,1)");
+}
+
 TEST(RayMeshFile, SaysWhatIsWrong) {
   const auto errors = [](const std::string& text) -> std::string {
     try {

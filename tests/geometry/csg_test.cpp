@@ -148,6 +148,12 @@ TEST(Csg, ClippedObjectsStayOpen) {
   EXPECT_LT(surfaceOf(shape, up, c[0]).normal.z, 0);
 }
 
+TEST(Csg, ASheetThatIsMetOnceIsClippedToo) {
+  const Clip shape{Operands({at(Square{}), at(Cube{}, move(0.4, 0, 0))})};
+  EXPECT_EQ(crossingsOf(shape, Ray{{0.2, 0, -3}, {0, 0, 1}}).size(), 1u);
+  EXPECT_EQ(crossingsOf(shape, Ray{{-0.2, 0, -3}, {0, 0, 1}}).size(), 0u);
+}
+
 TEST(Csg, MeshesAreOperands) {
   Random random(4);
   const Mesh ball{ballMesh(12, random)};

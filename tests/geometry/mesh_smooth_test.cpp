@@ -90,6 +90,79 @@ TEST(MeshSmooth, CatmullClarkTakesPolygonsAndTrianglesAndBorders) {
   for (std::uint32_t i = 0; i < fine.triangles.size(); ++i) EXPECT_GT(faceNormal(fine, i).z, 0);
 }
 
+/// The edges of the cube, but for those the filter leaves out.
+template <class Keep>
+std::vector<Crease> edgesOfCube(Real sharpness, Keep&& keep) {
+  std::vector<Crease> creases;
+  for (std::uint32_t a = 0; a < 8; ++a)
+    for (const std::uint32_t bit : {1u, 2u, 4u})
+      if (!(a & bit) && keep(a, a | bit)) creases.push_back({a | bit, a, sharpness});
+  return creases;
+}
+std::vector<Crease> allEdges(Real sharpness) {
+  return edgesOfCube(sharpness, [](auto, auto) { return true; });
+}
+Real farthest(const MeshData& a, const MeshData& b) {
+  Real most = 0;
+  for (std::size_t i = 0; i < a.points.size(); ++i)
+    most = max(most, length(Vec3(a.points[i]) - Vec3(b.points[i])));
+  return most;
+}
+
+TEST(MeshSmooth, ACubeOfSharpEdgesKeepsItsPlanes) {
+  for (const Real sharpness : {3.0, 10.0, kInfinity})
+    for (const MeshData& fine : {subdividedByCatmullClark(cube(), 3, allEdges(sharpness)),
+                                 subdivided(cube(), 3, allEdges(sharpness))}) {
+      EXPECT_NEAR(test::volumeOf(fine), 8, 1e-6);
+      for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(fine.points[i], cube().points[i]);
+    }
+}
+
+TEST(MeshSmooth, AnInfinitelySharpEdgeIsABorder) {
+  // With the edges around its top face for ever sharp, the cube without its lid is the open box.
+  const auto top = [](std::uint32_t a, std::uint32_t b) { return (a & 4) && (b & 4); };
+  MeshData open = cube();
+  open.triangles.erase(open.triangles.begin() + 2, open.triangles.begin() + 4);  // the lid, z = 1
+  open.polygons.clear();
+  for (std::uint32_t i = 0; i < 5; ++i) open.polygons.push_back({2 * i, 2});
+  const MeshData creased = subdividedByCatmullClark(cube(), 1, edgesOfCube(kInfinity, top));
+  const MeshData border = subdividedByCatmullClark(open, 1);
+  for (std::size_t i = 4; i < 8; ++i) EXPECT_EQ(creased.points[i], border.points[i]);
+  // A corner of the rim is 3/4 of itself and 1/8 of each neighbour along it.
+  EXPECT_EQ(creased.points[7], (Vec3f{0.75f, 0.75f, 1}));
+}
+
+TEST(MeshSmooth, BrokenSharpnessMixes) {
+  // One level: half way between the smooth cube and the cube; two levels: as of 1, the last edge half sharp.
+  for (const Real share : {0.25, 0.5, 0.75}) {
+    const MeshData smooth = subdividedByCatmullClark(cube(), 1),
+                   sharp = subdividedByCatmullClark(cube(), 1, allEdges(1));
+    const MeshData mixed = subdividedByCatmullClark(cube(), 1, allEdges(share));
+    for (std::size_t i = 0; i < mixed.points.size(); ++i) {
+      const Vec3 p(smooth.points[i]), q(sharp.points[i]);
+      EXPECT_LT(length(Vec3(mixed.points[i]) - (p + (q - p) * share)), 1e-6);
+    }
+  }
+  const auto volume = [](Real sharpness) {
+    return test::volumeOf(subdividedByCatmullClark(cube(), 3, allEdges(sharpness)));
+  };
+  for (Real s = 0; s < 3; s += 0.25) EXPECT_LT(volume(s), volume(s + 0.25));
+  EXPECT_EQ(farthest(subdivided(cube(), 2, allEdges(0)), subdivided(cube(), 2)), 0);
+}
+
+TEST(MeshSmooth, OneSharpEdgeAloneEndsInSmoothPoints) {
+  const auto one = [](std::uint32_t a, std::uint32_t b) { return a == 6 && b == 7; };
+  const MeshData smooth = subdividedByCatmullClark(cube(), 1);
+  const MeshData dart = subdividedByCatmullClark(cube(), 1, edgesOfCube(2, one));
+  int moved = 0;
+  for (std::size_t i = 0; i < smooth.points.size(); ++i)
+    if (!(smooth.points[i] == dart.points[i])) {
+      ++moved;
+      EXPECT_EQ(dart.points[i], (Vec3f{0, 1, 1})) << "the middle of the edge";
+    }
+  EXPECT_EQ(moved, 1);
+}
+
 TEST(MeshSmooth, PolygonsSurviveWhatIsLeftOut) {
   MeshData mesh = cube();
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});

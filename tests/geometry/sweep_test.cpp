@@ -53,6 +53,42 @@ TEST(Sweep, HasTheVolumeOfProfileTimesPath) {
   EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
 }
 
+/// The distance of a place in the plane from an arc; infinite beside its ends.
+Real distanceFrom(const Cubic<4>& arc, Real x, Real y) {
+  const auto at = [&](Real u) { return std::hypot(arc.at(0, u) - x, arc.at(1, u) - y); };
+  Real best = 0, step = 1.0 / 256;
+  for (int i = 0; i <= 256; ++i)
+    if (at(i * step) < at(best)) best = i * step;
+  for (; step > 1e-10; step /= 2)
+    for (const Real u : {best - step, best + step})
+      if (u >= 0 && u <= 1 && at(u) < at(best)) best = u;
+  return best > 1e-6 && best < 1 - 1e-6 ? at(best) : kInfinity;
+}
+
+TEST(Sweep, SidesStayAtTheirDistanceFromThePath) {
+  // In a plane the profile's directions are known: across the path, and up. Here it bends unevenly.
+  Sweep sweep;
+  sweep.points = {{0, 0, 0, 1}, {2, 0, 0, 1}, {2.2, 0.3, 0, 1}, {0.5, 2, 0, 1}};
+  sweep.profile = {{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}};
+  const Cubic<4> arc = arcsOf<4>(sweep.spline, sweep.points).arcs[0];
+  const TracedShape shape = prepare(Shape(sweep));
+  const Box3 box = boundsOf(shape);
+  Random random(1);
+  Real most = 0;
+  int hits = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 d = random.direction(), target = box.center() + random.inCube(1.2);
+    for (const Crossing& c : placesOf(shape, {target - d * 5, d})) {
+      const SurfacePoint s = surfaceOf(shape, {target - d * 5, d}, c);
+      const Real off = std::abs(distanceFrom(arc, s.point.x, s.point.y) - 0.2);
+      if (std::abs(s.normal.z) > 0.5 || off == kInfinity) continue;  // above or below, or an end
+      ++hits, most = max(most, off);
+    }
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_LT(most, 1e-6);
+}
+
 TEST(Sweep, MitresCornersAndClosesRings) {
   Sweep frame;
   frame.profile = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}, frame.spline = Spline::linear;

@@ -63,62 +63,6 @@ TEST(World, AllCrossingsAreThoseOfBruteForce) {
   }
 }
 
-constexpr std::array<double, 5> kScales{1e-4, 1e-2, 1.0, 1e3, 1e6};
-const int kRestarts = kSanitized ? 5000 : thorough() ? 1000000 : 100000;  // for each shape
-
-/// A ray restarted from a hit, on either side, does not meet the same place again, at any scale.
-TEST(World, RestartedRaysNeverMeetTheSamePlaceAgain) {
-  Random random(3);
-  Statistics statistics;
-  forEachType<Shape>([&]<class S>(S*) {
-    std::vector<Shape> samples;
-    if constexpr (std::is_same_v<S, Mesh>)
-      samples.push_back(Mesh{ballMesh(10, random)});
-    else
-      for (const S& sample : samplesOf<S>()) samples.push_back(sample);
-    constexpr int kPerWorld = 200;
-    int restarts = 0, rays = 0;
-    for (int i = 0; i < kRestarts; i += kPerWorld) {
-      const double scale = kScales[static_cast<size_t>(random.below(static_cast<int>(kScales.size())))];
-      const Shape& shape = samples[static_cast<size_t>(i / kPerWorld) % samples.size()];
-      Scene scene;
-      addObject(scene, shape, random.affine(scale), {});
-      const World world = build(scene);
-      const Box3 box = scene.objects[0].worldFromObject * closeBoundsOf(prepare(shape));
-      const Vec3 center = box.center(), size = box.size();
-      const int sent = raysFor(shape, kPerWorld);
-      rays += sent;
-      for (int k = 0; k < sent; ++k) {
-        const Vec3 target =
-            center + Vec3{size.x * random.uniform(-0.5, 0.5), size.y * random.uniform(-0.5, 0.5),
-                          size.z * random.uniform(-0.5, 0.5)};
-        const Vec3 d = random.direction();
-        const Ray ray{target - d * (10 * length(size)), d};
-        const auto found = world.closest(ray, Faces::both, statistics);
-        if (!found) continue;
-        const SurfacePoint surface = world.surface(ray, *found);
-        // Even the most glancing directions must get away.
-        Vec3 out = random.direction();
-        if (k % 4 == 0)
-          out = normalize(cross(out, surface.normal) + surface.normal * random.uniform(-1e-6, 1e-6));
-        const Ray next = spawnRay(surface, out);
-        ++restarts;
-        ASSERT_LT(length(next.origin - surface.point), 1e-11 * (length(size) + length(surface.point)))
-            << nameOf(shape);
-        const auto again = world.closest(next, Faces::both, statistics);
-        if (!again) continue;
-        // Only a true crossing of another place is left: it goes through the surface the other way, or lies
-        // farther than rounding reaches.
-        const double leaving = dot(out, surface.normal);
-        const double meeting = dot(out, world.surface(next, *again).normal);
-        EXPECT_TRUE(leaving * meeting < 0 || again->t > 1e-9 * length(size))
-            << nameOf(shape) << " at scale " << scale << ", " << again->t << " away along " << leaving;
-      }
-    }
-    EXPECT_GT(restarts, rays / 20) << S::kKeyword;
-  });
-}
-
 TEST(World, HitsLieInTheBoundsAndNormalsAreUnit) {
   Random random(4);
   Statistics statistics;

@@ -145,8 +145,10 @@ inline std::vector<Shape> analyticShapes() {
   return shapes;
 }
 
-/// Of so many rays, how many a test of the shape sends: fewer where each takes long.
+/// Of so many rays, how many a test of the shape sends: fewer where each takes long, so that the tests of a
+/// shape end within a few seconds. `./dev test thorough` sends all.
 inline int raysFor(const Shape& shape, int rays) {
+  if (thorough()) return rays;
   return match(shape, [&]<class S>(const S& s) {
     if constexpr (std::is_same_v<S, Mandelbulb> || std::is_same_v<S, Mandelbox>) return rays / 20;
     if constexpr (std::is_same_v<S, Julia>) return s.iteration >= Iteration::sine ? rays / 50 : rays;
