@@ -84,15 +84,16 @@ struct FormsOf {
 /// What a length of the part is in the whole, on the average of all directions.
 Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
 
-Box3 grown(Box3 box, Real by) {
-  if (box.empty()) return box;
-  return {box.low - Vec3{by, by, by}, box.high + Vec3{by, by, by}};
+/// How near one of two values must be where what they become is as near as `near`; see smoothLesser().
+Real nearestOf(BlendOperation operation, Real radius, Real near) {
+  if (operation != BlendOperation::unite) return near;
+  return max(near, radius - (radius - near) * std::sqrt(0.5));
 }
 
 }  // namespace
 
 TracedBlend::TracedBlend(const Blend& shape) {
-  bounds_ = add(shape.operation, std::abs(shape.radius), shape.objects.list(), {});
+  bounds_ = add(shape.operation, std::abs(shape.radius), shape.objects.list(), {}, 0);
   if (bounds_.unbounded())
     throw Error(Fault::scene, "a blend goes on for ever",
                 "a plane can be cut out of it, or cut it off by an intersection");
@@ -100,41 +101,40 @@ TracedBlend::TracedBlend(const Blend& shape) {
   if (forms_.size() > kMostForms) throw Error(Fault::scene, "a blend of more than 65536 solids is too large");
 }
 
-void TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm) {
+Box3 TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm, Real near) {
   if (!invertible(wholeFromForm))
     throw Error(Fault::scene, "an object of a blend is squeezed flat by its transform");
   form.formFromWhole = inverse(wholeFromForm), form.scale = scaleOf(wholeFromForm);
   steps_.push_back({true, forms_.size(), {}, 0});
   forms_.push_back(form), materials_.push_back(material);
+  const Box3 box = form.within(near);
+  return box.unbounded() ? box : wholeFromForm * box;
 }
 
 Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<Operand>& operands,
-                      const Affine& wholeFromPart) {
+                      const Affine& wholeFromPart, Real near) {
   const Real fillet = radius * scaleOf(wholeFromPart);
+  std::vector<Real> nears(operands.size(), near);  // of each operand; they are taken in one by one
+  for (std::size_t i = operands.size(); i-- > 1;) nears[i] = near = nearestOf(operation, fillet, near);
+  if (!nears.empty()) nears.front() = near;
   Box3 box;
   for (std::size_t i = 0; i < operands.size(); ++i) {
-    const Box3 own = add(operands[i], wholeFromPart);
-    if (i == 0) {
+    const Box3 own = add(operands[i], wholeFromPart, nears[i]);
+    if (i > 0) steps_.push_back({false, 0, operation, fillet});
+    if (i == 0)
       box = own;
-      continue;
-    }
-    steps_.push_back({false, 0, operation, fillet});
-    constexpr Real kBulge =
-        0.3;  // a fillet fills the corner up to 1 - sqrt(1/2) of its radius from both solids
-    if (operation == BlendOperation::unite) {
+    else if (operation == BlendOperation::unite)
       box.extend(own);
-      box = grown(box, kBulge * fillet);
-    } else if (operation == BlendOperation::intersect) {
+    else if (operation == BlendOperation::intersect)
       box.low = max(box.low, own.low), box.high = min(box.high, own.high);
-    }
   }
   return box;
 }
 
-Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside) {
+Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Real near) {
   const Affine wholeFromShape = wholeFromOutside * operand.wholeFromOperand;
   const auto nested = [&](BlendOperation operation, Real radius, const Operands& objects) {
-    return add(operation, radius, objects.list(), wholeFromShape);
+    return add(operation, radius, objects.list(), wholeFromShape, near);
   };
   const auto single = [&](const auto& shape) {
     const std::vector<PlacedForm> forms = FormsOf()(shape);
@@ -144,11 +144,12 @@ Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside) {
           "no distance is known from a " + std::string(shape.kKeyword) + " like this, as a blend needs it",
           "known are sphere, box, rounded_box, closed cylinder, cone and conic, torus, ellipsoid, plane, a "
           "sphere_sweep of lines and one radius, and unions, intersections, differences and blends of them");
+    Box3 box;
     for (std::size_t i = 0; i < forms.size(); ++i) {
-      add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm);
+      box.extend(add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm, near));
       if (i > 0) steps_.push_back({false, 0, BlendOperation::unite, 0});
     }
-    return Placed(operand.shape, wholeFromShape).bounds();
+    return box;
   };
   return match(
       operand.shape,

@@ -74,11 +74,12 @@ class TracedBlend {
   };
   std::int64_t count() const { return static_cast<std::int64_t>(forms_.size()); }
 
-  /// Each adds the steps of a shape in its place, and returns a box that holds it.
-  Box3 add(const Operand& operand, const Affine& wholeFromOutside);
+  /// Each adds the steps of a shape in its place, and returns a box that holds where its value is at most
+  /// `near`, from 0.
+  Box3 add(const Operand& operand, const Affine& wholeFromOutside, Real near);
   Box3 add(BlendOperation operation, Real radius, const std::vector<Operand>& operands,
-           const Affine& wholeFromPart);
-  void add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm);
+           const Affine& wholeFromPart, Real near);
+  Box3 add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm, Real near);
   class Line;
   std::int64_t partAt(const Vec3& p) const;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/along.h"
+#include "math/box.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -24,10 +25,35 @@ struct DistanceForm {
   Affine formFromWhole;
   Real scale = 1;  ///< what a length in its own space is in that of the whole
 
+  /// A box, in its own space, of all places nearer than `distance`, in lengths of the whole.
+  Box3 within(Real distance) const;
   /// At o + t d, a line in its own space.
   template <class T>
   Along<T> along(const Vec3& o, const Vec3& d, const T& t) const;
 };
+
+inline Box3 DistanceForm::within(Real distance) const {
+  const Real far = distance / scale, end = size.z + far;
+  const auto box = [](const Vec3& half) { return Box3{-half, half}; };
+  switch (kind) {
+    case Kind::ball: return box(Vec3{1, 1, 1} * (radius + far));
+    case Kind::box: return box(size + Vec3{1, 1, 1} * (radius + far));
+    case Kind::cone: {  // from its side it is far / cos(slope) across the axis
+      const Real slope = std::abs(other - radius) / size.z;
+      const Real wide = max(radius, other) + far * (slope + std::sqrt(1 + slope * slope));
+      return {{-wide, -wide, -far}, {wide, wide, end}};
+    }
+    case Kind::ring: return box({radius + other + far, radius + other + far, other + far});
+    case Kind::capsule: {
+      const Real wide = radius + far;
+      return {{-wide, -wide, -wide}, {wide, wide, end + radius}};
+    }
+    case Kind::ellipsoid:  // (f - 1) f / g <= far, and f / g is no less than the least half width
+      return box(size * (1 + far / min(size.x, min(size.y, size.z))));
+    case Kind::below: break;
+  }
+  return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+}
 
 template <class T>
 Along<T> DistanceForm::along(const Vec3& o, const Vec3& d, const T& t) const {

@@ -42,6 +42,25 @@ TEST(Blend, FilletIsAQuarterOfACircle) {
   }
 }
 
+TEST(Blend, OfStretchedSolidsIsWhollyInItsBounds) {
+  // Four times as long as they are thick, so that the fillet at their ends reaches farther than its radius
+  // says: where both are 1 - sqrt(1/2) away.
+  const Affine stretched = Affine::scaling({4, 0.25, 0.25});
+  const Shape twins =
+      blend(BlendOperation::unite, 1,
+            {at(Sphere{}, move(0, 0.2, 0) * stretched), at(Sphere{}, move(0, -0.2, 0) * stretched)});
+  const Real away = 1 + (1 - std::sqrt(0.5)) / std::cbrt(0.25);
+  const Real end = 4 * std::sqrt(away * away - 0.64);
+  const auto met = crossingsOf(prepare(twins), {{10, 0, 0}, {-1, 0, 0}});
+  ASSERT_EQ(met.size(), 2u);
+  EXPECT_NEAR(met[0].t, 10 - end, 1e-9);
+  EXPECT_NEAR(met[1].t, 10 + end, 1e-9);
+  // What is cut to a fillet gets no larger.
+  const auto cut =
+      blend(BlendOperation::intersect, 0.5, {at(Sphere{}), at(Cube{}, Affine::scaling({4, 4, 4}))});
+  EXPECT_EQ(cut.prepared()->bounds(), (Box3{{-1, -1, -1}, {1, 1, 1}}));
+}
+
 TEST(Blend, LeadsFromOneMaterialToTheOther) {
   const Blend corner = blend(BlendOperation::unite, 0.5, floorAndWall());
   const auto traced = corner.prepared();
