@@ -145,7 +145,10 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
       return !exact ? arc.at(o.z + d.z * t) : bottom ? arc.u0 : arc.u1;
     };
     const Real first = placeAt(begin, beginIsEnd, bottomFirst), past = placeAt(end, endIsEnd, !bottomFirst);
-    const Real low = min(first, past), high = max(first, past);
+    // With room around it, so that the root that a ray starts next to, on the surface, is not lost at the
+    // end.
+    const Real bottom = min(arc.u0, arc.u1), top = max(arc.u0, arc.u1), room = (top - bottom) / 64;
+    const Real low = max(bottom, min(first, past) - room), high = min(top, max(first, past) + room);
     u = first;
     if (signVariations(polynomial, low, high) == 0) return;
     const Nodes roots = rootsWithEnds(polynomial, low, high);
