@@ -114,10 +114,10 @@ class World {
   };
 
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
-  /// the calls, and for others; the ray is in its space.
+  /// the calls, and for others; the ray is in its space. Kept apart, so that who tests meshes stays small.
   template <class Visit>
-  void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost, Statistics& statistics,
-                        const Visit& visit) const;
+  [[gnu::noinline]] void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost,
+                                          Statistics& statistics, const Visit& visit) const;
 
   std::vector<Instance> objects_;
   std::shared_ptr<const Bvh> bvh_;
