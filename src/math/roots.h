@@ -100,8 +100,8 @@ struct Nodes {
 
 /// a, the places in (a, b) where the polynomial changes sign, and b. Isolated by the signs of Bernstein
 /// ordinates (Lane and Riesenfeld, Bounds on a Polynomial, 1981): no change, no root; one change, one root;
-/// of several the interval is halved, until they are no more than rounding. The degree is at most kMostDegree;
-/// leading coefficients may be zero.
+/// of several the interval is halved, until they are no more than rounding. The degree is at most
+/// kMostDegree; leading coefficients may be zero.
 Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b);
 
 /// How often the sign changes among those ordinates over [a, b]: at least as often as that of the polynomial
