@@ -70,11 +70,6 @@ class Bvh {
  private:
   struct Builder;
 
-  /// Takes a copy of the visitor, so that without a tree it need not exist in memory.
-  template <class Visit>
-  [[gnu::noinline]] void queryTree(const Vec3& origin, const Vec3& direction, const Real& tMost,
-                                   bool nearestFirst, NodeCount& nodes, Visit visit) const;
-
   BvhExtent extent_{};
   const BvhKernel* kernel_ = &bvhKernels().front();
   HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
@@ -86,14 +81,11 @@ class Bvh {
 template <class Visit>
 void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
                 NodeCount& nodes, Visit&& visit) const {
-  if (!nodes_.empty()) return queryTree(origin, direction, tMost, nearestFirst, nodes, visit);
-  for (std::uint32_t item : items_)
-    if (visit(item)) return;
-}
-
-template <class Visit>
-void Bvh::queryTree(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-                    NodeCount& nodes, Visit visit) const {
+  if (nodes_.empty()) {
+    for (std::uint32_t item : items_)
+      if (visit(item)) return;
+    return;
+  }
   auto visitLeaf = [&](std::uint32_t number) {
     for (std::uint32_t item : leaf(number)) {
       if (item == kNoItem) return false;

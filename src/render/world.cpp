@@ -6,46 +6,64 @@
 
 namespace trace {
 
-std::optional<Found> World::closest(const Ray& worldRay, Faces faces, Statistics& statistics) const {
+std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
   std::optional<Found> best(std::in_place);
-  const auto visitObject = [this, &worldRay, faces, &best, &statistics](std::uint32_t object) {
-    const Instance& instance = objects_[object];
-    const std::size_t kind = instance.shape.index();
-    std::optional<Ray> moved;
-    const Ray& ray = instance.objectRay(worldRay, moved);
-    const auto keepNearest = [&](const Found& found) {
-      if (!found.before(*best)) return;
-      ++statistics.hits[kind];
-      *best = found;
-    };
-    if (const MeshTree* mesh = instance.mesh.get()) {
-      const MeshCounts counts{statistics.nodes, statistics.tests[kind]};
-      const auto seen = [&](const MeshHit& met) { return sees(faces, ray, mesh->data(), met); };
-      MeshHit met;
-      met.hit.t = best->t;
-      statistics.nodes.owner = object;
-      if (faces == Faces::both ? mesh->closest(ray, met, nullptr, counts)
-                               : mesh->closest(ray, met, seen, counts))
-        keepNearest({met.hit.t, object, met.triangle, met.hit});
-      statistics.nodes.owner = NodeCount::kTop;
-    } else {
-      crossingsOfShape(instance, ray, best->t, statistics, [&](const Crossing& crossing) {
-        if (crossing.t > 0 && crossing.t <= best->t)
-          keepNearest({crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
-      });
-    }
-    return false;
-  };
-  for (std::uint32_t object : unbounded_) visitObject(object);
-  bvh_->query(worldRay.origin, worldRay.direction, best->t, true, statistics.nodes, visitObject);
+  for (std::uint32_t object : always_) closestOf(object, ray, faces, statistics, *best);
+  if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
   if (best->t == kInfinity) best.reset();
   return best;
 }
 
+void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
+  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, [&](std::uint32_t object) {
+    closestOf(object, ray, faces, statistics, best);
+    return false;
+  });
+}
+
+inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
+                             Found& best) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    const MeshTree* mesh = instance.mesh.get();
+    if (!mesh) return closestOfShape(instance, object, ray, statistics, best);
+    const std::size_t kind = instance.shape.index();
+    MeshHit met;
+    met.hit.t = best.t;
+    statistics.nodes.owner = object;
+    const bool found = faces == Faces::both
+                           ? mesh->closest(ray, met, nullptr, {statistics.nodes, statistics.tests[kind]})
+                           : closestSeen(instance, ray, faces, statistics, met);
+    statistics.nodes.owner = NodeCount::kTop;
+    // At the same distance the object that comes first in the scene counts.
+    if (!found || (met.hit.t == best.t && object >= best.object)) return;
+    ++statistics.hits[kind];
+    best = {met.hit.t, object, met.triangle, met.hit};
+  };
+  instance.moved ? inItsSpace(instance.objectRay(worldRay)) : inItsSpace(worldRay);
+}
+
+bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, Statistics& statistics,
+                        MeshHit& met) const {
+  const MeshTree& mesh = *instance.mesh;
+  const auto seen = [&](const MeshHit& hit) { return sees(faces, ray, mesh.data(), hit); };
+  return mesh.closest(ray, met, seen, {statistics.nodes, statistics.tests[instance.shape.index()]});
+}
+
+void World::closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
+                           Statistics& statistics, Found& best) const {
+  crossingsOfShape(instance, ray, best.t, statistics, [&](const Crossing& crossing) {
+    if (!(crossing.t > 0 && crossing.t <= best.t)) return;
+    const Found found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}};
+    if (!found.before(best)) return;
+    ++statistics.hits[instance.shape.index()];
+    best = found;
+  });
+}
+
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
-  std::optional<Ray> moved;
-  const Ray& ray = instance.objectRay(worldRay, moved);
+  const Ray ray = instance.moved ? instance.objectRay(worldRay) : worldRay;
   SurfacePoint s =
       match(instance.shape,
             Overloaded{[&](const Mesh&) {
@@ -285,7 +303,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      }});
     if (invertible(object.worldFromObject)) {
       if (box.unbounded())
-        world.unbounded_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
+        world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
       else
         instance.bounds = instance.worldFromObject * box;
     }
@@ -295,6 +313,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   }
   world.bvh_ = earlier.hierarchy(boxes);
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
+  if (world.bvh_->nodes().empty())
+    world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
   return world;
 }
 

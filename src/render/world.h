@@ -96,32 +96,56 @@ class World {
   friend World compile(const Scene&, const Settings&, Messages&, const Compiled*);
   class Earlier;
 
-  struct Instance {
+  struct Instance {  // what queries need stands together
     TracedShape shape;
-    Affine worldFromObject, objectFromWorld;
     bool moved = false;  ///< the transform is not the identity
-    Box3 bounds;
-    std::uint32_t material = 0;
     bool opaque = true;
-    bool mixed = false;                    ///< parts of it are made of other materials
+    bool mixed = false;  ///< parts of it are made of other materials
+    std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
+    Affine objectFromWorld, worldFromObject;
+    Box3 bounds;
 
-    /// The ray in the object's space: as it is, or moved to `place`.
-    const Ray& objectRay(const Ray& ray, std::optional<Ray>& place) const {
-      if (!moved) return ray;
-      return place.emplace(Ray{objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)});
+    /// The ray in the object's space.
+    Ray objectRay(const Ray& ray) const {
+      return {objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)};
     }
   };
 
-  /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
-  /// the calls, and for others; the ray is in its space. Kept apart, so that who tests meshes stays small.
+  // Queries, object by object. What is rarer than a mesh seen from both sides is kept apart, so that the way
+  // to a mesh stays short; in the tree there is one copy of it.
+  void closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
+                 Found& best) const;
+  [[gnu::noinline]] void closestInTree(const Ray& ray, Faces faces, Statistics& statistics,
+                                       Found& best) const;
+  [[gnu::noinline]] bool closestSeen(const Instance& instance, const Ray& ray, Faces faces,
+                                     Statistics& statistics, MeshHit& met) const;
+  [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
+                                        Statistics& statistics, Found& best) const;
+  /// Whether visit(Found) ended the query.
   template <class Visit>
-  [[gnu::noinline]] void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost,
-                                          Statistics& statistics, const Visit& visit) const;
+  bool crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
+                   Visit& visit) const;
+  template <class Visit>
+  [[gnu::noinline]] void crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
+                                         Visit& visit) const;
+  template <class Visit>
+  [[gnu::noinline]] bool meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray,
+                                       Real tMost, Faces faces, Statistics& statistics, Visit& visit) const;
+  template <class Visit>
+  [[gnu::noinline]] bool shapeCrossings(const Instance& instance, std::uint32_t object, const Ray& ray,
+                                        Real tMost, Statistics& statistics, Visit& visit) const;
+
+  /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
+  /// the calls, and for others; the ray is in its space.
+  template <class Visit>
+  void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost, Statistics& statistics,
+                        const Visit& visit) const;
 
   std::vector<Instance> objects_;
   std::shared_ptr<const Bvh> bvh_;
-  std::vector<std::uint32_t> unbounded_;  ///< objects without end, which no hierarchy can hold
+  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those without end, which no
+                                       ///< hierarchy can hold; where there is no tree, all
   std::vector<Phong> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
@@ -156,40 +180,60 @@ void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Rea
 }
 
 template <class Visit>
-void World::crossings(const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
-                      Visit&& visit) const {
-  const auto visitObject = [this, &worldRay, tMost, faces, &statistics, &visit](std::uint32_t object) {
-    const Instance& instance = objects_[object];
-    std::optional<Ray> moved;
-    const Ray& ray = instance.objectRay(worldRay, moved);
-    bool ended = false;
-    Real wanted = tMost;
-    const auto report = [&](const Found& found) {
-      ++statistics.hits[instance.shape.index()];
-      ended = visit(found);
-    };
-    if (const MeshTree* mesh = instance.mesh.get()) {
-      statistics.nodes.owner = object;
-      mesh->crossings(ray, tMost,
-                      [&](const MeshHit& met) {
-                        if (sees(faces, ray, mesh->data(), met))
-                          report({met.hit.t, object, met.triangle, met.hit});
-                        return ended;
-                      },
-                      {statistics.nodes, statistics.tests[instance.shape.index()]});
-      statistics.nodes.owner = NodeCount::kTop;
-    } else {
-      crossingsOfShape(instance, ray, wanted, statistics, [&](const Crossing& crossing) {
-        if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
-        report({crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
-        if (ended) wanted = -kInfinity;
-      });
-    }
-    return ended;
+void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
+  for (std::uint32_t object : always_)
+    if (crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
+  if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
+}
+
+template <class Visit>
+void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
+                            Visit& visit) const {
+  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
+    return crossingsOf(object, ray, tMost, faces, statistics, visit);
+  });
+}
+
+template <class Visit>
+bool World::crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces,
+                        Statistics& statistics, Visit& visit) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    return instance.mesh ? meshCrossings(instance, object, ray, tMost, faces, statistics, visit)
+                         : shapeCrossings(instance, object, ray, tMost, statistics, visit);
   };
-  for (std::uint32_t object : unbounded_)
-    if (visitObject(object)) return;
-  bvh_->query(worldRay.origin, worldRay.direction, tMost, false, statistics.nodes, visitObject);
+  return instance.moved ? inItsSpace(instance.objectRay(worldRay)) : inItsSpace(worldRay);
+}
+
+template <class Visit>
+bool World::meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
+                          Faces faces, Statistics& statistics, Visit& visit) const {
+  const MeshTree& mesh = *instance.mesh;
+  const std::size_t kind = instance.shape.index();
+  bool ended = false;
+  const auto met = [&](const MeshHit& hit) {
+    if (!sees(faces, ray, mesh.data(), hit)) return false;
+    ++statistics.hits[kind];
+    return ended = visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
+  };
+  statistics.nodes.owner = object;
+  mesh.crossings(ray, tMost, met, {statistics.nodes, statistics.tests[kind]});
+  statistics.nodes.owner = NodeCount::kTop;
+  return ended;
+}
+
+template <class Visit>
+bool World::shapeCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
+                           Statistics& statistics, Visit& visit) const {
+  bool ended = false;
+  Real wanted = tMost;
+  crossingsOfShape(instance, ray, wanted, statistics, [&](const Crossing& crossing) {
+    if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
+    ++statistics.hits[instance.shape.index()];
+    ended = visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+    if (ended) wanted = -kInfinity;
+  });
+  return ended;
 }
 
 }  // namespace trace
