@@ -19,6 +19,16 @@ bool hasAvx2() {
 #endif
 }
 
+bool hasAvx512() {
+#if defined(TRACE_HAS_AVX2)
+  static const bool has = hasAvx2() && __builtin_cpu_supports("avx512vl") &&
+                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  return has;
+#else
+  return false;
+#endif
+}
+
 std::span<const BvhKernel> bvhKernels() {
 #if defined(TRACE_HAS_AVX2)
   static const std::array<BvhKernel, 2> kAll{kBvhKernelAvx2, kBvhKernelBase};

@@ -21,6 +21,8 @@ struct BvhKernel {
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).
 bool hasAvx2();
+/// The same for AVX-512 with its 256-bit forms.
+bool hasAvx512();
 
 /// Those that this machine can run, the best first.
 std::span<const BvhKernel> bvhKernels();

@@ -6,21 +6,24 @@
 // of another's. Comparisons give masks with bit i for lane i.
 #pragma once
 
-#if defined(__AVX2__)
+#if defined(__AVX512VL__)  // the lanes of AVX2 with twice the registers, so that a ray's numbers stay in them
 #include <immintrin.h>
+#define TRACE_LANES avx512
+#elif defined(__AVX2__)
+#include <immintrin.h>
+#define TRACE_LANES avx2
 #elif defined(__SSE2__)
 #include <emmintrin.h>
+#define TRACE_LANES sse2
+#else
+#define TRACE_LANES plain
 #endif
 
 namespace trace::simd {
 
 #if defined(__SSE2__)
 
-#if defined(__AVX2__)
-inline namespace avx2 {
-#else
-inline namespace sse2 {
-#endif
+inline namespace TRACE_LANES {
 
 struct Float4 {
   __m128 v;
@@ -67,13 +70,13 @@ Float4 spread(Float4 a) {
   return {_mm_shuffle_ps(a.v, a.v, kLane * 0x55)};
 }
 
-}  // namespace
+}  // namespace TRACE_LANES
 
 #endif
 
 #if defined(__AVX2__)
 
-inline namespace avx2 {
+inline namespace TRACE_LANES {
 
 struct Float8 {
   __m256 v;
@@ -115,11 +118,11 @@ inline unsigned lessEqual(Double4 a, Double4 b) {
   return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a.v, b.v, _CMP_LE_OQ)));
 }
 
-}  // namespace avx2
+}  // namespace TRACE_LANES
 
 #elif defined(__SSE2__)
 
-inline namespace sse2 {
+inline namespace TRACE_LANES {
 
 struct Float8 {
   __m128 lo, hi;
@@ -167,11 +170,11 @@ inline unsigned lessEqual(Double4 a, Double4 b) {
                                _mm_movemask_pd(_mm_cmple_pd(a.hi, b.hi)) << 2);
 }
 
-}  // namespace sse2
+}  // namespace TRACE_LANES
 
 #else  // lanes as arrays: compilers turn these loops into NEON or WebAssembly SIMD where it is switched on
 
-inline namespace plain {
+inline namespace TRACE_LANES {
 
 template <class T, int N>
 struct Lanes {
@@ -295,7 +298,7 @@ using Float4 = Lanes<float, 4>;
 using Float8 = Lanes<float, 8>;
 using Double4 = Lanes<double, 4>;
 
-}  // namespace plain
+}  // namespace TRACE_LANES
 
 #endif
 

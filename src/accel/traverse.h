@@ -68,7 +68,13 @@ constexpr float kShortest = 1e-9f, kLongest = 1e9f;  // direction that need not 
                  notLong = lessEqual(abs(ray.direction), Float4::all(kLongest)),
                  notShort = lessEqual(Float4::all(kShortest), abs(ray.direction));
   const bool usual = (near & notLong & 7) == 7 && (notShort & 7) != 0;
-  if (!__builtin_expect(usual, 1) && !prepareUnusual(extent, origin, direction, tMost, ray)) return false;
+  if (!__builtin_expect(usual, 1)) {  // by way of copies, so that a usual ray stays in registers
+    const double from[3] = {origin[0], origin[1], origin[2]},
+                 along[3] = {direction[0], direction[1], direction[2]};
+    SlabRay unusual;
+    if (!prepareUnusual(extent, from, along, tMost, unusual)) return false;
+    ray = unusual;
+  }
   // No infinities in the slab test: a direction along an axis gets a very large inverse.
   ray.inverse = Float4::all(1) / withSign(max(abs(ray.direction), Float4::all(1e-18f)), ray.direction);
   return true;
@@ -88,18 +94,21 @@ struct Leaves {
   for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 }
 
+/// A child that waits for its turn, below where the ray enters its box: positive floats are ordered as their
+/// bits are, so the nearer of two is the smaller number, and found without a branch that is guessed wrongly.
+using Pending = std::uint64_t;
+inline Pending pending(float near, std::uint32_t child) {
+  return Pending{__builtin_bit_cast(std::uint32_t, near)} << 32 | child;
+}
+
 /// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
 /// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else those of larger area
 /// first, which the builder has put into the lanes 0, 7, 6, ... of a node.
 template <bool kNearestFirst, class VisitLeaf>
 [[gnu::always_inline]] inline void traverse(const BvhNode* nodes, Leaves leaves, const SlabRay& ray,
                                             float limit, NodeCount& visited, const VisitLeaf& visit) {
-  struct Pending {
-    std::uint32_t child;
-    float near;  // where the ray enters its box
-  };
   Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
-  int top = 0;
+  Pending* top = stack;
 
   // t of a plane at p: p inverse - shift
   const Float4 shifts = ray.origin * ray.inverse;
@@ -110,12 +119,12 @@ template <bool kNearestFirst, class VisitLeaf>
   // Where the planes that the ray meets first lie in a node, in floats.
   const unsigned backward = signs(ray.inverse);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
-  Pending next{0, 0};
+  std::uint32_t next = 0;
   for (;;) {
-    if (next.child & BvhNode::kLeaf) {
-      if (visit(next.child & ~BvhNode::kLeaf, limit)) return;
+    if (next & BvhNode::kLeaf) {
+      if (visit(next & ~BvhNode::kLeaf, limit)) return;
     } else {
-      const BvhNode& node = nodeAt(nodes, next.child);
+      const BvhNode& node = nodeAt(nodes, next);
       ++visited.count;
       if (__builtin_expect(visited.note != nullptr, 0)) visited.note(visited.context, node, visited.owner);
       const float* planes = &node.plane[0][0][0];
@@ -125,43 +134,49 @@ template <bool kNearestFirst, class VisitLeaf>
         leave = min(timesMinus(Float8::load(planes + (side[axis] ^ 8)), inverse[axis], shift[axis]), leave);
       }
       unsigned met = lessEqual(enter, leave);
-      if (met) {
-        alignas(32) float near[8];
-        enter.store(near);
-        const auto take = [&] {
-          const int lane = __builtin_ctz(met);
+      if (met != 0) {
+        const auto takeLane = [&] {
+          const auto lane = static_cast<unsigned>(__builtin_ctz(met));
           met &= met - 1;
           fetch(nodes, leaves, node.child[lane]);
-          return Pending{node.child[lane], near[lane]};
+          return lane;
         };
-        next = take();
+        unsigned lane = takeLane();
+        next = node.child[lane];
         if (met == 0) continue;
-        const auto keepNearer = [&](Pending& other) {  // in hand
-          if (!kNearestFirst || !(other.near < next.near)) return;
-          const Pending nearer = other;
-          other = next;
-          next = nearer;
-        };
-        Pending other = take();
-        keepNearer(other);
-        const int bottom = top;
-        stack[top++] = other;
-        while (met) {  // the others sorted, nearest on top
-          other = take();
-          keepNearer(other);
-          int place = top++;
-          if constexpr (kNearestFirst)
-            for (; place > bottom && stack[place - 1].near < other.near; --place)
-              stack[place] = stack[place - 1];
-          stack[place] = other;
+        if constexpr (kNearestFirst) {
+          alignas(32) float near[8];
+          enter.store(near);
+          Pending nearest = pending(near[lane], next);
+          const auto keepNearest = [&] {  // in hand; returns the other
+            lane = takeLane();
+            const Pending other = pending(near[lane], node.child[lane]),
+                          further = other < nearest ? nearest : other;
+            nearest = other < nearest ? other : nearest;
+            return further;
+          };
+          const Pending* const bottom = top;
+          *top++ = keepNearest();
+          while (met != 0) {  // sorted, nearer ones on top
+            const Pending further = keepNearest();
+            Pending* place = top++;
+            for (; place > bottom && place[-1] < further; --place) *place = place[-1];
+            *place = further;
+          }
+          next = static_cast<std::uint32_t>(nearest);
+        } else {
+          do *top++ = node.child[takeLane()];
+          while (met != 0);
         }
         continue;
       }
     }
+    const Pending most = pending(limit, ~0u);
     do {
-      if (top == 0) return;
-      next = stack[--top];
-    } while (next.near > limit);
+      if (top == stack) return;
+      --top;
+    } while (kNearestFirst && *top > most);
+    next = static_cast<std::uint32_t>(*top);
   }
 }
 

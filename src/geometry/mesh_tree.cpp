@@ -9,14 +9,15 @@ namespace trace {
 
 // Compiled from mesh_kernel.h, each in its own file with its own flags.
 #if defined(TRACE_HAS_AVX2)
+extern const MeshKernel kMeshKernelAvx512;
 extern const MeshKernel kMeshKernelAvx2;
 #endif
 extern const MeshKernel kMeshKernelBase;
 
 std::span<const MeshKernel> meshKernels() {
 #if defined(TRACE_HAS_AVX2)
-  static const std::array<MeshKernel, 2> kAll{kMeshKernelAvx2, kMeshKernelBase};
-  return std::span(kAll).subspan(hasAvx2() ? 0 : 1);
+  static const std::array<MeshKernel, 3> kAll{kMeshKernelAvx512, kMeshKernelAvx2, kMeshKernelBase};
+  return std::span(kAll).subspan(hasAvx512() ? 0 : hasAvx2() ? 1 : 2);
 #else
   return {&kMeshKernelBase, 1};
 #endif
