@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/boxed_item.h"
 #include "accel/bvh_kernel.h"
 #include "accel/bvh_node.h"
 #include "base/huge_pages.h"
@@ -33,14 +34,12 @@ class Bvh {
   /// threads; 0 means all the hardware has.
   explicit Bvh(std::span<const Box3> boxes, Leaves leaves = Leaves::single, int threads = 1);
 
-  /// Item i is called names[i] from now on; several may have the same name.
-  void rename(std::span<const std::uint32_t> names) {
-    for (std::uint32_t& item : items_)
-      if (item != kNoItem) item = names[item];
-  }
+  /// Over these, whose boxes are not empty.
+  Bvh(std::vector<BoxedItem> items, Leaves leaves, int threads);
 
   /// No tree: every query visits every item whose box is not empty. What a hierarchy is tested against.
   static Bvh bruteForce(std::span<const Box3> boxes);
+  static Bvh bruteForce(std::span<const BoxedItem> items);
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
   /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes
@@ -69,6 +68,8 @@ class Bvh {
 
  private:
   struct Builder;
+
+  void build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, int threads);
 
   BvhExtent extent_{};
   const BvhKernel* kernel_ = &bvhKernels().front();

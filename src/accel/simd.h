@@ -30,9 +30,17 @@ struct Float4 {
   static Float4 load(const float* p) { return {_mm_load_ps(p)}; }
   static Float4 loadAnywhere(const float* p) { return {_mm_loadu_ps(p)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  static Float4 of(float x, float y, float z) { return {_mm_setr_ps(x, y, z, 0)}; }
+  /// x y z 0, of four.
+  static Float4 loadThree(const float* p) {
+    return {_mm_and_ps(_mm_load_ps(p), _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)))};
+  }
   /// x y z and a fourth lane that means nothing.
   static Float4 narrow(double x, double y, double z) {
     return {_mm_movelh_ps(_mm_cvtpd_ps(_mm_set_pd(y, x)), _mm_cvtpd_ps(_mm_set_pd(z, z)))};
+  }
+  static Float4 ofWhole(const int* p) {
+    return {_mm_cvtepi32_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p)))};
   }
   void store(float* p) const { _mm_store_ps(p, v); }
   /// Towards zero.
@@ -59,6 +67,12 @@ inline Float4 withSign(Float4 size, Float4 sign) {
 inline unsigned lessEqual(Float4 a, Float4 b) {
   return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.v, b.v)));
 }
+/// x where a < b, else y.
+inline Float4 whereLess(Float4 a, Float4 b, Float4 x, Float4 y) {
+  const __m128 less = _mm_cmplt_ps(a.v, b.v);
+  return {_mm_or_ps(_mm_and_ps(less, x.v), _mm_andnot_ps(less, y.v))};
+}
+inline Float4 truncated(Float4 a) { return {_mm_cvtepi32_ps(_mm_cvttps_epi32(a.v))}; }
 inline unsigned signs(Float4 a) { return static_cast<unsigned>(_mm_movemask_ps(a.v)); }
 /// 1 where x is at or after the edge, else 0.
 inline Float4 step(Float4 edge, Float4 x) { return {_mm_and_ps(_mm_cmple_ps(edge.v, x.v), _mm_set1_ps(1))}; }
@@ -68,6 +82,13 @@ inline float first(Float4 a) { return _mm_cvtss_f32(a.v); }
 template <int kLane>
 Float4 spread(Float4 a) {
   return {_mm_shuffle_ps(a.v, a.v, kLane * 0x55)};
+}
+/// The x, the y and the z of all four.
+inline void transpose(Float4 a, Float4 b, Float4 c, Float4 d, Float4* out) {
+  const __m128 ab = _mm_unpacklo_ps(a.v, b.v), cd = _mm_unpacklo_ps(c.v, d.v);
+  out[0] = {_mm_movelh_ps(ab, cd)};
+  out[1] = {_mm_movehl_ps(cd, ab)};
+  out[2] = {_mm_movelh_ps(_mm_unpackhi_ps(a.v, b.v), _mm_unpackhi_ps(c.v, d.v))};
 }
 
 }  // namespace TRACE_LANES
@@ -189,7 +210,14 @@ struct Lanes {
     for (int i = 0; i < N; ++i) r.v[i] = x;
     return r;
   }
+  static Lanes of(float x, float y, float z) { return {x, y, z, 0}; }
+  static Lanes loadThree(const float* p) { return {p[0], p[1], p[2], 0}; }
   static Lanes loadAnywhere(const float* p) { return load(p); }
+  static Lanes ofWhole(const int* p) {
+    Lanes r;
+    for (int i = 0; i < N; ++i) r.v[i] = static_cast<T>(p[i]);
+    return r;
+  }
   static Lanes widen(const float* p) { return load(p); }
   static Lanes narrow(double x, double y, double z) {
     return {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z), static_cast<T>(z)};
@@ -273,6 +301,22 @@ unsigned signs(const Lanes<T, N>& a) {
 template <class T>
 Lanes<T, 4> step(const Lanes<T, 4>& edge, const Lanes<T, 4>& x) {
   return map(edge, x, [](T e, T at) { return static_cast<T>(e <= at ? 1 : 0); });
+}
+template <class T>
+Lanes<T, 4> whereLess(const Lanes<T, 4>& a, const Lanes<T, 4>& b, const Lanes<T, 4>& x,
+                      const Lanes<T, 4>& y) {
+  Lanes<T, 4> r;
+  for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] < b.v[i] ? x.v[i] : y.v[i];
+  return r;
+}
+template <class T>
+Lanes<T, 4> truncated(const Lanes<T, 4>& a) {
+  return map(a, a, [](T x, T) { return static_cast<T>(static_cast<int>(x)); });
+}
+template <class T>
+void transpose(const Lanes<T, 4>& a, const Lanes<T, 4>& b, const Lanes<T, 4>& c, const Lanes<T, 4>& d,
+               Lanes<T, 4>* out) {
+  for (int i = 0; i < 3; ++i) out[i] = {a.v[i], b.v[i], c.v[i], d.v[i]};
 }
 template <class T>
 Lanes<T, 4> rotate(const Lanes<T, 4>& a) {

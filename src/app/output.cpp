@@ -36,12 +36,11 @@ class Hash {
  public:
   void add(const void* data, std::size_t size) {
     const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + i, std::min<std::size_t>(8, size - i));
-      value_ = (value_ ^ word) * 0x100000001b3u;
-      value_ ^= value_ >> 32;
-    }
+    std::uint64_t word = 0;
+    std::size_t i = 0;
+    for (; i + 8 <= size; i += 8) std::memcpy(&word, bytes + i, 8), add(word);
+    word = 0;
+    if (i < size) std::memcpy(&word, bytes + i, size - i), add(word);
     value_ = (value_ ^ size) * 0x100000001b3u;
   }
   template <class Plain>
@@ -56,6 +55,11 @@ class Hash {
   }
 
  private:
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x100000001b3u;
+    value_ ^= value_ >> 32;
+  }
+
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -30,9 +31,37 @@ size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// What files are full of: up to 15 digits, perhaps with a point among them. They are a whole number and a
+/// power of ten that doubles hold exactly, so that their quotient is rounded once, as it should be.
+std::optional<ParsedNumber> parseShort(std::string_view text) {
+  static constexpr double kPowers[] = {1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                       1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const bool negative = !text.empty() && text[0] == '-';
+  const size_t start = negative ? 1 : 0, most = std::min(text.size(), start + 16);
+  std::uint64_t digits = 0;
+  size_t point = text.npos, at = start;
+  for (; at < most; ++at) {
+    const auto digit = static_cast<unsigned>(text[at] - '0');
+    if (digit < 10)
+      digits = digits * 10 + digit;
+    else if (text[at] == '.' && point == text.npos)
+      point = at;
+    else
+      break;
+  }
+  const size_t count = at - start - (point == text.npos ? 0 : 1);
+  if (count == 0 || count > 15) return {};
+  if (at < text.size() &&
+      (text[at] == 'e' || text[at] == 'E' || text[at] == '.' || static_cast<unsigned>(text[at] - '0') < 10))
+    return {};
+  const double size = static_cast<double>(digits) / kPowers[point == text.npos ? 0 : at - point - 1];
+  return ParsedNumber{negative ? -size : size, at};
+}
+
 }  // namespace
 
 std::optional<ParsedNumber> parseNumber(std::string_view text) {
+  if (const auto number = parseShort(text)) return number;
   const size_t plus = !text.empty() && text[0] == '+' ? 1 : 0;
   const std::string_view digits = text.substr(plus);
   if (plus && !digits.empty() && digits[0] == '-') return {};

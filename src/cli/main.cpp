@@ -1,4 +1,16 @@
 // ray: the command line of Trace. See commands.cpp for what it can do.
 #include "cli/commands.h"
 
-int main(int argc, char** argv) { return trace::cli::run({argv + 1, argv + argc}); }
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+int main(int argc, char** argv) {
+#if defined(__GLIBC__)
+  // What reading has freed serves to build, and so on: memory that is given back and asked for anew costs a
+  // page fault every 4 KiB.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+  return trace::cli::run({argv + 1, argv + argc});
+}

@@ -100,6 +100,7 @@ class MeshReader {
   bool vectors(const Item& list, const char* what, std::vector<Vec3f>& to) {
     to.clear();
     if (!isList(list, std::string(what) + "s")) return false;
+    to.reserve(list.count());
     for (const Item item : list) {
       Real n[3];
       if (!numbers(item, n, 3)) {
@@ -158,27 +159,29 @@ class MeshReader {
   /// Polygons become fans. They may stand before the points, so they are read last.
   bool readFaces() {
     if (!faces_) return true;
+    data_.triangles.reserve(faces_->count());
     std::size_t number = 0;
     for (const Item face : *faces_)
       if (!readFace(face, number++)) return false;
     return true;
   }
 
+  static std::string faceName(std::size_t number) { return "face " + std::to_string(number); }
+
   bool readFace(const Item& face, std::size_t number) {
-    const std::string name = "face " + std::to_string(number);
     if (!face.is(Kind::tuple))
-      return findings_.expected(face, name, "a list of points, as in (0, 1, 2)"), false;
+      return findings_.expected(face, faceName(number), "a list of points, as in (0, 1, 2)"), false;
     std::uint32_t first = 0, last = 0;
     std::size_t count = 0;
     for (const Item item : face) {
       std::uint32_t point = 0;
-      if (!readIndex(item, name, point)) return false;
+      if (!readIndex(item, number, point)) return false;
       if (count == 0) first = point;
       if (count >= 2) data_.triangles.push_back({first, last, point});
       last = point;
       ++count;
     }
-    if (count < 3) return findings_.expected(face, name, "at least 3 points"), false;
+    if (count < 3) return findings_.expected(face, faceName(number), "at least 3 points"), false;
     const std::size_t triangles = count - 2;
     if (triangles > 1)
       data_.polygons.push_back({static_cast<std::uint32_t>(data_.triangles.size() - triangles),
@@ -186,12 +189,13 @@ class MeshReader {
     return true;
   }
 
-  bool readIndex(const Item& item, const std::string& face, std::uint32_t& point) {
+  bool readIndex(const Item& item, std::size_t number, std::uint32_t& point) {
     if (!item.is(Kind::number) || item.number() != std::floor(item.number()) || item.number() < 0)
-      return findings_.expected(item, face, "the number of a point, a whole number from 0"), false;
+      return findings_.expected(item, faceName(number), "the number of a point, a whole number from 0"),
+             false;
     if (item.number() >= static_cast<double>(data_.points.size())) {
       const std::string count = std::to_string(data_.points.size());
-      findings_.error(item, face + " uses point " + describe(item) + " but the mesh has " + count,
+      findings_.error(item, faceName(number) + " uses point " + describe(item) + " but the mesh has " + count,
                       data_.points.empty() ? "" : "points are counted from 0");
       return false;
     }

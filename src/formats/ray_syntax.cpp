@@ -72,6 +72,7 @@ class Parser {
   bool atEnd() const { return at_ >= source_.size(); }
 
   void blanks() {
+    if (!isBlank(peek()) && peek() != '/') return;
     bool unclosed = false;
     at_ = skipBlanks(source_, at_, unclosed);
     if (unclosed) fail(at_, "expected \"*/\", found the end of the file", "this comment is never closed");

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "accel/simd.h"
 #include "geometry/presplit.h"
 
 namespace trace {
@@ -27,26 +28,36 @@ bool MeshQuery::passes(std::uint32_t block, std::size_t lane) const {
   return TriangleRay(ray).passes(mesh.blocks[block].corners(lane));
 }
 
+namespace {
+
+void fill(TriangleBlock& block, const MeshData& mesh,
+          std::span<const std::uint32_t, Bvh::kLeafSize> triangles) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  constexpr Vec3f kNowhere{kNone, kNone, kNone};
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto point = [&](std::size_t lane) {
+      const std::uint32_t triangle = triangles[lane];
+      const Vec3f& p = triangle == Bvh::kNoItem ? kNowhere : mesh.points[mesh.triangles[triangle][corner]];
+      return simd::Float4::of(p.x, p.y, p.z);
+    };
+    simd::Float4 axes[3];
+    transpose(point(0), point(1), point(2), point(3), axes);
+    for (int axis = 0; axis < 3; ++axis) axes[axis].store(block.corner[corner][axis]);
+  }
+}
+
+}  // namespace
+
 MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int threads,
                    const MeshKernel& kernel)
     : data_(std::move(data)), kernel_(kernel) {
-  {
-    const TriangleParts parts = triangleParts(*data_, bruteForce);
-    bvh_ = bruteForce ? Bvh::bruteForce(parts.boxes) : Bvh(parts.boxes, Bvh::Leaves::together, threads);
-    bvh_.rename(parts.triangles);
-  }
+  std::vector<BoxedItem> parts = triangleParts(*data_, bruteForce);
+  bvh_ = bruteForce ? Bvh::bruteForce(parts) : Bvh(std::move(parts), Bvh::Leaves::together, threads);
 
-  blocks_.resize(bvh_.nodes().empty() ? 0 : bvh_.leafCount());
-  for (std::uint32_t block = 0; block < blocks_.size(); ++block)
-    for (std::size_t lane = 0; lane < Bvh::kLeafSize; ++lane) {
-      const std::uint32_t triangle = bvh_.leaf(block)[lane];
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        for (int axis = 0; axis < 3; ++axis)
-          blocks_[block].corner[corner][axis][lane] =
-              triangle == Bvh::kNoItem ? std::numeric_limits<float>::quiet_NaN()
-                                       : data_->points[data_->triangles[triangle][corner]][axis];
-    }
-  if (blocks_.empty()) return;
+  if (bvh_.nodes().empty()) return;
+  blocks_.reserve(bvh_.leafCount());
+  for (std::uint32_t leaf = 0; leaf < bvh_.leafCount(); ++leaf)
+    fill(blocks_.emplace_back(), *data_, bvh_.leaf(leaf));
   arrays_ = {bvh_.nodes().data(), blocks_.data(), bvh_.leaf(0).data(), bvh_.extent()};
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "accel/binary_tree.h"
+
 namespace trace {
 namespace {
 
@@ -74,12 +76,21 @@ class Grid {
   Vec3 low_, cell_, perUnit_;
 };
 
+Bounds boxOf(const Vec3f& p) {
+  const simd::Float4 point = simd::Float4::of(p.x, p.y, p.z);
+  return {point, point};
+}
+
+Box3 box3(const BoxedItem& item) {
+  return {{item.low[0], item.low[1], item.low[2]}, {item.high[0], item.high[1], item.high[2]}};
+}
+
 /// Cuts the piece `times` times; appends the boxes.
 void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std::uint32_t triangle,
-           TriangleParts& parts) {
+           std::vector<BoxedItem>& parts) {
   const Grid::Cut cut = times > 0 ? grid.coarsestCut(box) : Grid::Cut{};
   if (cut.axis < 0) {
-    parts.add(box, triangle);
+    parts.push_back(boxedItem(box, triangle));
     return;
   }
   const std::array<Piece, 2> pieces{clip(piece, cut.axis, cut.plane, true),
@@ -93,52 +104,52 @@ void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std
 
 }  // namespace
 
-TriangleParts triangleParts(const MeshData& mesh, bool wholeOnly) {
-  TriangleParts whole;
-  whole.reserve(mesh.triangles.size());
-  std::vector<Real>
-      empty;  // of the box of a triangle, which it fills at best by half: what cutting can spare
-  empty.reserve(mesh.triangles.size());
-  Box3 all;
+std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
+  std::vector<BoxedItem> parts;
+  parts.reserve(mesh.triangles.size() + static_cast<std::size_t>(kMostParts * 1.1 * mesh.triangles.size()));
+  Bounds all;
   Real sum = 0, sumOfSquares = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vec3 n = faceNormal(mesh, i);
+    const Triangle& t = mesh.triangles[i];
+    const Vec3f &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+    const Vec3 n = cross(Vec3(b) - Vec3(a), Vec3(c) - Vec3(a));
     if (n == Vec3{}) continue;
-    const Box3 box = bounds(mesh, i);
-    whole.add(box, i);
+    BoxedItem& item = parts.emplace_back();
+    Bounds box = boxOf(a);
+    box.extend(boxOf(b)), box.extend(boxOf(c));
     all.extend(box);
-    const Real area = halfArea(box);
-    empty.push_back(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))));
+    box.low.store(item.low), box.high.store(item.high), item.item = i;
+    // What a triangle, which fills its box at best by half, leaves empty is what cutting can spare.
+    const Real area = halfArea(box3(item));
+    item.note = static_cast<float>(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))));
     sum += area, sumOfSquares += area * area;
   }
   // How uneven the sizes are: 1 if all boxes are alike.
-  const std::size_t wholes = whole.boxes.size();
+  const std::size_t wholes = parts.size();
   const auto count = static_cast<Real>(wholes);
-  if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return whole;
+  if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return parts;
 
-  // What cutting a triangle gains: empty space in its box, more at the tree's coarse planes.
-  const Grid grid(all);
-  std::vector<float> gain(wholes);
-  const Real share = 1 / halfArea(all);
+  // More is gained at the tree's coarse planes.
+  BoxedItem whole;
+  all.low.store(whole.low), all.high.store(whole.high);
+  const Grid grid(box3(whole));
+  const Real share = 1 / halfArea(box3(whole));
   Real allGains = 0;
   for (std::size_t i = 0; i < wholes; ++i) {
-    const Grid::Cut cut = grid.coarsestCut(whole.boxes[i]);
-    if (cut.axis < 0) continue;
-    gain[i] = std::cbrt(static_cast<float>(empty[i] * share * (1 << cut.bit)));
-    allGains += gain[i];
+    const Grid::Cut cut = grid.coarsestCut(box3(parts[i]));
+    float& gain = parts[i].note;
+    gain = cut.axis < 0 ? 0 : std::pow(static_cast<float>(gain * share * (1 << cut.bit)), 1 / 3.0f);
+    allGains += gain;
   }
-  if (!(allGains > 0)) return whole;
-  TriangleParts parts;
-  parts.reserve(wholes + static_cast<std::size_t>(kMostParts * count) + 1);
+  if (!(allGains > 0)) return parts;
   const Real cuts = kMostParts * count * 1.5 / allGains;  // for a gain of 1
   for (std::size_t i = 0; i < wholes; ++i) {
-    const int times = static_cast<int>(min(gain[i] * cuts, 1000));
-    if (times == 0) {
-      parts.add(whole.boxes[i], whole.triangles[i]);
-      continue;
-    }
-    const Corners v = corners(mesh, whole.triangles[i]);
-    split({{v.a, v.b, v.c}, 3}, whole.boxes[i], times, grid, whole.triangles[i], parts);
+    const int times = static_cast<int>(min(parts[i].note * cuts, 1000));
+    if (times == 0) continue;
+    const std::uint32_t triangle = parts[i].item;
+    const Corners v = corners(mesh, triangle);
+    split({{v.a, v.b, v.c}, 3}, box3(parts[i]), times, grid, triangle, parts);
+    parts[i] = parts.back(), parts.pop_back();
   }
   return parts;
 }

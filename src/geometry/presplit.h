@@ -9,21 +9,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "accel/boxed_item.h"
 #include "geometry/mesh.h"
 
 namespace trace {
 
-/// Boxes, and the triangle that each holds a part of.
-struct TriangleParts {
-  std::vector<Box3> boxes;
-  std::vector<std::uint32_t> triangles;
-
-  void reserve(std::size_t count) { boxes.reserve(count), triangles.reserve(count); }
-  void add(const Box3& box, std::uint32_t triangle) { boxes.push_back(box), triangles.push_back(triangle); }
-};
-
 /// The boxes of all triangles with area; some triangles in several parts, if that pays and `whole` is not
 /// asked for.
-TriangleParts triangleParts(const MeshData& mesh, bool whole = false);
+std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool whole = false);
 
 }  // namespace trace

@@ -44,9 +44,10 @@ std::uint8_t toLevel(double c, Rounding rounding) {
 
 Bytes toBytes(const Picture& picture, Rounding rounding) {
   Bytes bytes{picture.width, picture.height, {}};
-  bytes.rgb.reserve(3 * picture.pixels.size());
+  bytes.rgb.resize(3 * picture.pixels.size());
+  std::uint8_t* level = bytes.rgb.data();
   for (const Color& c : picture.pixels)
-    for (double channel : {c.r, c.g, c.b}) bytes.rgb.push_back(toLevel(channel, rounding));
+    for (double channel : {c.r, c.g, c.b}) *level++ = toLevel(channel, rounding);
   return bytes;
 }
 

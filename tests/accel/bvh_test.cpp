@@ -55,6 +55,23 @@ TEST(Bvh, NeverMissesABox) {
   }
 }
 
+TEST(Bvh, BoxesBeyondFloat) {
+  Random random(2);
+  for (int count : {8, 100}) {
+    std::vector<Box3> boxes(static_cast<std::size_t>(count));
+    for (Box3& box : boxes) {
+      const Vec3 size = random.inCube(random.uniform() < 0.3 ? 1e300 : 1);
+      box.extend(random.inCube(3)), box.extend(size);
+      if (random.uniform() < 0.3) box.extend(-1.0 * size);
+    }
+    for (auto leaves : {Bvh::Leaves::single, Bvh::Leaves::together}) {
+      const auto items = visited(Bvh(boxes, leaves), {}, {1, 2, 3});
+      for (std::uint32_t k = 0; k < boxes.size(); ++k)
+        EXPECT_TRUE(!meets(boxes[k], {}, {1, 2, 3}) || items.count(k)) << k << " of " << count;
+    }
+  }
+}
+
 TEST(Bvh, RaysInThePlanesOfFacesAndAlongAxes) {
   std::vector<Box3> boxes;
   for (int x = 0; x < 4; ++x)

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
 
 namespace trace {
 namespace {
@@ -25,6 +28,27 @@ TEST(ParseNumber, TakesWhatScenesContain) {
   for (const char* text : {"", "abc", "-", ".", "+-1", " 1", "e5"}) EXPECT_FALSE(parseNumber(text)) << text;
   EXPECT_TRUE(std::isinf(parseNumber("1e999")->value));
   EXPECT_EQ(parseNumber("1e-999")->value, 0);
+}
+
+TEST(ParseNumber, RoundsAsTheLibraryDoes) {
+  for (const char* text : {"0.1", "-0", "5.", ".5", "-.125", "9007199254740993", "123456789012345",
+                           "0.00000000000001", "1234567.12345678", "12345678.12345678",
+                           "000000000000000000.5", "0.30000000000000004", "1.2.3", "3-4", "007"}) {
+    char* end = nullptr;
+    const double value = std::strtod(text, &end);
+    const auto number = parseNumber(text);
+    ASSERT_TRUE(number) << text;
+    EXPECT_EQ(number->value, value) << text;
+    EXPECT_EQ(std::signbit(number->value), std::signbit(value)) << text;
+    EXPECT_EQ(number->length, static_cast<size_t>(end - text)) << text;
+  }
+  std::uint64_t state = 1;
+  for (int i = 0; i < 100000; ++i) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    std::string digits = std::to_string(state >> (state % 60));
+    digits.insert((state >> 32) % (digits.size() + 1), ".");
+    EXPECT_EQ(parseNumber(digits)->value, std::strtod(digits.c_str(), nullptr)) << digits;
+  }
 }
 
 TEST(ToText, IsShortAndExact) {

@@ -130,22 +130,24 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
 TEST(Presplit, PartsCoverTheirTrianglesAndEvenMeshesStayWhole) {
   Random random(3);
   const auto ball = ballMesh(16, random);
-  EXPECT_EQ(triangleParts(*ball).boxes.size(), ball->triangles.size());
+  EXPECT_EQ(triangleParts(*ball).size(), ball->triangles.size());
 
   addNeedles(*ball, random, 1, {});
-  const auto [boxes, triangles] = triangleParts(*ball);
-  EXPECT_GT(boxes.size(), ball->triangles.size() * 105 / 100);
-  EXPECT_LE(boxes.size(), ball->triangles.size() * 125 / 100);
-  EXPECT_EQ(triangleParts(*ball, true).boxes.size(), ball->triangles.size());
+  const std::vector<BoxedItem> parts = triangleParts(*ball);
+  EXPECT_GT(parts.size(), ball->triangles.size() * 105 / 100);
+  EXPECT_LE(parts.size(), ball->triangles.size() * 125 / 100);
+  EXPECT_EQ(triangleParts(*ball, true).size(), ball->triangles.size());
   for (int i = 0; i < 20000; ++i) {
     const auto triangle = static_cast<std::uint32_t>(random.below(static_cast<int>(ball->triangles.size())));
     const Corners v = corners(*ball, triangle);
     const double r = std::sqrt(random.uniform()), u = random.uniform();
     const Vec3 p = v.a * (1 - r) + v.b * (r * (1 - u)) + v.c * (r * u), slack{1e-12, 1e-12, 1e-12};
     bool covered = false;
-    for (std::size_t part = 0; part < boxes.size() && !covered; ++part)
+    for (const auto& [low, item, high, note] : parts)
       covered =
-          triangles[part] == triangle && Box3{boxes[part].low - slack, boxes[part].high + slack}.contains(p);
+          covered ||
+          (item == triangle &&
+           Box3{Vec3{low[0], low[1], low[2]} - slack, Vec3{high[0], high[1], high[2]} + slack}.contains(p));
     EXPECT_TRUE(covered);
   }
 }

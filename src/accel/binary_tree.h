@@ -1,0 +1,61 @@
+// The binary tree from which a hierarchy is made, built by the surface-area heuristic (Goldsmith and Salmon
+// 1987; Wald 2007 for the bins).
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "accel/boxed_item.h"
+#include "accel/simd.h"
+
+namespace trace {
+
+/// A box in float, x y z and a fourth lane that means nothing. Empty as made.
+struct Bounds {
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  simd::Float4 low = simd::Float4::all(kFar), high = simd::Float4::all(-kFar);
+
+  void extend(const Bounds& b) { low = min(low, b.low), high = max(high, b.high); }
+  float halfArea() const {
+    const simd::Float4 size = high - low, products = size * rotate(size);
+    return first(products + rotate(products) + rotate(rotate(products)));
+  }
+};
+
+inline Bounds boxOf(const BoxedItem& item) {
+  return {simd::Float4::loadThree(item.low), simd::Float4::loadThree(item.high)};
+}
+
+/// Not by its members: what was just written is read again as a whole.
+inline void swap(BoxedItem& a, BoxedItem& b) {
+  using simd::Float4;
+  const Float4 low = Float4::load(a.low), high = Float4::load(a.high);
+  Float4::load(b.low).store(a.low), Float4::load(b.high).store(a.high);
+  low.store(b.low), high.store(b.high);
+}
+
+/// Of the binary tree.
+struct alignas(16) Branch {
+  float low[3];
+  std::uint32_t first;  ///< of the left child, the right one follows; of a leaf: the first of its items
+  float high[3];
+  std::uint32_t count;  ///< of a leaf's items; 0 for inner nodes
+};
+inline Bounds boxOf(const Branch& branch) {
+  return {simd::Float4::loadThree(branch.low), simd::Float4::loadThree(branch.high)};
+}
+
+/// What visiting a node costs, and a leaf, whose items are tested so many at a time.
+inline constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;
+inline float leafCost(std::uint32_t count, std::uint32_t leafSize) {
+  return kCostOfLeaf * static_cast<float>((count + leafSize - 1) / leafSize);
+}
+
+/// The tree, its root first, parents before their children, over items that are put in the order of the
+/// leaves; these hold up to leafSize of them. Their boxes are finite. The same for any number of threads; 0
+/// means all the hardware has.
+std::vector<Branch> binaryTree(std::span<BoxedItem> items, std::uint32_t leafSize, int threads);
+
+}  // namespace trace
