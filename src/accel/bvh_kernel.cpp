@@ -21,8 +21,7 @@ bool hasAvx2() {
 
 bool hasAvx512() {
 #if defined(TRACE_HAS_AVX2)
-  static const bool has = hasAvx2() && __builtin_cpu_supports("avx512vl") &&
-                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  static const bool has = hasAvx2() && __builtin_cpu_supports("avx512vl");
   return has;
 #else
   return false;

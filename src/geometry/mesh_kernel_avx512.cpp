@@ -1,5 +1,5 @@
-// The kernel for machines with AVX-512. Compiled with -mavx512vl and so on; called only where the processor has
-// them.
+// The kernel for machines with AVX-512 and its 256-bit forms. Compiled with -mavx512f -mavx512vl, without the
+// other parts, with which GCC moves the masks of lanes to and fro; called only where the processor has them.
 #include "geometry/mesh_kernel.h"
 
 namespace trace {
