@@ -22,6 +22,10 @@ struct Bvh::Builder {
   Bvh& bvh;
 
   std::uint32_t addLeaf(const Branch& leaf) {
+    if (leafSize == 1) {
+      bvh.items_.push_back(items[leaf.first].item);
+      return bvh.items_.back() | BvhNode::kLeaf;
+    }
     const std::uint32_t number = bvh.leafCount();
     std::array<std::uint32_t, kLeafSize> names;
     for (std::uint32_t i = 0; i < kLeafSize; ++i)
@@ -161,7 +165,7 @@ void Bvh::build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, 
   const std::vector<Branch> branches = binaryTree(items, leafSize, threads);
   Builder builder{items, branches, leafSize, simd::Float4::all(floatAbove(pad)), *this};
   const std::size_t leafCount = (branches.size() + 1) / 2;
-  items_.reserve(leafCount * kLeafSize);
+  items_.reserve(leafCount * leafSize);
   nodes_.reserve(leafCount / 4 + 1);  // most nodes have more children; what is not written takes no memory
   builder.planCollapse();
   builder.collapse(0);

@@ -25,8 +25,8 @@ class Bvh {
   static constexpr int kLeafSize = 4;
   static constexpr std::uint32_t kNoItem = 0xffffffffu;
 
-  /// How many items a leaf may hold: one where each costs a test of its own, kLeafSize where they are tested
-  /// together.
+  /// How many items a leaf may hold: one, which is the leaf's number, where each costs a test of its own;
+  /// kLeafSize where they are tested together.
   enum class Leaves { single, together };
 
   Bvh() = default;
@@ -43,7 +43,8 @@ class Bvh {
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
   /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes
-  /// visited.
+  /// visited. Of trees with single items only; who tests several together has a way of his own
+  /// (mesh_kernel.h).
   template <class Visit>
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
              NodeCount& nodes, Visit&& visit) const;
@@ -53,7 +54,7 @@ class Bvh {
 
   /// All items, in leaves one after the other; without a tree simply all.
   std::span<const std::uint32_t> items() const { return items_; }
-  /// The items of a leaf of a tree, then kNoItem in the places left over.
+  /// Where items are together: those of a leaf, then kNoItem in the places left over.
   std::span<const std::uint32_t, kLeafSize> leaf(std::uint32_t number) const {
     return std::span<const std::uint32_t, kLeafSize>(items_.data() + std::size_t{number} * kLeafSize,
                                                      kLeafSize);
@@ -74,7 +75,7 @@ class Bvh {
   BvhExtent extent_{};
   const BvhKernel* kernel_ = &bvhKernels().front();
   HugeVector<BvhNode> nodes_;         ///< nodes_[0] is the root; none: brute force
-  std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf; brute force: all
+  std::vector<std::uint32_t> items_;  ///< kLeafSize for each leaf, or one; brute force: all
 };
 
 // ------------------------------------------------------------------------------------------------------
@@ -87,20 +88,11 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bo
       if (visit(item)) return;
     return;
   }
-  auto visitLeaf = [&](std::uint32_t number) {
-    for (std::uint32_t item : leaf(number)) {
-      if (item == kNoItem) return false;
-      if (visit(item)) return true;
-    }
-    return false;
-  };
+  using V = std::remove_reference_t<Visit>;
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
   kernel_->query(
       nodes_.data(), extent_, from, along, tMost, nearestFirst, nodes,
-      [](void* context, std::uint32_t number) {
-        return (*static_cast<decltype(visitLeaf)*>(context))(number);
-      },
-      &visitLeaf);
+      [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); }, &visit);
 }
 
 }  // namespace trace

@@ -10,7 +10,7 @@
 
 namespace trace {
 
-/// Is called for a leaf; returns true to end the query.
+/// Is called with the number of a leaf; returns true to end the query.
 using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
 
 struct BvhKernel {
