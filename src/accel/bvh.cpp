@@ -137,9 +137,7 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves, int threads) {
 Bvh::Bvh(std::vector<BoxedItem> items, Leaves leaves, int threads) {
   Bounds all;
   for (const BoxedItem& item : items) all.extend(boxOf(item));
-  alignas(16) float low[4], high[4];
-  all.low.store(low), all.high.store(high);
-  build(std::move(items), {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, leaves, threads);
+  build(std::move(items), box3(all), leaves, threads);
 }
 
 void Bvh::build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, int threads) {
