@@ -3,30 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "accel/boxed_item.h"
-#include "accel/simd.h"
+#include "accel/bounds.h"
 
 namespace trace {
-
-/// A box in float, x y z and a fourth lane that means nothing. Empty as made.
-struct Bounds {
-  static constexpr float kFar = std::numeric_limits<float>::infinity();
-  simd::Float4 low = simd::Float4::all(kFar), high = simd::Float4::all(-kFar);
-
-  void extend(const Bounds& b) { low = min(low, b.low), high = max(high, b.high); }
-  float halfArea() const {
-    const simd::Float4 size = high - low, products = size * rotate(size);
-    return first(products + rotate(products) + rotate(rotate(products)));
-  }
-};
-
-inline Bounds boxOf(const BoxedItem& item) {
-  return {simd::Float4::loadThree(item.low), simd::Float4::loadThree(item.high)};
-}
 
 /// Not by its members: what was just written is read again as a whole.
 inline void swap(BoxedItem& a, BoxedItem& b) {

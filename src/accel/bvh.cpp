@@ -40,25 +40,28 @@ struct Bvh::Builder {
     std::array<float, 8> cost;
     std::array<std::uint8_t, 9> left;
   };
-  std::vector<Forests> forests{};
+  std::vector<Forests> forests{};  ///< of inner branches: children come in pairs behind the root
+  Forests& forestsOf(const Branch& inner) { return forests[inner.first / 2]; }
+  std::array<float, 8> costsOf(const Branch& b) {
+    if (b.count == 0) return forestsOf(b).cost;
+    std::array<float, 8> costs;
+    costs.fill(boxOf(b).halfArea() * leafCost(b.count, leafSize));
+    return costs;
+  }
 
   /// Ylitie, Karras and Laine 2017, Efficient incoherent ray traversal on GPUs through compressed wide BVHs,
   /// section 3: from the leaves up, the cheapest forest of each size.
   void planCollapse() {
-    forests.resize(branches.size());
+    forests.resize(branches.size() / 2);
     for (std::size_t i = branches.size(); i-- > 0;) {  // children lie behind their parents
       const Branch& b = branches[i];
-      Forests& f = forests[i];
-      f.left = {};
-      if (b.count > 0) {
-        f.cost.fill(boxOf(b).halfArea() * leafCost(b.count, leafSize));
-        continue;
-      }
-      const Forests &left = forests[b.first], &right = forests[b.first + 1];
+      if (b.count > 0) continue;
+      Forests& f = forestsOf(b);
+      const std::array<float, 8> left = costsOf(branches[b.first]), right = costsOf(branches[b.first + 1]);
       const auto parted = [&](std::uint8_t into) {
         float best = Bounds::kFar;
         for (std::uint8_t k = 1; k < into; ++k) {
-          const float cost = left.cost[k] + right.cost[into - k];
+          const float cost = left[k] + right[into - k];
           if (k == 1 || cost < best) best = cost, f.left[into] = k;
         }
         return best;
@@ -82,14 +85,14 @@ struct Bvh::Builder {
   };
 
   /// Adds to `children` what a branch becomes as at most so many of a node's.
-  void addForest(std::uint32_t index, std::uint8_t most, Children& children) const {
+  void addForest(std::uint32_t index, std::uint8_t most, Children& children) {
     const Branch& b = branches[index];
-    while (most > 1 && forests[index].left[most] == 0) --most;
-    if (most == 1) {
+    while (most > 1 && b.count == 0 && forestsOf(b).left[most] == 0) --most;
+    if (most == 1 || b.count > 0) {
       children.all[children.count++] = {index, boxOf(b).halfArea()};
       return;
     }
-    const std::uint8_t left = forests[index].left[most];
+    const std::uint8_t left = forestsOf(b).left[most];
     addForest(b.first, left, children);
     addForest(b.first + 1, static_cast<std::uint8_t>(most - left), children);
   }
@@ -141,9 +144,7 @@ Bvh::Bvh(std::span<const Box3> boxes, Leaves leaves, int threads) {
 Bvh::Bvh(std::vector<BoxedItem> items, Leaves leaves, int threads) {
   Bounds all;
   for (const BoxedItem& item : items) all.extend(boxOf(item));
-  alignas(16) float low[4], high[4];
-  all.low.store(low), all.high.store(high);
-  build(std::move(items), {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, leaves, threads);
+  build(std::move(items), box3(all), leaves, threads);
 }
 
 void Bvh::build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, int threads) {

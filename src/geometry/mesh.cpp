@@ -1,5 +1,7 @@
 #include "geometry/mesh.h"
 
+#include "accel/bounds.h"
+
 namespace trace {
 Corners corners(const MeshData& mesh, std::uint32_t index) {
   const Triangle& t = mesh.triangles[index];
@@ -45,10 +47,10 @@ Box3 bounds(const MeshData& mesh, std::uint32_t index) {
 }
 
 Box3 bounds(const MeshData& mesh) {
-  Box3 box;
+  Bounds box;
   for (const Triangle& triangle : mesh.triangles)
-    for (std::uint32_t point : triangle) box.extend(Vec3(mesh.points[point]));
-  return box;
+    for (std::uint32_t point : triangle) box.extend(boxOf(mesh.points[point]));
+  return box3(box);
 }
 
 MeshData withGeneratedNormals(const MeshData& mesh, bool unit) {

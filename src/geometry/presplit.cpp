@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "accel/binary_tree.h"
+#include "accel/bounds.h"
 
 namespace trace {
 namespace {
@@ -76,15 +76,6 @@ class Grid {
   Vec3 low_, cell_, perUnit_;
 };
 
-Bounds boxOf(const Vec3f& p) {
-  const simd::Float4 point = simd::Float4::of(p.x, p.y, p.z);
-  return {point, point};
-}
-
-Box3 box3(const BoxedItem& item) {
-  return {{item.low[0], item.low[1], item.low[2]}, {item.high[0], item.high[1], item.high[2]}};
-}
-
 /// Cuts the piece `times` times; appends the boxes.
 void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std::uint32_t triangle,
            std::vector<BoxedItem>& parts) {
@@ -106,7 +97,7 @@ void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std
 
 std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
   std::vector<BoxedItem> parts;
-  parts.reserve(mesh.triangles.size() + static_cast<std::size_t>(kMostParts * 1.1 * mesh.triangles.size()));
+  parts.reserve(mesh.triangles.size() * 5 / 4);  // what is not written takes no memory
   Bounds all;
   Real sum = 0, sumOfSquares = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -119,9 +110,11 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     box.extend(boxOf(b)), box.extend(boxOf(c));
     all.extend(box);
     box.low.store(item.low), box.high.store(item.high), item.item = i;
-    // What a triangle, which fills its box at best by half, leaves empty is what cutting can spare.
-    const Real area = halfArea(box3(item));
-    item.note = static_cast<float>(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))));
+    // What a triangle, which fills its box at best by half, leaves empty is what cutting can spare. A float
+    // holds the side of a square as large for any size of mesh.
+    const Real area = halfArea(box3(box));
+    item.note =
+        static_cast<float>(std::sqrt(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)))));
     sum += area, sumOfSquares += area * area;
   }
   // How uneven the sizes are: 1 if all boxes are alike.
@@ -130,16 +123,15 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
   if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return parts;
 
   // More is gained at the tree's coarse planes.
-  BoxedItem whole;
-  all.low.store(whole.low), all.high.store(whole.high);
-  const Grid grid(box3(whole));
-  const Real share = 1 / halfArea(box3(whole));
+  const Grid grid(box3(all));
+  const Real share = 1 / halfArea(box3(all));
   Real allGains = 0;
   for (std::size_t i = 0; i < wholes; ++i) {
-    const Grid::Cut cut = grid.coarsestCut(box3(parts[i]));
-    float& gain = parts[i].note;
-    gain = cut.axis < 0 ? 0 : std::pow(static_cast<float>(gain * share * (1 << cut.bit)), 1 / 3.0f);
-    allGains += gain;
+    const Grid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
+    const Real empty = Real{parts[i].note} * parts[i].note;
+    const float gain =
+        cut.axis < 0 ? 0 : std::pow(static_cast<float>(empty * share * (1 << cut.bit)), 1 / 3.0f);
+    parts[i].note = gain, allGains += gain;
   }
   if (!(allGains > 0)) return parts;
   const Real cuts = kMostParts * count * 1.5 / allGains;  // for a gain of 1
@@ -148,7 +140,7 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     if (times == 0) continue;
     const std::uint32_t triangle = parts[i].item;
     const Corners v = corners(mesh, triangle);
-    split({{v.a, v.b, v.c}, 3}, box3(parts[i]), times, grid, triangle, parts);
+    split({{v.a, v.b, v.c}, 3}, box3(boxOf(parts[i])), times, grid, triangle, parts);
     parts[i] = parts.back(), parts.pop_back();
   }
   return parts;
