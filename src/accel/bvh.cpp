@@ -8,10 +8,6 @@
 #include "accel/binary_tree.h"
 
 namespace trace {
-namespace {
-
-/// The box, rounded outward.
-}  // namespace
 
 /// Makes nodes of eight children of the binary tree.
 struct Bvh::Builder {

@@ -92,7 +92,8 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bo
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
   kernel_->query(
       nodes_.data(), extent_, from, along, tMost, nearestFirst, nodes,
-      [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); }, &visit);
+      [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); },
+      const_cast<void*>(static_cast<const void*>(&visit)));
 }
 
 }  // namespace trace
