@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "base/parallel.h"
 
@@ -10,9 +11,8 @@ namespace {
 
 using simd::Float4;
 
-constexpr std::size_t kMostBins =
-    32;                             // fewer where there are few items: most of the time goes into small nodes
-constexpr std::uint32_t kFew = 16;  // so few items are sorted, and every plane between them is tried
+constexpr std::size_t kMostBins = 32;     // fewer where there are few items: most time goes into small nodes
+constexpr std::uint32_t kFew = 16;        // so few items are sorted, and every plane between them is tried
 constexpr int kDepthOfHeuristic = 48;     // deeper, nodes are halved by count: 28 more levels hold 2^32 items
 constexpr std::uint32_t kSubtree = 8192;  // items that one thread takes at a time
 

@@ -1,6 +1,6 @@
 // Thin types for four and eight floats and four doubles, as far as the traversal, the triangle test and the
-// builder need them. The same source compiles for AVX2, for SSE2, NEON and WebAssembly (as halves), and for
-// plain C++.
+// builder need them. The same source compiles for AVX-512 and AVX2, for SSE2 (as halves), and for plain C++,
+// which compilers turn into NEON or WebAssembly SIMD.
 //
 // Each instruction set has its own inline namespace, so that code compiled for one is never linked in place
 // of another's. Comparisons give masks with bit i for lane i.
@@ -28,7 +28,6 @@ inline namespace TRACE_LANES {
 struct Float4 {
   __m128 v;
   static Float4 load(const float* p) { return {_mm_load_ps(p)}; }
-  static Float4 loadAnywhere(const float* p) { return {_mm_loadu_ps(p)}; }
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
   static Float4 of(float x, float y, float z) { return {_mm_setr_ps(x, y, z, 0)}; }
   /// x y z 0, of four.
@@ -212,7 +211,6 @@ struct Lanes {
   }
   static Lanes of(float x, float y, float z) { return {x, y, z, 0}; }
   static Lanes loadThree(const float* p) { return {p[0], p[1], p[2], 0}; }
-  static Lanes loadAnywhere(const float* p) { return load(p); }
   static Lanes ofWhole(const int* p) {
     Lanes r;
     for (int i = 0; i < N; ++i) r.v[i] = static_cast<T>(p[i]);
