@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "accel/bvh_node.h"
+#include "math/vec.h"
 
 namespace trace {
 
@@ -15,8 +16,10 @@ using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
 
 struct BvhKernel {
   std::string_view name;
-  void (*query)(const BvhNode* nodes, const BvhExtent& extent, const double* origin, const double* direction,
-                const double& tMost, bool nearestFirst, NodeCount& visited, VisitLeaf visit, void* context);
+  /// The leaf of the number `skip` is not visited.
+  void (*query)(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin, const Vec3& direction,
+                const double& tMost, bool nearestFirst, NodeCount& visited, VisitLeaf visit, void* context,
+                std::uint32_t skip);
 };
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).

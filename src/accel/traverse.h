@@ -1,10 +1,11 @@
 // The way of a ray through a hierarchy. Included by the files that compile it for one instruction set each
-// (bvh_kernel_*.cpp, geometry/mesh_kernel_*.cpp); free of the standard library, whose functions a linker
-// could take from one of them for all.
+// (bvh_kernel_*.cpp, geometry/mesh_kernel_*.cpp); calls no inline function from elsewhere, of which a linker
+// could take that of one of them for all.
 #pragma once
 
 #include "accel/bvh_node.h"
 #include "accel/simd.h"
+#include "math/vec.h"
 
 namespace trace::simd {
 namespace {  // each including file has its own, compiled with its own flags
@@ -80,7 +81,7 @@ constexpr float kShortest = 1e-9f, kLongest = 1e9f;  // direction that need not 
   return true;
 }
 
-/// Where what a leaf holds is: `size` bytes for each.
+/// Where what a leaf holds is: `size` bytes for each. Null: elsewhere.
 struct Leaves {
   const void* first;
   std::size_t size;
@@ -88,9 +89,10 @@ struct Leaves {
 
 /// Asks the memory for a child that the ray is about to visit, or will after others.
 [[gnu::always_inline]] inline void fetch(const BvhNode* nodes, Leaves leaves, std::uint32_t child) {
-  const char* at = child & BvhNode::kLeaf
-                       ? static_cast<const char*>(leaves.first) + (child & ~BvhNode::kLeaf) * leaves.size
-                       : reinterpret_cast<const char*>(&nodeAt(nodes, child));
+  const bool leaf = child & BvhNode::kLeaf;
+  if (leaf && leaves.first == nullptr) return;
+  const char* at = leaf ? static_cast<const char*>(leaves.first) + (child & ~BvhNode::kLeaf) * leaves.size
+                        : reinterpret_cast<const char*>(&nodeAt(nodes, child));
   for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 }
 
@@ -128,11 +130,13 @@ template <bool kNearestFirst, class VisitLeaf>
       ++visited.count;
       if (__builtin_expect(visited.note != nullptr, 0)) visited.note(visited.context, node, visited.owner);
       const float* planes = &node.plane[0][0][0];
-      Float8 enter = Float8::all(0), leave = Float8::all(limit);
+      Float8 first[3], last[3];
       for (int axis = 0; axis < 3; ++axis) {
-        enter = max(timesMinus(Float8::load(planes + side[axis]), inverse[axis], shift[axis]), enter);
-        leave = min(timesMinus(Float8::load(planes + (side[axis] ^ 8)), inverse[axis], shift[axis]), leave);
+        first[axis] = timesMinus(Float8::load(planes + side[axis]), inverse[axis], shift[axis]);
+        last[axis] = timesMinus(Float8::load(planes + (side[axis] ^ 8)), inverse[axis], shift[axis]);
       }
+      const Float8 enter = max(max(first[0], first[1]), max(first[2], Float8::all(0))),
+                   leave = min(min(last[0], last[1]), min(last[2], Float8::all(limit)));
       unsigned met = lessEqual(enter, leave);
       if (met != 0) {
         const auto takeLane = [&] {
@@ -181,17 +185,19 @@ template <bool kNearestFirst, class VisitLeaf>
 }
 
 /// What a BvhKernel does: the same with the visitor as a function and its context.
-inline void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const double* origin,
-                        const double* direction, const double& tMost, bool nearestFirst, NodeCount& visited,
-                        bool (*visit)(void*, std::uint32_t), void* context) {
+inline void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin,
+                        const Vec3& direction, const double& tMost, bool nearestFirst, NodeCount& visited,
+                        bool (*visit)(void*, std::uint32_t), void* context, std::uint32_t skip) {
   SlabRay ray;
-  if (!prepare(extent, origin, direction, tMost, ray)) return;
+  const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
+  if (!prepare(extent, from, along, tMost, ray)) return;
   const auto visitLeaf = [&](std::uint32_t leaf, float& limit) {
+    if (leaf == skip) return false;
     const bool ended = visit(context, leaf);
     limit = ray.fromT(tMost);
     return ended;
   };
-  const Leaves none{nodes, 0};  // what the visitor looks at is its own affair
+  const Leaves none{nullptr, 0};  // what the visitor looks at is its own affair
   if (nearestFirst)
     traverse<true>(nodes, none, ray, ray.fromT(tMost), visited, visitLeaf);
   else

@@ -134,7 +134,8 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     row("point", text(hit.surface.point));
     row("normal", text(hit.surface.normal));
     row("shading normal", text(hit.surface.shading));
-    row("uv", text(hit.surface.uv.x) + "  " + text(hit.surface.uv.y));
+    const Vec2 uv = hit.surface.uv;
+    row("uv", text(uv.x) + "  " + text(uv.y));
     row("side", hit.leaving ? "from inside: leaving" : "from outside: entering");
     row("index of refraction", text(hit.indexBefore) + " before, " + text(hit.indexBehind) + " behind");
   }

@@ -83,11 +83,17 @@ class Writer {
   }
 
   ordered_json hit(const Hit& h, const std::vector<MaterialShare>& materials) const {
-    return {{"object", object(h.object, materials)},  {"part", h.part},
-            {"point", toJson(h.surface.point)},       {"error", toJson(h.surface.error)},
-            {"normal", toJson(h.surface.normal)},     {"shading", toJson(h.surface.shading)},
-            {"uv", {h.surface.uv.x, h.surface.uv.y}}, {"leaving", h.leaving},
-            {"indexBefore", h.indexBefore},           {"indexBehind", h.indexBehind},
+    const Vec2 uv = h.surface.uv;
+    return {{"object", object(h.object, materials)},
+            {"part", h.part},
+            {"point", toJson(h.surface.point)},
+            {"error", toJson(h.surface.error)},
+            {"normal", toJson(h.surface.normal)},
+            {"shading", toJson(h.surface.shading)},
+            {"uv", {uv.x, uv.y}},
+            {"leaving", h.leaving},
+            {"indexBefore", h.indexBefore},
+            {"indexBehind", h.indexBehind},
             {"material", fieldsOf(h.material)}};
   }
 

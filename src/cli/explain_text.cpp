@@ -96,7 +96,8 @@ class TreeText {
     const SurfacePoint& s = hit.surface;
     std::string side = hit.leaving ? "leaving it" : "entering it";
     if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);
-    line(side + "; uv (" + text(s.uv.x) + ", " + text(s.uv.y) + ")");
+    const Vec2 uv = s.uv;
+    line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
     line("point " + text(s.point) + ", normal " + text(s.normal));
     if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
   }

@@ -7,7 +7,6 @@
 #include "base/small_list.h"
 #include "geometry/csg_tree.h"
 #include "geometry/interval_search.h"
-#include "geometry/orbit_trap.h"
 
 namespace trace {
 
@@ -314,7 +313,7 @@ SurfacePoint TracedBlend::surface(const Ray& ray, const Crossing& crossing) cons
   const Interval value = Line(*this, p, {}).at(Interval(0.0)).value;
   const Real off = min(l > 0 ? (value.high - value.low) / l : kInfinity, size * 1e-7);
   const Real error = 2 * off + size * gammaError(16);
-  return {p, {error, error, error}, n, n, sphereUv(p - bounds_.center())};
+  return {p, {error, error, error}, n, n, SurfaceUv::toward(normalize(p - bounds_.center()))};
 }
 
 }  // namespace trace

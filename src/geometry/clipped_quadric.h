@@ -131,10 +131,9 @@ struct ClippedQuadric {
   }
 
   /// u goes around z, v up.
-  Vec2 uv(const Vec3& p) const {
+  SurfaceUv uv(const Vec3& p) const {
     const Real height = extent.high.z - extent.low.z;
-    return {0.5 + std::atan2(p.y, p.x) / (2 * kPi),
-            height > 0 ? std::clamp((p.z - extent.low.z) / height, 0.0, 1.0) : 0};
+    return SurfaceUv::around(p, height > 0 ? std::clamp((p.z - extent.low.z) / height, 0.0, 1.0) : 0);
   }
 
   template <class Visit>

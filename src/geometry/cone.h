@@ -85,8 +85,7 @@ struct Frustum {
       if (r > 0 && was > 0) n = normalize({p.x / r, p.y / r, -slope()});
     }
     if (!capped && dot(n, ray.direction) > 0) n = -n;
-    const Real u = 0.5 + std::atan2(p.y, p.x) / (2 * kPi);
-    return {p, Vec3{extent, extent, extent} * gammaError(10), n, n, {u, p.z / h}};
+    return {p, Vec3{extent, extent, extent} * gammaError(10), n, n, SurfaceUv::around(p, p.z / h)};
   }
 
  private:
@@ -126,6 +125,7 @@ struct Cone {
 
   Frustum frustum() const { return {std::abs(bottomRadius), std::abs(topRadius), height, capped}; }
   bool solid() const { return capped; }
+  bool convex() const { return capped; }
   Box3 bounds() const { return frustum().bounds(); }
   template <class Visit>
   void crossings(const Ray& ray, Visit&& visit) const {
@@ -148,6 +148,7 @@ struct Cylinder {
 
   Frustum frustum() const { return {1, 1, 1, capped}; }
   bool solid() const { return capped; }
+  bool convex() const { return capped; }
   Box3 bounds() const { return frustum().bounds(); }
   template <class Visit>
   void crossings(const Ray& ray, Visit&& visit) const {

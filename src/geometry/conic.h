@@ -34,6 +34,7 @@ struct Conic {
     return zMin < zMax ? Frustum{r0, r1, h, capped} : Frustum{r1, r0, h, capped};
   }
   bool solid() const { return capped; }
+  bool convex() const { return capped; }
   Box3 bounds() const {
     const Real r = std::max(std::abs(bottomRadius), std::abs(topRadius));
     return {{-r, -r, low()}, {r, r, high()}};

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "geometry/placed.h"
+#include "geometry/placement.h"
 #include "geometry/span.h"
 
 namespace trace {
@@ -178,7 +178,7 @@ SurfacePoint TracedCopies::surface(const Ray& ray, const Crossing& crossing) con
     case Seed::ball: n = normalize(p), p = n * 0.5;
   }
   const Real e = gammaError(16);
-  SurfacePoint s = transformed({p, {e, e, e}, n, n, {}}, outFromIn, inFromOut);
+  SurfacePoint s = Placement(outFromIn, inFromOut).outOf({p, {e, e, e}, n, n, {}});
   s.error += Vec3{1, 1, 1} * error_;
   const Vec3 size = bounds_.size();
   const auto share = [&](int axis) {

@@ -18,6 +18,7 @@ struct Cube {
   bool operator==(const Cube&) const = default;
 
   bool solid() const { return true; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}; }
 
   /// A part is 2 axis + (0 for the face at -0.5, 1 for the face at +0.5).

@@ -23,6 +23,7 @@ struct Disk {
   bool operator==(const Disk&) const = default;
 
   bool solid() const { return false; }
+  bool convex() const { return true; }
   Box3 bounds() const {
     const Real r = std::abs(radius);
     return {{-r, -r, 0}, {r, r, 0}};
@@ -43,8 +44,8 @@ struct Disk {
     p.z = 0;
     const Real error = std::abs(radius) * gammaError(4);
     const Vec3 n{0, 0, ray.direction.z > 0 ? -1.0 : 1.0};
-    const Real u = 0.5 + std::atan2(p.y, p.x) / (2 * kPi);
-    return {p, {error, error, error}, n, n, {u, std::min(1.0, std::hypot(p.x, p.y) / std::abs(radius))}};
+    const Real outward = std::min(1.0, std::hypot(p.x, p.y) / std::abs(radius));
+    return {p, {error, error, error}, n, n, SurfaceUv::around(p, outward)};
   }
 };
 

@@ -150,7 +150,9 @@ class EscapeSearch {
     }
   }
 
-  Vec2 uvAt(const Vec3& p) const { return step_.trap() == Trap::none ? sphereUv(p) : trapAt(p); }
+  SurfaceUv uvAt(const Vec3& p) const {
+    return step_.trap() == Trap::none ? SurfaceUv::toward(normalize(p)) : SurfaceUv(trapAt(p));
+  }
 
   Vec2 trapAt(const Vec3& p) const {
     OrbitTrap trap(step_.trap(), step_.radius());

@@ -64,9 +64,7 @@ SurfacePoint TracedIsosurface::surface(const Ray& ray, const Crossing& crossing)
     for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], box_.low[i], box_.high[i]);
   }
   if (!capped_ && dot(n, ray.direction) > 0) n = -n;
-  const Vec3 q = normalize(p - box_.center());
-  const Vec2 uv{0.5 + std::atan2(q.y, q.x) / (2 * kPi), 0.5 + std::asin(std::clamp(q.z, -1.0, 1.0)) / kPi};
-  return {p, error, n, n, isFinite(q) ? uv : Vec2{0.5, 0.5}};
+  return {p, error, n, n, SurfaceUv::toward(normalize(p - box_.center()))};
 }
 
 }  // namespace trace

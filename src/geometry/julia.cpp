@@ -311,7 +311,8 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   constexpr Real kMost = 1e-9;  // where the set is too folded for rounding to tell
   // This crossing and that of a ray that starts here are each found by a value that is off by so much.
   const Real e = min(4 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
-  return {p, {e, e, e}, n, n, shape_.trap == Trap::none ? sphereUv(p) : trapUv(p)};
+  const SurfaceUv uv = shape_.trap == Trap::none ? SurfaceUv::toward(normalize(p)) : SurfaceUv(trapUv(p));
+  return {p, {e, e, e}, n, n, uv};
 }
 
 Vec2 TracedJulia::trapUv(const Vec3& p) const {

@@ -211,11 +211,7 @@ SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) cons
   if (!solid_ && dot(n, ray.direction) > 0) n = -n;
   const Real part = high > low && !arc.flat() ? u : 0.5;
   const Real path = (static_cast<Real>(crossing.part) + part) / static_cast<Real>(arcs_.size());
-  return {p,
-          {error_, error_, error_},
-          n,
-          n,
-          {0.5 + std::atan2(p.y, p.x) / (2 * kPi), std::clamp(path, 0.0, 1.0)}};
+  return {p, {error_, error_, error_}, n, n, SurfaceUv::around(p, std::clamp(path, 0.0, 1.0))};
 }
 
 }  // namespace trace

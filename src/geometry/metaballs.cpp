@@ -188,12 +188,7 @@ SurfacePoint TracedMetaballs::surface(const Ray& ray, const Crossing& crossing) 
   // Where the surface pinches the gradient vanishes, and the error is a square root.
   const Real off = min(l > 0 ? error / l : kInfinity, std::sqrt(error / curvature_));
   const Real e = 2 * off + maxComponent(abs(p)) * gammaError(8);
-  const Vec3 q = normalize(p - bounds_.center());
-  return {p,
-          {e, e, e},
-          n,
-          n,
-          {0.5 + std::atan2(q.y, q.x) / (2 * kPi), 0.5 + std::asin(std::clamp(q.z, -1.0, 1.0)) / kPi}};
+  return {p, {e, e, e}, n, n, SurfaceUv::toward(normalize(p - bounds_.center()))};
 }
 
 }  // namespace trace

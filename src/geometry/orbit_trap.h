@@ -61,11 +61,4 @@ struct TrapPart {
   }
 };
 
-/// Around z and up, for a place around the origin.
-inline Vec2 sphereUv(const Vec3& p) {
-  const Vec3 d = normalize(p);
-  if (!isFinite(d)) return {0.5, 0.5};
-  return {0.5 + std::atan2(d.y, d.x) / (2 * kPi), 0.5 + std::asin(std::clamp(d.z, -1.0, 1.0)) / kPi};
-}
-
 }  // namespace trace

@@ -50,10 +50,7 @@ std::shared_ptr<const MeshTree> treeOf(std::shared_ptr<const MeshData> data) {
 }  // namespace
 
 Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made)
-    : shape_(prepare(shape, made)),
-      outFromIn_(outFromIn),
-      inFromOut_(inverse(outFromIn)),
-      moved_(outFromIn != Affine{}) {
+    : shape_(prepare(shape, made)), placement_(outFromIn) {
   const Box3 box = match(shape_, Overloaded{[&](const Mesh& mesh) {
                                               const auto known = made.find(mesh.data.get());
                                               mesh_ = known == made.end() ? treeOf(mesh.data) : known->second;
@@ -95,7 +92,7 @@ SurfacePoint Placed::surface(const Ray& ray, const Crossing& crossing) const {
   const SurfacePoint s =
       match(shape_, Overloaded{[&](const Mesh&) { return meshSurface(*mesh_, in, crossing); },
                                [&](const auto& form) { return formOf(form).surface(in, crossing); }});
-  return transformed(s, outFromIn_, inFromOut_);
+  return placement_.outOf(s);
 }
 
 }  // namespace trace

@@ -4,24 +4,10 @@
 #include <memory>
 
 #include "geometry/mesh_tree.h"
+#include "geometry/placement.h"
 #include "geometry/traced.h"
-#include "math/transform.h"
 
 namespace trace {
-
-/// A place on an object brought out of the object's space, with the rounding of the way there and of the way
-/// back, which the next ray takes, added to its error.
-inline SurfacePoint transformed(const SurfacePoint& in, const Affine& outFromIn, const Affine& inFromOut) {
-  const Vec3 size = absLinear(outFromIn, abs(in.point)) + abs(outFromIn.offset);
-  const Vec3 back = (absLinear(inFromOut, size) + abs(inFromOut.offset)) * gammaError(8);
-  SurfacePoint out;
-  out.point = outFromIn * in.point;
-  out.error = (size * gammaError(4) + absLinear(outFromIn, in.error + back)) * (1 + gammaError(8));
-  out.normal = normalize(transposed(inFromOut, in.normal));
-  out.shading = in.shading == in.normal ? out.normal : normalize(transposed(inFromOut, in.shading));
-  out.uv = in.uv;
-  return out;
-}
 
 /// A shape and the transform out of its space. Precondition: the transform can be undone.
 class Placed {
@@ -41,13 +27,10 @@ class Placed {
   const std::shared_ptr<const MeshTree>& meshTree() const { return mesh_; }
 
  private:
-  Ray inner(const Ray& ray) const {
-    return moved_ ? Ray{inFromOut_ * ray.origin, linear(inFromOut_, ray.direction)} : ray;
-  }
+  Ray inner(const Ray& ray) const { return placement_.moved() ? placement_.into(ray) : ray; }
 
   TracedShape shape_;
-  Affine outFromIn_, inFromOut_;
-  bool moved_ = false;
+  Placement placement_;
   Box3 bounds_;
   std::shared_ptr<const MeshTree> mesh_;
 };

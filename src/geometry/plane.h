@@ -20,6 +20,7 @@ struct Plane {
   bool operator==(const Plane&) const = default;
 
   bool solid() const { return true; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, 0}}; }
 
   template <class Visit>

@@ -3,13 +3,17 @@
 
 #include <cstdint>
 
+#include "geometry/surface_uv.h"
 #include "math/vec.h"
 
 namespace trace {
 
 /// The points origin + t direction, t > 0. The direction need not be a unit vector.
 struct Ray {
+  static constexpr std::uint32_t kNothing = 0xffffffffu;
+
   Vec3 origin, direction;
+  std::uint32_t leaves = kNothing;  ///< the number of a convex object that lies behind it, and is not asked
   Vec3 at(Real t) const { return origin + direction * t; }
 };
 
@@ -48,7 +52,7 @@ struct SurfacePoint {
   Vec3 error;
   Vec3 normal;   ///< unit, of the true surface; outward for solids, toward the ray's origin for open sheets
   Vec3 shading;  ///< unit; differs from `normal` where a mesh has vertex normals
-  Vec2 uv;
+  SurfaceUv uv;
 };
 
 /// The point moved off the surface along its normal, to the side that `direction` leaves toward (pbrt 4th
@@ -56,12 +60,8 @@ struct SurfacePoint {
 inline Vec3 offsetPoint(const SurfacePoint& surface, const Vec3& direction) {
   const Real distance = dot(abs(surface.normal), surface.error);
   const Real side = dot(direction, surface.normal) < 0 ? -1 : 1;
-  Vec3 p = surface.point + surface.normal * (side * distance);
-  for (int i = 0; i < 3; ++i) {
-    const Real move = side * surface.normal[i];
-    if (move != 0) p[i] = neighbour(p[i], move > 0);
-  }
-  return p;
+  const Vec3 move = surface.normal * side, p = surface.point + move * distance;
+  return {onward(p.x, move.x), onward(p.y, move.y), onward(p.z, move.z)};
 }
 
 inline Ray spawnRay(const SurfacePoint& surface, const Vec3& direction) {

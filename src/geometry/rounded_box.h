@@ -25,6 +25,7 @@ struct RoundedBox {
   bool operator==(const RoundedBox&) const = default;
 
   bool solid() const { return true; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {half() * -1, half()}; }
 
   template <class Visit>

@@ -9,6 +9,9 @@
 //                       lie at infinity
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
 //
+// A shape may add
+//   convex()            a ray that leaves it on the side of its normal does not meet it again
+//
 // A shape of several materials adds
 //   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
 //   addMaterials(all)          the indices it may answer with beside that

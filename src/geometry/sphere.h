@@ -17,6 +17,7 @@ struct Sphere {
   bool operator==(const Sphere&) const = default;
 
   bool solid() const { return true; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {{-1, -1, -1}, {1, 1, 1}}; }
 
   template <class Visit>
@@ -32,9 +33,7 @@ struct Sphere {
 
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {
     const Vec3 p = normalize(ray.at(crossing.t));
-    const Real u = 0.5 + std::atan2(p.y, p.x) / (2 * kPi);
-    const Real v = 0.5 + std::asin(std::fmin(std::fmax(p.z, -1), 1)) / kPi;
-    return {p, abs(p) * gammaError(6), p, p, {u, v}};
+    return {p, abs(p) * gammaError(6), p, p, SurfaceUv::toward(p)};
   }
 };
 

@@ -16,6 +16,7 @@ struct Square {
   bool operator==(const Square&) const = default;
 
   bool solid() const { return false; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {{-0.5, -0.5, 0}, {0.5, 0.5, 0}}; }
 
   template <class Visit>

@@ -67,9 +67,7 @@ SurfacePoint Superellipsoid::surface(const Ray& ray, const Crossing& crossing) c
   norm(*this, p, slopes);
   const Vec3 n = normalize(slopes);
   const Real error = gammaError(80);
-  const Real u = 0.5 + std::atan2(p.y, p.x) / (2 * kPi);
-  const Real v = 0.5 + std::asin(std::clamp(p.z / length(p), -1.0, 1.0)) / kPi;
-  return {p, {error, error, error}, n, n, {u, v}};
+  return {p, {error, error, error}, n, n, SurfaceUv::toward(normalize(p))};
 }
 
 }  // namespace trace

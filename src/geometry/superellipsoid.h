@@ -30,6 +30,7 @@ struct Superellipsoid {
   bool operator==(const Superellipsoid&) const = default;
 
   bool solid() const { return true; }
+  bool convex() const { return true; }
   Box3 bounds() const { return {{-1, -1, -1}, {1, 1, 1}}; }
 
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;

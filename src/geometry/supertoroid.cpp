@@ -85,11 +85,8 @@ SurfacePoint Supertoroid::surface(const Ray& ray, const Crossing& crossing) cons
   const Real l = length(gradient);
   const Vec3 n = l > 0 ? gradient / l : normalize(-ray.direction);
   const Real error = (R + r) * gammaError(120);
-  return {s,
-          {error, error, error},
-          n,
-          n,
-          {0.5 + std::atan2(at.y, at.x) / (2 * kPi), 0.5 + std::atan2(at.z, out) / (2 * kPi)}};
+  const Real v = 0.5 + std::atan2(at.z, out) / (2 * kPi);
+  return {s, {error, error, error}, n, n, SurfaceUv::around(at, v)};
 }
 
 }  // namespace trace

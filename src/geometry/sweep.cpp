@@ -373,8 +373,9 @@ SurfacePoint TracedProfileSweep::surface(const Ray& ray, const Crossing& crossin
   const bool away = solid_ ? (outward_ < 0) != insideOut : dot(s.normal, ray.direction) > 0;
   if (away) s.normal = s.shading = -s.normal;
   const std::size_t patch = TracedPatches::patchOf(onSide.part);
-  s.uv = {(static_cast<Real>(patch % across_) + s.uv.x) / static_cast<Real>(across_),
-          (static_cast<Real>(patch / across_) + s.uv.y) / static_cast<Real>(along_)};
+  const Vec2 within = s.uv;
+  s.uv = {(static_cast<Real>(patch % across_) + within.x) / static_cast<Real>(across_),
+          (static_cast<Real>(patch / across_) + within.y) / static_cast<Real>(along_)};
   return s;
 }
 

@@ -58,8 +58,8 @@ SurfacePoint Torus::surface(const Ray& ray, const Crossing& crossing) const {
   const Vec3 middle = around * R;
   const Vec3 n = normalize(p - middle);
   const Real error = (R + r) * gammaError(16);
-  const Real u = 0.5 + std::atan2(p.y, p.x) / (2 * kPi), v = 0.5 + std::atan2(p.z, rho - R) / (2 * kPi);
-  return {middle + n * r, {error, error, error}, n, n, {u, v}};
+  const Real v = 0.5 + std::atan2(p.z, rho - R) / (2 * kPi);
+  return {middle + n * r, {error, error, error}, n, n, SurfaceUv::around(p, v)};
 }
 
 }  // namespace trace

@@ -40,9 +40,12 @@ inline Vec3 linear(const Affine& m, const Vec3& v) {
   return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
 }
 inline Vec3 operator*(const Affine& m, const Vec3& p) { return linear(m, p) + m.offset; }
-/// The linear part with every entry made positive, applied to a vector of error bounds.
-inline Vec3 absLinear(const Affine& m, const Vec3& e) {
-  return {dot(abs(m.row[0]), e), dot(abs(m.row[1]), e), dot(abs(m.row[2]), e)};
+/// With every entry made positive: for error bounds.
+inline Affine absolute(const Affine& m) {
+  Affine r;
+  for (int i = 0; i < 3; ++i) r.row[i] = abs(m.row[i]);
+  r.offset = abs(m.offset);
+  return r;
 }
 /// m's linear part transposed: transposed(objectFromWorld, n) takes a normal to the world.
 inline Vec3 transposed(const Affine& m, const Vec3& n) {

@@ -58,7 +58,10 @@ Picture idShown(const Picture& values, const Settings&) {
   return mapped(values, [](const Color& c) { return numberColor(static_cast<std::uint64_t>(c.r)); });
 }
 
-Color uvValue(const Hit& hit, const Ray&, const Tracer&) { return {hit.surface.uv.x, hit.surface.uv.y, 0}; }
+Color uvValue(const Hit& hit, const Ray&, const Tracer&) {
+  const Vec2 uv = hit.surface.uv;
+  return {uv.x, uv.y, 0};
+}
 Picture uvShown(const Picture& values, const Settings&) { return mapped(values, clamp01); }
 
 Color positionValue(const Hit& hit, const Ray&, const Tracer&) { return colorOf(hit.surface.point); }

@@ -19,6 +19,7 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found, Real airIndex)
       material(world.material(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object)),
+      convex(world.convex(object)),
       indexBefore(leaving ? material.index : airIndex),
       indexBehind(leaving ? airIndex : material.index) {}
 
@@ -52,9 +53,9 @@ bool Tracer::tooNear(const Ray& ray) const {
   return found && found->t < near;
 }
 
-Color Tracer::visible(const SurfacePoint& from, const Vec3& toLight, Real distance) {
+Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance) {
   ++statistics_.rays[static_cast<std::size_t>(RayKind::shadow)];
-  const Ray ray = spawnRay(from, toLight);
+  const Ray ray = from.leave(toLight);
   if (records()) begin(ray, RayKind::shadow, distance);
   const Color color = passed(ray, distance);
   if (records()) {
@@ -85,7 +86,7 @@ Color Tracer::passed(const Ray& ray, Real distance) {
   Color color(1);
   Real last = 0;
   for (const Found& found : crossed_) {
-    const Color filter = world_.material(found).transmissive;
+    const Color filter = world_.filter(found);
     if (isBlack(filter)) return Color(0);
     Color factor(1);
     if (settings_.glass == Glass::perCrossing)
@@ -116,7 +117,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
     const bool opaque = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black ||
-                        isBlack(world_.material(found).transmissive);
+                        isBlack(world_.filter(found));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

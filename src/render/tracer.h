@@ -22,9 +22,9 @@ class Tracer {
   /// The first surface that a ray of this kind meets.
   std::optional<Hit> cast(const Ray& ray, RayKind kind);
 
-  /// How much of each colour passes from the surface point toward a light at `distance` (may be infinite)
-  /// in the unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
-  Color visible(const SurfacePoint& from, const Vec3& toLight, Real distance);
+  /// How much of each colour passes from what was hit toward a light at `distance` (may be infinite) in the
+  /// unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
+  Color visible(const Hit& from, const Vec3& toLight, Real distance);
 
   /// Does the camera ray meet something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;

@@ -46,16 +46,16 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
     const Scatter scatter = material.scatter(normal, arriving->toLight, -ray.direction);
     const Color scattered = arriving->scattered(scatter);
     const Color passed =
-        isBlack(scattered) ? Color(0) : tracer.visible(surface, arriving->toLight, arriving->distance);
+        isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
     sum.addLight(i, *arriving, scatter, scattered * material.shadow, passed);
     if (material.shadow < 1) sum.addLight(i, *arriving, scatter, scattered * (1 - material.shadow), Color(1));
   }
 
-  const auto worthwhile = [&](RayKind kind, const Color& share) {
-    if (path.depth >= settings.depth)
-      sum.stop(DepthLimit{kind, settings.depth});
-    else if (isBlack(share) || maxComponent(share) < settings.threshold)
-      sum.stop(BelowThreshold{kind, maxComponent(share), settings.threshold});
+  const auto worthwhile = [&](const Path& next) {
+    if (next.depth > settings.depth)
+      sum.stop(DepthLimit{next.kind, settings.depth});
+    else if (isBlack(next.weight) || maxComponent(next.weight) < settings.threshold)
+      sum.stop(BelowThreshold{next.kind, maxComponent(next.weight), settings.threshold});
     else
       return true;
     return false;
@@ -65,22 +65,19 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
   const Real R = fresnel ? schlick(-dot(ray.direction, normal), hit->indexBefore, hit->indexBehind) : 0;
   const Color mirror = fresnel ? Color(R) : material.reflective;
   if (!isBlack(mirror)) {
-    const Color share = path.weight * mirror;
-    if (worthwhile(RayKind::reflection, share))
+    const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
+    if (worthwhile(next))
       sum.add(Term::Kind::reflection, mirror,
-              radianceAlong(tracer, spawnRay(surface, mirrored(ray.direction, normal)),
-                            {RayKind::reflection, path.depth + 1, share, path.medium}));
+              radianceAlong(tracer, hit->leave(mirrored(ray.direction, normal)), next));
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
     const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - R);
-    const Color share = path.weight * filter;
-    if (worthwhile(RayKind::refraction, share)) {
-      const Color medium = perCrossing || hit->leaving ? Color(1) : material.transmissive;
+    const Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
+                    perCrossing || hit->leaving ? Color(1) : material.transmissive};
+    if (worthwhile(next)) {
       if (const auto direction = refracted(ray.direction, normal, hit->indexBefore / hit->indexBehind))
-        sum.add(Term::Kind::refraction, filter,
-                radianceAlong(tracer, spawnRay(surface, *direction),
-                              {RayKind::refraction, path.depth + 1, share, medium}));
+        sum.add(Term::Kind::refraction, filter, radianceAlong(tracer, hit->leave(*direction), next));
       else
         sum.stop(TotalInternalReflection{});
     }

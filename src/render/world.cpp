@@ -8,17 +8,19 @@ namespace trace {
 
 std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
   std::optional<Found> best(std::in_place);
-  for (std::uint32_t object : always_) closestOf(object, ray, faces, statistics, *best);
+  for (std::uint32_t object : always_)
+    if (object != ray.leaves) closestOf(object, ray, faces, statistics, *best);
   if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
   if (best->t == kInfinity) best.reset();
   return best;
 }
 
 void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
-  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, [&](std::uint32_t object) {
+  const auto ask = [&](std::uint32_t object) {
     closestOf(object, ray, faces, statistics, best);
     return false;
-  });
+  };
+  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, ask, ray.leaves);
 }
 
 inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
@@ -40,7 +42,8 @@ inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces fa
     ++statistics.hits[kind];
     best = {met.hit.t, object, met.triangle, met.hit};
   };
-  instance.moved ? inItsSpace(instance.objectRay(worldRay)) : inItsSpace(worldRay);
+  const Placement& placement = instance.placement;
+  placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
 }
 
 bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, Statistics& statistics,
@@ -54,17 +57,18 @@ void World::closestOfShape(const Instance& instance, std::uint32_t object, const
                            Statistics& statistics, Found& best) const {
   crossingsOfShape(instance, ray, best.t, statistics, [&](const Crossing& crossing) {
     if (!(crossing.t > 0 && crossing.t <= best.t)) return;
-    const Found found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}};
-    if (!found.before(best)) return;
+    const auto part = static_cast<std::uint64_t>(crossing.part);
+    if (!best.after(crossing.t, object, part)) return;
     ++statistics.hits[instance.shape.index()];
-    best = found;
+    best.t = crossing.t, best.object = object, best.part = part;
   });
 }
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
-  const Ray ray = instance.moved ? instance.objectRay(worldRay) : worldRay;
-  SurfacePoint s =
+  const Placement& placement = instance.placement;
+  const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
+  const SurfacePoint s =
       match(instance.shape,
             Overloaded{[&](const Mesh&) {
                          return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
@@ -73,8 +77,7 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
                        [&](const auto& shape) {
                          return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
                        }});
-  if (instance.moved) s = transformed(s, instance.worldFromObject, instance.objectFromWorld);
-  return s;
+  return placement.moved() ? placement.outOf(s) : s;
 }
 
 namespace {
@@ -254,9 +257,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     } catch (const Error& error) {
       throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
     }
-    const bool round = settings.roundSpheres && std::holds_alternative<Sphere>(object.shape);
-    instance.worldFromObject = round ? rounded(object.worldFromObject) : object.worldFromObject;
-    instance.moved = instance.worldFromObject != Affine{};
+    const bool flat = !invertible(object.worldFromObject),
+               round = settings.roundSpheres && std::holds_alternative<Sphere>(object.shape);
+    if (!flat)
+      instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
     instance.material = object.material;
     if (object.material >= world.materials_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
@@ -265,12 +269,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       world.objects_.push_back(std::move(instance));
       continue;
     }
-    if (!invertible(object.worldFromObject)) {
+    if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-      instance.worldFromObject = {};  // keeps the numbering of objects; its empty bounds are never met
-    } else {
-      instance.objectFromWorld = inverse(instance.worldFromObject);
-    }
     instance.opaque = !world.materials_[object.material].transmits();
     Box3 box;
     match(instance.shape,
@@ -292,6 +292,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      },
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
+                       if constexpr (requires { formOf(shape).convex(); })
+                         instance.convex = formOf(shape).convex();
                        if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
                          instance.mixed = true;
                          std::vector<std::uint32_t> materials;
@@ -301,11 +303,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                              instance.opaque = false;
                        }
                      }});
-    if (invertible(object.worldFromObject)) {
+    if (!flat) {
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
       else
-        instance.bounds = instance.worldFromObject * box;
+        instance.bounds = instance.placement.outFromIn() * box;
     }
     boxes.push_back(instance.bounds);
     world.bounds_.extend(instance.bounds);

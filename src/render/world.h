@@ -15,6 +15,8 @@
 #include "geometry/csg_tree.h"
 #include "geometry/materials.h"
 #include "geometry/mesh_tree.h"
+#include "geometry/placement.h"
+#include "geometry/traced.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/light.h"
@@ -30,10 +32,11 @@ struct Found {
   TriangleHit triangle;      ///< of a mesh
 
   /// Nearer first; at the same distance the earlier object, then the earlier part.
-  bool before(const Found& other) const {
-    if (t != other.t) return t < other.t;
-    return object != other.object ? object < other.object : part < other.part;
+  bool after(Real otherT, std::uint32_t otherObject, std::uint64_t otherPart) const {
+    if (t != otherT) return t > otherT;
+    return object != otherObject ? object > otherObject : part > otherPart;
   }
+  bool before(const Found& other) const { return other.after(t, object, part); }
 };
 
 /// Which mesh triangles a query sees: all; those whose face turns to the ray; those whose normal for shading,
@@ -65,12 +68,19 @@ class World {
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
   Phong material(const Found& found) const;
-  const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].worldFromObject; }
+  /// What of it the rays of a light pass through: material(found).transmissive.
+  Color filter(const Found& found) const {
+    const Instance& instance = objects_[found.object];
+    return instance.mixed ? material(found).transmissive : materials_[instance.material].transmissive;
+  }
+  const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
     const auto& mesh = objects_[object].mesh;
     return mesh && mesh->data().twoSided;
   }
+  /// A ray that leaves the object on the side of its normal does not meet it again.
+  bool convex(std::uint32_t object) const { return objects_[object].convex; }
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -98,18 +108,13 @@ class World {
 
   struct Instance {  // what queries need stands together
     TracedShape shape;
-    bool moved = false;  ///< the transform is not the identity
     bool opaque = true;
+    bool convex = false;
     bool mixed = false;  ///< parts of it are made of other materials
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
-    Affine objectFromWorld, worldFromObject;
+    Placement placement;
     Box3 bounds;
-
-    /// The ray in the object's space.
-    Ray objectRay(const Ray& ray) const {
-      return {objectFromWorld * ray.origin, linear(objectFromWorld, ray.direction)};
-    }
   };
 
   // Queries, object by object. What is rarer than a mesh seen from both sides is kept apart, so that the way
@@ -182,16 +187,17 @@ void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Rea
 template <class Visit>
 void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
   for (std::uint32_t object : always_)
-    if (crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
+    if (object != ray.leaves && crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
   if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
 }
 
 template <class Visit>
 void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
                             Visit& visit) const {
-  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, [&](std::uint32_t object) {
+  const auto ask = [&](std::uint32_t object) {
     return crossingsOf(object, ray, tMost, faces, statistics, visit);
-  });
+  };
+  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, ask, ray.leaves);
 }
 
 template <class Visit>
@@ -202,7 +208,8 @@ bool World::crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, F
     return instance.mesh ? meshCrossings(instance, object, ray, tMost, faces, statistics, visit)
                          : shapeCrossings(instance, object, ray, tMost, statistics, visit);
   };
-  return instance.moved ? inItsSpace(instance.objectRay(worldRay)) : inItsSpace(worldRay);
+  const Placement& placement = instance.placement;
+  return placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
 }
 
 template <class Visit>

@@ -58,8 +58,8 @@ struct Phong {
   /// The highlight is not multiplied by N.L.
   Scatter scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
     const Real cosLight = dot(n, toLight);
-    const Color scattered = diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight));
-    if (isBlack(specular)) return {scattered, Color(0)};
+    Scatter scatter{diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight)), {}};
+    if (isBlack(specular)) return scatter;
     Real cosHighlight;
     if (highlight == Highlight::blinn) {
       const Vec3 half = toLight + toEye;
@@ -69,7 +69,8 @@ struct Phong {
       const Real cosMirror = litFromBehind ? std::max(0.0, cosLight) : cosLight;
       cosHighlight = dot(n * (2 * cosMirror) - toLight, toEye);
     }
-    return {scattered, specular * std::pow(std::max(0.0, cosHighlight), shininess)};
+    scatter.specular = specular * std::pow(std::max(0.0, cosHighlight), shininess);
+    return scatter;
   }
 };
 

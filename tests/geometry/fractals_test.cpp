@@ -182,7 +182,7 @@ TEST(Fractals, MaterialsFollowTheTrap) {
     const Ray ray{random.inCube(0.5) - d * 4, d};
     for (const Crossing& c : crossingsOf(shape, ray)) {
       const MaterialMix of = traced->material(c.part, 9);
-      const Real u = surfaceOf(shape, ray, c).uv.x;
+      const Real u = Vec2(surfaceOf(shape, ray, c).uv).x;
       EXPECT_NEAR((of.material[0] - 4 + (of.material[1] - of.material[0]) * of.weight[1]) / 2, u, 2e-4);
       ++hits;
     }

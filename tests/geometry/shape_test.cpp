@@ -36,7 +36,8 @@ TEST(Shapes, HitsLieInBoundsOnTheRayWithUnitNormals) {
         EXPECT_LT(length(s.point - ray.at(c.t)), 1e-13 * far);
         EXPECT_NEAR(length(s.normal), 1, 1e-14);
         EXPECT_EQ(s.normal, s.shading);
-        EXPECT_TRUE(s.uv.x >= -1e-12 && s.uv.x <= 1 + 1e-12 && s.uv.y >= -1e-12 && s.uv.y <= 1 + 1e-12);
+        const Vec2 uv = s.uv;
+        EXPECT_TRUE(uv.x >= -1e-12 && uv.x <= 1 + 1e-12 && uv.y >= -1e-12 && uv.y <= 1 + 1e-12);
       }
     }
     EXPECT_GT(hits, rays / 50);
@@ -286,10 +287,26 @@ TEST(Plane, IsTheBoundaryOfTheSpaceBelow) {
   EXPECT_EQ(out[1].t, 3);
   const SurfacePoint s = surfaceOf(Plane{}, up, out[1]);
   EXPECT_EQ(s.normal, (Vec3{0, 0, 1}));
-  EXPECT_EQ(s.uv, (Vec2{0.25, 0.5}));
+  EXPECT_EQ(Vec2(s.uv), (Vec2{0.25, 0.5}));
   EXPECT_EQ(crossingsOf(Plane{}, {{0, 0, 1}, {1, 0, 0}}).size(), 0u);
   EXPECT_EQ(crossingsOf(Plane{}, {{0, 0, -1}, {1, 0, 0}}).size(), 2u);
   EXPECT_EQ(crossingsOf(Plane{}, {{0, 0, 1}, {1, 0, -1e-320}}).size(), 0u);  // farther than numbers reach
+}
+
+TEST(Onward, IsTheNextNumber) {
+  Random random(1);
+  for (int i = 0; i < 1000000; ++i) {
+    const Real x = std::ldexp(i % 3 == 0 ? 1.0 : random.uniform(1, 2), random.below(1900) - 900) *
+                   (random.coin() ? 1 : -1),
+               move = random.uniform(-1, 1);
+    ASSERT_EQ(onward(x, move), std::nextafter(x, std::copysign(kInfinity, move))) << x;
+    ASSERT_EQ(onward(x, 0), x);
+  }
+  for (const Real x : {0.0, 1e-308, -1e-320}) {
+    EXPECT_GT(onward(x, 1), x);
+    EXPECT_LT(onward(x, -1), x);
+    EXPECT_LT(onward(x, 1) - x, 1e-300);
+  }
 }
 
 TEST(Cube, TextureCoordinatesMirrorOnTheLowFaces) {

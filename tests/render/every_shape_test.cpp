@@ -192,6 +192,7 @@ TEST_P(EveryShape, LiesWithinItsErrorAndLetsRaysLeave) {
     // Only a true crossing of another place is left: it goes through the surface the other way, or lies
     // farther than rounding reaches.
     const double leaving = dot(out, s.normal);
+    EXPECT_FALSE(place.world.convex(0) && leaving > 1e-12) << again->t << " away along " << leaving;
     const double meeting = dot(out, place.world.surface(next, *again).normal);
     // Of a sheet, whose normal turns to every ray, only the distance tells: one that bends much, stretched
     // ten times as far one way as another, is truly met again after some 1e-9 of its size.

@@ -1,6 +1,8 @@
 // Rays and the compiled world: the hierarchy against brute force, and rays that start from surfaces.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -59,6 +61,26 @@ TEST(World, AllCrossingsAreThoseOfBruteForce) {
         ASSERT_TRUE(a[k].t == b[k].t && a[k].object == b[k].object && a[k].part == b[k].part);
         ASSERT_LT(a[k].t, tMost);
       }
+    }
+  }
+}
+
+TEST(World, ARayDoesNotAskWhatItLeaves) {
+  Scene scene;
+  addObject(scene, Plane{}, Affine::translation({0, 0, -3}), {});
+  addObject(scene, Sphere{}, {}, {});
+  addObject(scene, Sphere{}, Affine::translation({0, 0, -1.5}), {});
+  for (Accel accel : {Accel::bvh, Accel::none}) {
+    const World world = build(scene, {.accel = accel});
+    for (const std::uint32_t left : {Ray::kNothing, 0u, 1u, 2u}) {
+      const Ray ray{{0, 0, 5}, {0, 0, -1}, left};
+      Statistics statistics;
+      EXPECT_EQ(world.closest(ray, Faces::both, statistics)->object, left == 1 ? 2u : 1u);
+      std::set<std::uint32_t> crossed;
+      world.crossings(ray, kInfinity, Faces::both, statistics,
+                      [&](const Found& f) { return crossed.insert(f.object), false; });
+      EXPECT_EQ(crossed.size(), left == Ray::kNothing ? 3u : 2u);
+      EXPECT_EQ(crossed.count(left), 0u);
     }
   }
 }
