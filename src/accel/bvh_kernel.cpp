@@ -6,6 +6,7 @@ namespace trace {
 
 // Compiled from traverse.h, each in its own file with its own flags.
 #if defined(TRACE_HAS_AVX2)
+extern const BvhKernel kBvhKernelAvx512;
 extern const BvhKernel kBvhKernelAvx2;
 #endif
 extern const BvhKernel kBvhKernelBase;
@@ -30,8 +31,8 @@ bool hasAvx512() {
 
 std::span<const BvhKernel> bvhKernels() {
 #if defined(TRACE_HAS_AVX2)
-  static const std::array<BvhKernel, 2> kAll{kBvhKernelAvx2, kBvhKernelBase};
-  return std::span(kAll).subspan(hasAvx2() ? 0 : 1);
+  static const std::array<BvhKernel, 3> kAll{kBvhKernelAvx512, kBvhKernelAvx2, kBvhKernelBase};
+  return std::span(kAll).subspan(hasAvx512() ? 0 : hasAvx2() ? 1 : 2);
 #else
   return {&kBvhKernelBase, 1};
 #endif

@@ -111,7 +111,11 @@ inline Float8 timesMinus(Float8 a, Float8 b, Float8 c) { return {_mm256_fmsub_ps
 inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned lessEqual(Float8 a, Float8 b) {
+#if defined(__AVX512VL__)
+  return _mm256_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ);
+#else
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
+#endif
 }
 
 struct Double4 {

@@ -87,13 +87,14 @@ struct Leaves {
   std::size_t size;
 };
 
-/// Asks the memory for a child that the ray is about to visit, or will after others.
+/// Asks the memory for lines of a child that the ray is about to visit, or will after others.
+template <int kBegin = 0, int kEnd = 4>
 [[gnu::always_inline]] inline void fetch(const BvhNode* nodes, Leaves leaves, std::uint32_t child) {
   const bool leaf = child & BvhNode::kLeaf;
   if (leaf && leaves.first == nullptr) return;
   const char* at = leaf ? static_cast<const char*>(leaves.first) + (child & ~BvhNode::kLeaf) * leaves.size
                         : reinterpret_cast<const char*>(&nodeAt(nodes, child));
-  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+  for (int line = kBegin; line < kEnd; ++line) __builtin_prefetch(at + 64 * line);
 }
 
 /// A child that waits for its turn, below where the ray enters its box: positive floats are ordered as their
@@ -142,18 +143,22 @@ template <bool kNearestFirst, class VisitLeaf>
         const auto takeLane = [&] {
           const auto lane = static_cast<unsigned>(__builtin_ctz(met));
           met &= met - 1;
-          fetch(nodes, leaves, node.child[lane]);
           return lane;
         };
         unsigned lane = takeLane();
         next = node.child[lane];
-        if (met == 0) continue;
+        if (met == 0) {  // visited at once, so that the processor asks for the other lines by itself
+          fetch<2, 3>(nodes, leaves, next);
+          continue;
+        }
+        fetch(nodes, leaves, next);
         if constexpr (kNearestFirst) {
           alignas(32) float near[8];
           enter.store(near);
           Pending nearest = pending(near[lane], next);
           const auto keepNearest = [&] {  // in hand; returns the other
             lane = takeLane();
+            fetch(nodes, leaves, node.child[lane]);
             const Pending other = pending(near[lane], node.child[lane]),
                           further = other < nearest ? nearest : other;
             nearest = other < nearest ? other : nearest;
@@ -169,8 +174,11 @@ template <bool kNearestFirst, class VisitLeaf>
           }
           next = static_cast<std::uint32_t>(nearest);
         } else {
-          do *top++ = node.child[takeLane()];
-          while (met != 0);
+          do {
+            const std::uint32_t child = node.child[takeLane()];
+            fetch(nodes, leaves, child);
+            *top++ = child;
+          } while (met != 0);
         }
         continue;
       }
