@@ -1,9 +1,5 @@
 // ray bench SCENE: how fast the scene's rays are answered, for people or as JSON.
-//
-// Keys of the JSON object: scene, width, height, build.{wall, cpu} (seconds), triangles, bytes (of the
-// hierarchies), bytesPerTriangle (null without triangles), rays.{primary, bounce, shadow}.{count, hits,
-// seconds, raysPerSecond, nodesPerRay, testsPerRay} (a kind that the scene has none of is left out; seconds
-// of CPU time).
+// docs/statistics.md has the keys.
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
+#include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "program.h"
 #include "scene/options.h"
@@ -12,6 +15,29 @@ namespace {
 
 using Cli = ProgramTest;
 using nlohmann::json;
+
+/// The paths of all values: "phases.read.wall", "badSamples.first[].x".
+void addPaths(const json& value, const std::string& path, std::set<std::string>& paths) {
+  if (value.is_object())
+    for (const auto& [key, member] : value.items())
+      addPaths(member, path.empty() ? key : path + "." + key, paths);
+  else if (value.is_array())
+    for (const json& member : value) addPaths(member, path + "[]", paths);
+  else
+    paths.insert(path);
+}
+
+/// The keys in the first column of the tables of a chapter of docs/statistics.md.
+std::set<std::string> documentedKeys(const std::string& chapter) {
+  const std::string page = readFile(TRACE_SOURCE "/docs/statistics.md");
+  const std::size_t begin = page.find("\n## " + chapter + "\n");
+  EXPECT_NE(begin, std::string::npos) << chapter;
+  std::istringstream lines(page.substr(begin + 1, page.find("\n## ", begin + 1) - begin - 1));
+  std::set<std::string> keys;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("| `")) keys.insert(line.substr(3, line.find('`', 3) - 3));
+  return keys;
+}
 
 TEST_F(Cli, CoursesLine) {
   const Run r = run({"-b", "-w", "40", "-r", "5", "-t", "1", "white.ray", "out.bmp"});
@@ -251,6 +277,34 @@ TEST_F(Cli, StatisticsKeys) {
   EXPECT_EQ(table.out, "");
   EXPECT_TRUE(contains(table.err, "Mrays/s"));
   EXPECT_TRUE(contains(table.last, "wrote out.png"));
+}
+
+TEST(Statistics, OfARenderThatBrokeOff) {
+  Session session;
+  session.open(Scene{}, Settings{});
+  RenderResult result;
+  result.end = End::failed;
+  const json stats = json::parse(cli::statisticsJson({session, result, "out.png", 0.5, 1, 1}));
+  EXPECT_EQ(stats["end"], "failed");
+}
+
+TEST_F(Cli, StatisticsKeysAreThoseOfTheDocs) {
+  std::string hot = kWhite;  // has samples that are not finite
+  hot.replace(hot.find("emissive=(1,1,1)"), 16, "emissive=(1.7e308,0,0); ambient=(1,1,1)");
+  write("hot.ray", hot + "ambient_light { color=(1.7e308,0,0); }\n");
+  std::set<std::string> paths;
+  json stats = json::parse(run({"hot.ray", "-w", "8", "--stats=json"}).out);
+  stats["shapes"] = {{"NAME", stats["shapes"]["sphere"]}};
+  stats["settings"] = {{"NAME", stats["settings"]["width"]}};
+  addPaths(stats, "", paths);
+  EXPECT_EQ(paths, documentedKeys("JSON of a render"));
+
+  json bench = json::parse(run({"bench", "white.ray", "-w", "8", "--format=json"}).out);
+  for (const char* kind : {"primary", "bounce", "shadow"}) EXPECT_TRUE(bench["rays"].contains(kind)) << kind;
+  bench["rays"] = {{"KIND", bench["rays"]["primary"]}};
+  paths.clear();
+  addPaths(bench, "", paths);
+  EXPECT_EQ(paths, documentedKeys("JSON of ray bench"));
 }
 
 TEST_F(Cli, BadSamplesAreReported) {
