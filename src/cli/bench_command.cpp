@@ -62,7 +62,7 @@ std::string benchJson(const Session& session, const RayBench& bench) {
 
 }  // namespace
 
-int bench(const Arguments& arguments, const Console&) {
+int bench(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray bench: expected the name of one scene file, found " +
@@ -74,6 +74,7 @@ int bench(const Arguments& arguments, const Console&) {
   Messages messages = session.messages();
   const RayBench measured = benchRays(session.scene(), session.settings(), kPasses, messages);
   messages.throwIfFailed(arguments.strict);
+  console.warnings(messages.all());
   printResult(json ? benchJson(session, measured) : benchText(session, measured));
   return kDone;
 }

@@ -349,6 +349,11 @@ TEST_F(Cli, Bench) {
   EXPECT_GT(primary["raysPerSecond"], 0);
   EXPECT_EQ(run({"bench"}).code, 2);
   EXPECT_EQ(files(), 1u);
+  const Run huge = run({"bench", "white.ray", "-w", "100000"});
+  EXPECT_EQ(huge.code, 5);
+  EXPECT_TRUE(contains(huge.err, "MiB of memory"));
+  write("odd.ray", std::string(kWhite) + "sphere { wrong = 1; }\n");
+  EXPECT_TRUE(contains(run({"bench", "odd.ray", "-w", "8"}).err, "odd.ray:5:"));
 }
 
 TEST_F(Cli, InfoTellsWhereOptionsComeFrom) {
