@@ -76,8 +76,13 @@ TEST_F(Cli, CoursesFlagsAreOptions) {
 }
 
 TEST_F(Cli, HelpGoesToStdout) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"-h"}, {"--help"}, {"help"}, {"render", "-h"}, {"info", "--help"}, {"white.ray", "-h"}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"-h"},
+                                                                                     {"--help"},
+                                                                                     {"help"},
+                                                                                     {"help", "explain"},
+                                                                                     {"render", "-h"},
+                                                                                     {"info", "--help"},
+                                                                                     {"white.ray", "-h"}}) {
     const Run r = run(words);
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.err, "");
@@ -88,6 +93,8 @@ TEST_F(Cli, HelpGoesToStdout) {
   const std::string all = run({"--help", "all"}).out;
   EXPECT_EQ(all, run({"help", "all"}).out);
   for (const Option& option : options()) EXPECT_TRUE(contains(all, "--" + std::string(option.name)));
+  EXPECT_TRUE(contains(run({"help", "rener"}).err, "did you mean \"render\"?"));
+  EXPECT_TRUE(contains(run({"help", "all", "odd"}).err, "found also \"odd\""));
   EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
 }
 
@@ -142,6 +149,9 @@ TEST_F(Cli, MissingFileIs1) {
   EXPECT_TRUE(contains(r.err, "no.ray"));
   EXPECT_TRUE(contains(r.last, "nothing written: "));
   EXPECT_TRUE(contains(run({"ifno"}).err, "did you mean the command \"ray info\"?"));
+  const Run two = run({"benhc", "white.ray"});
+  EXPECT_EQ(two.code, 1);
+  EXPECT_TRUE(contains(two.err, "did you mean the command \"ray bench\"?"));
 }
 
 TEST_F(Cli, SceneErrorIs3) {
