@@ -43,13 +43,17 @@ std::string outputFor(const Scene& scene, const std::string& named) {
   return !scene.picture.empty() ? scene.picture : fs::path(scene.file).stem().string() + ".png";
 }
 
-/// Where no scene was meant but a command, that is what to tell, before anything about the words after it.
-void checkIsNoCommand(const std::string& scene) {
+/// Where no scene was meant but a command or a flag, that is what to tell, before anything about the words
+/// after it.
+void checkIsScene(const std::string& scene) {
+  std::error_code ignored;
+  if (fs::exists(scene, ignored)) return;
+  if (scene.starts_with('+'))  // as POV-Ray has them
+    throw Error(Fault::usage, "unknown flag \"" + scene + "\"", "flags begin with - or --, as in -w 640");
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.push_back(command.name);
   const std::string name = nearest(scene, names);
-  std::error_code ignored;
-  if (!name.empty() && !fs::exists(scene, ignored))
+  if (!name.empty())
     throw Error(Fault::io, "there is no file \"" + scene + "\"",
                 "did you mean the command \"ray " + name + "\"?");
 }
@@ -60,7 +64,7 @@ int render(const Arguments& arguments, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
-  if (!arguments.files.empty()) checkIsNoCommand(arguments.files[0]);
+  if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
   const std::string named = outputName(arguments);
   if (!arguments.frames.empty()) {
     const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";

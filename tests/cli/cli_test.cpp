@@ -137,6 +137,8 @@ TEST_F(Cli, WrongUsageIs2) {
   refused({"white.ray", "a.png", "-o", "b.png"}, "two names");
   refused({"white.ray", "out.gif"}, ".png");
   refused({"white.ray", "white.ray"}, ".png");
+  refused({"white.ray", "--region", "400,0,500,10"}, "outside the picture of 400 x 320 pixels");
+  refused({"+W640", "+H480", "white.ray"}, "flags begin with -");
   refused({"--strict"}, "expected the name of a scene");
   refused({"white.ray", "--width", "1000000000", "--height", "1000000000"}, "from 1 to 100000");
   EXPECT_EQ(run({"white.ray"}, {{"RAY_THREADS", "many"}}).code, 2);
