@@ -2,6 +2,7 @@
 //
 //   analytic    25 mirroring spheres, 6 boxes, 4 cones and a glass ball on a floor of 576 slightly mirroring
 //   tiles MESH        the mesh on a floor, matt, one lamp, from the view of the kernel benchmarks
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 
@@ -54,13 +55,19 @@ void writeMesh(const std::string& base, const std::string& file) {
 }  // namespace trace::bench
 
 int main(int argc, char** argv) {
-  if (argc < 2) return std::cerr << "usage: bench_scenes FOLDER [MESH.ply...]\n", 2;
+  namespace fs = std::filesystem;
+  fs::path folder;
+  std::vector<std::string> meshes;
+  CLI::App app("Writes scenes for ray and for POV-Ray: spheres and boxes, and each mesh on a floor",
+               "bench_scenes");
+  app.add_option("FOLDER", folder, "folder for the scenes; is made where there is none")->required();
+  app.add_option("MESH", meshes, "PLY files");
+  CLI11_PARSE(app, argc, argv);
   try {
-    const std::filesystem::path folder = argv[1];
-    std::filesystem::create_directories(folder);
+    fs::create_directories(folder);
     trace::bench::writeAnalytic((folder / "analytic").string());
-    for (int i = 2; i < argc; ++i)
-      trace::bench::writeMesh((folder / std::filesystem::path(argv[i]).stem()).string(), argv[i]);
+    for (const std::string& mesh : meshes)
+      trace::bench::writeMesh((folder / fs::path(mesh).stem()).string(), mesh);
     return 0;
   } catch (const std::exception& error) {
     return std::cerr << error.what() << '\n', 1;

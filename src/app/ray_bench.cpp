@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "app/session.h"
 #include "base/match.h"
 #include "render/pixel.h"
 #include "render/render.h"
@@ -71,6 +72,9 @@ RayBench::Kind measure(const World& world, std::string_view name, const std::vec
 }  // namespace
 
 RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Messages& messages) {
+  const Size size = pictureSize(settings, scene.camera);
+  // All rays are kept, so that making them is not measured: up to one of each kind, of shadow one per light.
+  checkMemory("the list of rays", size, (2 + scene.lights.size()) * sizeof(Query), settings);
   RayBench bench;
   const auto start = std::chrono::steady_clock::now();
   const double cpu = cpuSeconds();
@@ -79,9 +83,10 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   bench.buildWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   bench.triangles = world.triangleCount(), bench.bytes = world.bytes();
 
-  const Size size = pictureSize(settings, scene.camera);
   const PixelTracer pixels(world, settings, size);
+  const std::size_t most = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   std::vector<Query> primary, bounce, shadow;
+  primary.reserve(most), bounce.reserve(most), shadow.reserve(most * scene.lights.size());
   Statistics statistics;
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {

@@ -28,7 +28,8 @@ struct RayBench {
   std::vector<Kind> kinds;                 ///< those that the scene has rays of
 };
 
-/// Compiles the scene and measures, each kind of ray `passes` times. Throws Error as compile() does.
+/// Compiles the scene and measures, each kind of ray `passes` times. Throws Error as compile() does, and
+/// Error(Fault::limit) if the rays are too many for the memory.
 RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Messages& messages);
 
 }  // namespace trace

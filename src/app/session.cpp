@@ -47,6 +47,20 @@ std::uint64_t machineMemory() {
 #endif
 }
 
+void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
+                 const Settings& settings) {
+  const std::uint64_t needed =
+      static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) * bytesPerPixel;
+  const std::uint64_t allowed =
+      settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20 : machineMemory();
+  if (needed > allowed)
+    throw Error(
+        Fault::limit,
+        what + " of " + std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels needs " +
+            std::to_string(needed >> 20) + " MiB of memory; allowed are " + std::to_string(allowed >> 20),
+        "choose a smaller --width" + std::string(settings.maxMemory > 0 ? ", or a larger --max-memory" : ""));
+}
+
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
   const Stopwatch watch;
   strict_ = strict;
@@ -75,17 +89,7 @@ void Session::open(Scene scene, const Settings& settings) {
 void Session::build(const Session* before) {
   const Stopwatch watch;
   const Size picture = size();
-  const std::uint64_t needed = static_cast<std::uint64_t>(picture.width) *
-                               static_cast<std::uint64_t>(picture.height) * bytesPerPixel(settings_);
-  const std::uint64_t allowed =
-      settings_.maxMemory > 0 ? static_cast<std::uint64_t>(settings_.maxMemory) << 20 : machineMemory();
-  if (needed > allowed)
-    throw Error(Fault::limit,
-                "a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                    " needs " + std::to_string(needed >> 20) + " MiB of memory; allowed are " +
-                    std::to_string(allowed >> 20),
-                "choose a smaller --width" +
-                    std::string(settings_.maxMemory > 0 ? ", or a larger --max-memory" : ""));
+  checkMemory("a picture", picture, bytesPerPixel(settings_), settings_);
   if (before) {
     const Compiled earlier{before->scene_, before->settings_, *before->world_};
     world_.emplace(compile(scene_, settings_, messages_, &earlier));

@@ -79,4 +79,8 @@ class Session {
 /// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.
 std::uint64_t machineMemory();
 
+/// Throws Error(Fault::limit) if `what`, such as "a picture", of this size needs more memory than allowed.
+void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
+                 const Settings& settings);
+
 }  // namespace trace

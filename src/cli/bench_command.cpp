@@ -1,9 +1,5 @@
 // ray bench SCENE: how fast the scene's rays are answered, for people or as JSON.
-//
-// Keys of the JSON object: scene, width, height, build.{wall, cpu} (seconds), triangles, bytes (of the
-// hierarchies), bytesPerTriangle (null without triangles), rays.{primary, bounce, shadow}.{count, hits,
-// seconds, raysPerSecond, nodesPerRay, testsPerRay} (a kind that the scene has none of is left out; seconds
-// of CPU time).
+// docs/statistics.md has the keys.
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -66,7 +62,7 @@ std::string benchJson(const Session& session, const RayBench& bench) {
 
 }  // namespace
 
-int bench(const Arguments& arguments, const Console&) {
+int bench(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray bench: expected the name of one scene file, found " +
@@ -78,6 +74,7 @@ int bench(const Arguments& arguments, const Console&) {
   Messages messages = session.messages();
   const RayBench measured = benchRays(session.scene(), session.settings(), kPasses, messages);
   messages.throwIfFailed(arguments.strict);
+  console.warnings(messages.all());
   printResult(json ? benchJson(session, measured) : benchText(session, measured));
   return kDone;
 }

@@ -11,11 +11,17 @@ namespace trace::cli {
 namespace {
 
 int help(const Arguments& arguments, const Console&) {
-  const bool all = arguments.files == std::vector<std::string>{"all"};
-  if (!arguments.files.empty() && !all)
-    throw Error(Fault::usage,
-                "ray help: expected \"all\" or nothing, found \"" + arguments.files.front() + "\"");
-  printResult(helpText(all));
+  const std::vector<std::string>& words = arguments.files;
+  if (words.size() > 1)
+    throw Error(Fault::usage, "ray help: expected \"all\" or nothing, found also \"" + words[1] + "\"");
+  std::vector<std::string_view> known{"all"};  // the page is of all commands, so naming one is harmless
+  for (const Command& command : commands()) known.push_back(command.name);
+  if (!words.empty() && std::find(known.begin(), known.end(), words[0]) == known.end()) {
+    const std::string name = nearest(words[0], known);
+    throw Error(Fault::usage, "ray help: expected \"all\" or nothing, found \"" + words[0] + "\"",
+                name.empty() ? "" : "did you mean \"" + name + "\"?");
+  }
+  printResult(helpText(words == std::vector<std::string>{"all"}));
   return kDone;
 }
 

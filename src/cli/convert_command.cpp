@@ -1,6 +1,7 @@
 // ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "app/remaining_time.h"
@@ -72,6 +73,10 @@ int convert(const Arguments& arguments, const Console& console) {
   Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
                                    : readScene(in, bytes, messages);
   change(scene, conversion, console);
+  std::error_code absent;
+  if (std::filesystem::equivalent(in, out, absent))
+    throw Error(Fault::usage, "\"" + in + "\" and \"" + out + "\" are the same file",
+                "it would lose its comments and what is not written; name another");
   const std::vector<NamedBytes> files =
       format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);
   messages.throwIfFailed(arguments.strict);

@@ -38,13 +38,18 @@ std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text
   return numbers;
 }
 
-/// As chosen, or by the suffix of the file to write.
+/// As chosen, or by the suffix of the file to write. Throws Error(Fault::usage) for one that promises
+/// something else, such as .jpg.
 std::string_view formatOf(const Arguments& arguments) {
   if (!arguments.format.empty()) return chosenFormat(arguments, "explain", kFormats);
   const std::string suffix = std::filesystem::path(arguments.output).extension().string();
   for (std::string_view format : kFormats)
     if (suffix == "." + std::string(format)) return format;
-  return "text";
+  if (suffix.empty() || suffix == ".txt" || suffix == ".log") return "text";
+  throw Error(
+      Fault::usage,
+      "expected a name that ends in .txt, .json, .obj, .svg or .png, found \"" + arguments.output + "\"",
+      "--format text writes text to a file of any name");
 }
 
 }  // namespace

@@ -85,16 +85,15 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
 }  // namespace
 
 int grade(const Arguments& arguments, const Console& console) {
+  const bool asJson = chosenFormat(arguments, "grade", kFormats) == "json";
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   const Grades grades = trace::grade(task);
-  if (!arguments.output.empty()) {
-    writeFile(arguments.output, gradePage(task, grades));
+  if (!arguments.output.empty()) writeFile(arguments.output, gradePage(task, grades));
+  printResult(asJson ? gradesJson(arguments, grades) : gradesText(grades));
+  if (!arguments.output.empty())  // the last line, below a table that may be long
     console.line(LogLevel::info,
                  "wrote " + arguments.output + " (" + counted(grades.pairs.size(), "pair") + ")");
-  }
-  printResult(chosenFormat(arguments, "grade", kFormats) == "json" ? gradesJson(arguments, grades)
-                                                                   : gradesText(grades));
   return grades.passed == grades.pairs.size() ? kDone : kNotAllWithin;
 }
 

@@ -43,20 +43,19 @@ std::string outputFor(const Scene& scene, const std::string& named) {
   return !scene.picture.empty() ? scene.picture : fs::path(scene.file).stem().string() + ".png";
 }
 
-void open(Session& session, const Arguments& arguments) {
-  const std::string& scene = arguments.files[0];
-  try {
-    session.open(scene, arguments.choices, arguments.strict);
-  } catch (const Error& error) {  // perhaps no scene was meant
-    std::vector<std::string_view> names;
-    for (const Command& command : commands()) names.push_back(command.name);
-    const std::string name = nearest(scene, names);
-    std::error_code ignored;
-    if (error.fault() != Fault::io || name.empty() || fs::exists(scene, ignored)) throw;
-    Message message = error.messages().front();
-    message.hint = "did you mean the command \"ray " + name + "\"?";
-    throw Error(Fault::io, {message});
-  }
+/// Where no scene was meant but a command or a flag, that is what to tell, before anything about the words
+/// after it.
+void checkIsScene(const std::string& scene) {
+  std::error_code ignored;
+  if (fs::exists(scene, ignored)) return;
+  if (scene.starts_with('+'))  // as POV-Ray has them
+    throw Error(Fault::usage, "unknown flag \"" + scene + "\"", "flags begin with - or --, as in -w 640");
+  std::vector<std::string_view> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  const std::string name = nearest(scene, names);
+  if (!name.empty())
+    throw Error(Fault::io, "there is no file \"" + scene + "\"",
+                "did you mean the command \"ray " + name + "\"?");
 }
 
 }  // namespace
@@ -65,6 +64,7 @@ int render(const Arguments& arguments, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
+  if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
   const std::string named = outputName(arguments);
   if (!arguments.frames.empty()) {
     const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";
@@ -73,7 +73,7 @@ int render(const Arguments& arguments, const Console& console) {
   if (!named.empty()) pictureFormatFor(named);  // an unknown ending is told before a large scene is read
   Signals signals;
   Session session;
-  open(session, arguments);
+  session.open(arguments.files[0], arguments.choices, arguments.strict);
   const std::string output = outputFor(session.scene(), named);
   for (const Output& file : outputs(output, session.settings())) checkWritable(file.path);
   session.build();  // a lack of memory is the better reason to refuse a huge picture

@@ -12,6 +12,10 @@ namespace trace::cli {
 
 void checkOutputs(const Session& session, const std::string& output) {
   const Size size = session.size();
+  const Region& region = session.settings().region;
+  if (region.x0 >= size.width || region.y0 >= size.height)
+    throw Error(Fault::usage, "the region is outside the picture of " + std::to_string(size.width) + " x " +
+                                  std::to_string(size.height) + " pixels");
   for (const Output& file : outputs(output, session.settings())) {
     checkEncodable(pictureFormatFor(file.path), size.width, size.height);
     checkWritable(file.path);

@@ -13,7 +13,8 @@
 
 namespace trace::cli {
 
-/// Throws Error unless all files of the render can be written and hold a picture of its size.
+/// Throws Error unless all files of the render can be written and hold a picture of its size, in which
+/// something is to be rendered.
 void checkOutputs(const Session& session, const std::string& output);
 
 /// Renders with an eye on progress and signals.

@@ -11,7 +11,15 @@
 namespace trace::cli {
 namespace {
 
-constexpr std::string_view kEnds[] = {"finished", "cancelled", "timeLimit"};
+std::string_view nameOf(End end) {
+  switch (end) {
+    case End::finished: return "finished";
+    case End::cancelled: return "cancelled";
+    case End::timeLimit: return "timeLimit";
+    case End::failed: break;
+  }
+  return "failed";
+}
 
 /// Calls visit(keyword, tests, hits) for each shape of the list.
 template <class Visit>
@@ -97,7 +105,7 @@ std::string statisticsJson(const Run& run) {
   json["output"] = run.output;
   json["width"] = session.size().width;
   json["height"] = session.size().height;
-  json["end"] = kEnds[static_cast<size_t>(run.result.end)];
+  json["end"] = nameOf(run.result.end);
   json["fraction"] = run.fraction;
   json["threads"] = threads > 0 ? threads : hardwareThreads();
   json["seconds"] = run.seconds;

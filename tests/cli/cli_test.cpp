@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
+#include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "program.h"
 #include "scene/options.h"
@@ -12,6 +15,29 @@ namespace {
 
 using Cli = ProgramTest;
 using nlohmann::json;
+
+/// The paths of all values: "phases.read.wall", "badSamples.first[].x".
+void addPaths(const json& value, const std::string& path, std::set<std::string>& paths) {
+  if (value.is_object())
+    for (const auto& [key, member] : value.items())
+      addPaths(member, path.empty() ? key : path + "." + key, paths);
+  else if (value.is_array())
+    for (const json& member : value) addPaths(member, path + "[]", paths);
+  else
+    paths.insert(path);
+}
+
+/// The keys in the first column of the tables of a chapter of docs/statistics.md.
+std::set<std::string> documentedKeys(const std::string& chapter) {
+  const std::string page = readFile(TRACE_SOURCE "/docs/statistics.md");
+  const std::size_t begin = page.find("\n## " + chapter + "\n");
+  EXPECT_NE(begin, std::string::npos) << chapter;
+  std::istringstream lines(page.substr(begin + 1, page.find("\n## ", begin + 1) - begin - 1));
+  std::set<std::string> keys;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("| `")) keys.insert(line.substr(3, line.find('`', 3) - 3));
+  return keys;
+}
 
 TEST_F(Cli, CoursesLine) {
   const Run r = run({"-b", "-w", "40", "-r", "5", "-t", "1", "white.ray", "out.bmp"});
@@ -50,8 +76,13 @@ TEST_F(Cli, CoursesFlagsAreOptions) {
 }
 
 TEST_F(Cli, HelpGoesToStdout) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"-h"}, {"--help"}, {"help"}, {"render", "-h"}, {"info", "--help"}, {"white.ray", "-h"}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"-h"},
+                                                                                     {"--help"},
+                                                                                     {"help"},
+                                                                                     {"help", "explain"},
+                                                                                     {"render", "-h"},
+                                                                                     {"info", "--help"},
+                                                                                     {"white.ray", "-h"}}) {
     const Run r = run(words);
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.err, "");
@@ -62,6 +93,8 @@ TEST_F(Cli, HelpGoesToStdout) {
   const std::string all = run({"--help", "all"}).out;
   EXPECT_EQ(all, run({"help", "all"}).out);
   for (const Option& option : options()) EXPECT_TRUE(contains(all, "--" + std::string(option.name)));
+  EXPECT_TRUE(contains(run({"help", "rener"}).err, "did you mean \"render\"?"));
+  EXPECT_TRUE(contains(run({"help", "all", "odd"}).err, "found also \"odd\""));
   EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
 }
 
@@ -104,6 +137,8 @@ TEST_F(Cli, WrongUsageIs2) {
   refused({"white.ray", "a.png", "-o", "b.png"}, "two names");
   refused({"white.ray", "out.gif"}, ".png");
   refused({"white.ray", "white.ray"}, ".png");
+  refused({"white.ray", "--region", "400,0,500,10"}, "outside the picture of 400 x 320 pixels");
+  refused({"+W640", "+H480", "white.ray"}, "flags begin with -");
   refused({"--strict"}, "expected the name of a scene");
   refused({"white.ray", "--width", "1000000000", "--height", "1000000000"}, "from 1 to 100000");
   EXPECT_EQ(run({"white.ray"}, {{"RAY_THREADS", "many"}}).code, 2);
@@ -116,6 +151,9 @@ TEST_F(Cli, MissingFileIs1) {
   EXPECT_TRUE(contains(r.err, "no.ray"));
   EXPECT_TRUE(contains(r.last, "nothing written: "));
   EXPECT_TRUE(contains(run({"ifno"}).err, "did you mean the command \"ray info\"?"));
+  const Run two = run({"benhc", "white.ray"});
+  EXPECT_EQ(two.code, 1);
+  EXPECT_TRUE(contains(two.err, "did you mean the command \"ray bench\"?"));
 }
 
 TEST_F(Cli, SceneErrorIs3) {
@@ -253,6 +291,34 @@ TEST_F(Cli, StatisticsKeys) {
   EXPECT_TRUE(contains(table.last, "wrote out.png"));
 }
 
+TEST(Statistics, OfARenderThatBrokeOff) {
+  Session session;
+  session.open(Scene{}, Settings{});
+  RenderResult result;
+  result.end = End::failed;
+  const json stats = json::parse(cli::statisticsJson({session, result, "out.png", 0.5, 1, 1}));
+  EXPECT_EQ(stats["end"], "failed");
+}
+
+TEST_F(Cli, StatisticsKeysAreThoseOfTheDocs) {
+  std::string hot = kWhite;  // has samples that are not finite
+  hot.replace(hot.find("emissive=(1,1,1)"), 16, "emissive=(1.7e308,0,0); ambient=(1,1,1)");
+  write("hot.ray", hot + "ambient_light { color=(1.7e308,0,0); }\n");
+  std::set<std::string> paths;
+  json stats = json::parse(run({"hot.ray", "-w", "8", "--stats=json"}).out);
+  stats["shapes"] = {{"NAME", stats["shapes"]["sphere"]}};
+  stats["settings"] = {{"NAME", stats["settings"]["width"]}};
+  addPaths(stats, "", paths);
+  EXPECT_EQ(paths, documentedKeys("JSON of a render"));
+
+  json bench = json::parse(run({"bench", "white.ray", "-w", "8", "--format=json"}).out);
+  for (const char* kind : {"primary", "bounce", "shadow"}) EXPECT_TRUE(bench["rays"].contains(kind)) << kind;
+  bench["rays"] = {{"KIND", bench["rays"]["primary"]}};
+  paths.clear();
+  addPaths(bench, "", paths);
+  EXPECT_EQ(paths, documentedKeys("JSON of ray bench"));
+}
+
 TEST_F(Cli, BadSamplesAreReported) {
   std::string text = kWhite;
   text.replace(text.find("emissive=(1,1,1)"), 16, "emissive=(1.7e308,0,0); ambient=(1,1,1)");
@@ -295,6 +361,11 @@ TEST_F(Cli, Bench) {
   EXPECT_GT(primary["raysPerSecond"], 0);
   EXPECT_EQ(run({"bench"}).code, 2);
   EXPECT_EQ(files(), 1u);
+  const Run huge = run({"bench", "white.ray", "-w", "100000"});
+  EXPECT_EQ(huge.code, 5);
+  EXPECT_TRUE(contains(huge.err, "MiB of memory"));
+  write("odd.ray", std::string(kWhite) + "sphere { wrong = 1; }\n");
+  EXPECT_TRUE(contains(run({"bench", "odd.ray", "-w", "8"}).err, "odd.ray:5:"));
 }
 
 TEST_F(Cli, InfoTellsWhereOptionsComeFrom) {

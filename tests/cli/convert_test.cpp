@@ -61,6 +61,9 @@ TEST_F(Convert, SaysWhatItCannotDo) {
   EXPECT_EQ(run({"convert", "no.off", "tri.ray"}).code, 1);
   EXPECT_EQ(run({"convert", "endless.ray", "endless.ply"}).code, 3) << "a plane has no triangles";
   EXPECT_EQ(run({"convert", "--steps", "2", "tri.off", "tri.ray"}).code, 2);
+  const std::string scene = readFile(path("white.ray"));
+  EXPECT_EQ(run({"convert", "white.ray", "./white.ray"}).code, 2) << "its comments and keys would be lost";
+  EXPECT_EQ(readFile(path("white.ray")), scene);
 }
 
 }  // namespace

@@ -84,6 +84,8 @@ TEST_F(Diff, Grade) {
   r = run({"grade", "out", "--reference", "ref", "--limit", "max=100", "--format", "json"});
   EXPECT_EQ(r.code, 0);
   EXPECT_EQ(json::parse(r.out)["pairs"][0]["verdict"], "within");
+  EXPECT_EQ(run({"grade", "out", "--reference", "ref", "-o", "b.html", "--format", "svg"}).code, 2);
+  EXPECT_FALSE(exists("b.html"));
   EXPECT_EQ(run({"grade", "out"}).code, 2);
   EXPECT_EQ(run({"grade", "nowhere", "--reference", "ref"}).code, 1);
 }

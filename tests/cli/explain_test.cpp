@@ -132,8 +132,10 @@ TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
 
 TEST_F(Explain, FilesGetTheFormatOfTheirName) {
   const std::vector<std::string> words{"explain", kScenes + "shapes.ray", "--pixel=150,100", "-o"};
-  for (const auto& [name, begins] :
-       {std::pair{"a.json", "{\"schema\""}, {"a.obj", "# rays of"}, {"a.svg", "<svg "}}) {
+  using Pair = std::pair<std::string, std::string>;
+  const std::string text = words[1] + ", pixel 150,100";
+  for (const auto& [name, begins] : {Pair{"a.json", "{\"schema\""}, Pair{"a.obj", "# rays of"},
+                                     Pair{"a.svg", "<svg "}, Pair{"a.txt", text}, Pair{"a", text}}) {
     std::vector<std::string> with = words;
     with.push_back(name);
     EXPECT_EQ(out(with), "");
@@ -157,6 +159,7 @@ TEST_F(Explain, RefusesWithAReason) {
   EXPECT_NE(error({"explain", scene, "--pixel", "0,0", "--sample", "9999"}, 2).find("sample"),
             std::string::npos);
   EXPECT_NE(error({"explain", scene, "--pixel", "0,0", "--format", "png"}, 2).find("-o"), std::string::npos);
+  EXPECT_NE(error({"explain", scene, "--pixel", "0,0", "-o", "a.jpg"}, 2).find(".svg"), std::string::npos);
   EXPECT_NE(error({"info", scene, "--format", "svg"}, 2).find("text | json"), std::string::npos);
   EXPECT_EQ(error({"explain", "none.ray", "--pixel", "0,0"}, 1).empty(), false);
 }
