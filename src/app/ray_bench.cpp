@@ -94,13 +94,13 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
       primary.push_back({ray});
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;
-      const SurfacePoint surface = world.surface(ray, *found);
-      const Vec3 facing = dot(surface.normal, ray.direction) > 0 ? -surface.normal : surface.normal;
-      bounce.push_back({spawnRay(surface, aroundNormal(facing, bounce.size()))});
+      const Hit hit(world, ray, *found, settings.airIndex);
+      const Vec3 facing = hit.leaving ? -hit.surface.normal : hit.surface.normal;
+      bounce.push_back({hit.leave(aroundNormal(facing, bounce.size()))});
       for (const Light& light : world.lights()) {
-        const auto arriving = match(light, [&](const auto& l) { return l.illuminate(surface.point); });
+        const auto arriving = match(light, [&](const auto& l) { return l.illuminate(hit.surface.point); });
         if (arriving && dot(facing, arriving->toLight) > 0)
-          shadow.push_back({spawnRay(surface, arriving->toLight), arriving->distance});
+          shadow.push_back({hit.leave(arriving->toLight), arriving->distance});
       }
     }
   const auto add = [&](std::string_view name, const std::vector<Query>& queries, bool anyHit) {
