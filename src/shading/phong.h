@@ -69,7 +69,8 @@ struct Phong {
       const Real cosMirror = litFromBehind ? std::max(0.0, cosLight) : cosLight;
       cosHighlight = dot(n * (2 * cosMirror) - toLight, toEye);
     }
-    scatter.specular = specular * std::pow(std::max(0.0, cosHighlight), shininess);
+    if (cosHighlight > 0 || shininess == 0)
+      scatter.specular = specular * std::pow(std::max(0.0, cosHighlight), shininess);
     return scatter;
   }
 };
