@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <new>
 
 #include "base/text.h"
@@ -63,6 +64,13 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void checkDistinct(const std::string& read, const std::string& written) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(read, written, absent))
+    throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
+                "what is read is not written over; name another file");
+}
 
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
                               std::span<const std::string_view> known) {

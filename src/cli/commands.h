@@ -28,6 +28,9 @@ std::span<const Command> commands();
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
+/// Throws Error(Fault::usage) if both are names of one file: what is read is not written over.
+void checkDistinct(const std::string& read, const std::string& written);
+
 /// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
                               std::span<const std::string_view> known);

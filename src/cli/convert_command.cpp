@@ -1,7 +1,6 @@
 // ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <chrono>
-#include <filesystem>
 #include <utility>
 
 #include "app/remaining_time.h"
@@ -68,15 +67,12 @@ int convert(const Arguments& arguments, const Console& console) {
   const std::string &in = arguments.files[0], &out = arguments.files[1];
   const Conversion& conversion = arguments.conversion;
   const SceneFormat& format = writableFormatFor(out);
+  checkDistinct(in, out);
   const std::string bytes = readFile(in);
   Messages messages;
   Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
                                    : readScene(in, bytes, messages);
   change(scene, conversion, console);
-  std::error_code absent;
-  if (std::filesystem::equivalent(in, out, absent))
-    throw Error(Fault::usage, "\"" + in + "\" and \"" + out + "\" are the same file",
-                "it would lose its comments and what is not written; name another");
   const std::vector<NamedBytes> files =
       format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);
   messages.throwIfFailed(arguments.strict);

@@ -107,6 +107,7 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
+  for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
                                          {arguments.tolerance, arguments.pixelsPerDegree});
   printResult(chosenFormat(arguments, "diff", kFormats) == "json" ? diffJson(d, arguments)

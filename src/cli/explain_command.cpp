@@ -70,6 +70,7 @@ int explain(const Arguments& arguments, const Console& console) {
   if (format == "png" && arguments.output.empty())
     throw Error(Fault::usage, "ray explain --format png: expected the name of a file, found none",
                 "-o rays.png");
+  checkDistinct(arguments.files[0], arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
 
   Session session;

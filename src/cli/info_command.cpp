@@ -64,7 +64,7 @@ std::string infoText(const Facts& facts) {
   text += "materials (" + std::to_string(scene.materials.size()) + ")\n";
   text += "bounds\n";
   if (facts.bounds.empty())
-    text += line("empty", "");
+    text += line("none", scene.objects.empty() ? "" : "nothing has an end");
   else
     text += line("low", shortText(facts.bounds.low)) + line("high", shortText(facts.bounds.high)) +
             line("size", shortText(facts.bounds.size()));

@@ -49,6 +49,7 @@ int lint(const Arguments& arguments, const Console& console) {
                     (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
   constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
   const bool json = chosenFormat(arguments, "lint", kFormats) == "json";
+  checkDistinct(arguments.files[0], arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);

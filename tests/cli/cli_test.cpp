@@ -145,6 +145,18 @@ TEST_F(Cli, WrongUsageIs2) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(Cli, WhatIsReadIsNotWrittenOver) {
+  const std::string before = readFile(path("white.ray"));
+  for (std::vector<std::string> words :
+       {std::vector<std::string>{"lint"}, {"explain", "--pixel", "3,3", "--format", "text"}}) {
+    words.insert(words.end(), {"white.ray", "-o", "./white.ray"});
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 2) << words[0];
+    EXPECT_TRUE(contains(r.err, "are the same file")) << r.err;
+    EXPECT_EQ(readFile(path("white.ray")), before);
+  }
+}
+
 TEST_F(Cli, MissingFileIs1) {
   const Run r = run({"no.ray"});
   EXPECT_EQ(r.code, 1);

@@ -39,6 +39,14 @@ TEST_F(Diff, ExitCodes) {
   EXPECT_EQ(run({"diff", "a.png"}).code, 2);
 }
 
+TEST_F(Diff, DoesNotWriteOverWhatItReads) {
+  const std::string before = readFile(path("c.png"));
+  const Run r = run({"diff", "a.png", "c.png", "-o", "./c.png"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "are the same file"));
+  EXPECT_EQ(readFile(path("c.png")), before);
+}
+
 TEST_F(Diff, ExitCodesOfIdiff) {
   const auto code = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"diff", "--idiff-codes", "a.png"});
