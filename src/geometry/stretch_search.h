@@ -47,7 +47,7 @@ void stretchCrossings(const Span& span, const Range& range, Real least, Look&& l
       const bool keeps = known.keeps & bit;
       if (!keeps && !(known.monotone & bit) && !shortest) break;
       const Real to = last || (whole && passed == 3) ? end : min(begin + 2 * half * (passed + 1), end);
-      const Real next = max(to, neighbour(t, true));
+      const Real next = max(to, onward(t, 1));
       const bool after = next < span.to && (keeps ? (known.inside & bit) != 0 : at(next).value < 0);
       if (after != inside) visit(keeps ? t : rootBetween(at, t, next, inside), inside);
       t = next, inside = after;

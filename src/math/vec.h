@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 namespace trace {
@@ -18,22 +17,9 @@ constexpr Real gammaError(int n) {
   return n * kHalfUlp / (1 - n * kHalfUlp);
 }
 
-/// The next number above x, or below it; infinities and NaN stay. std::nextafter without its checks for
-/// errno.
-inline Real neighbour(Real x, bool above) {
-  if (!(std::abs(x) <= std::numeric_limits<Real>::max())) return x;
-  if (x == 0)
-    return above ? std::numeric_limits<Real>::denorm_min() : -std::numeric_limits<Real>::denorm_min();
-  std::int64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  bits += (x > 0) == above ? 1 : -1;
-  std::memcpy(&x, &bits, sizeof bits);
-  return x;
-}
-
-/// The next number from x in the direction of `move`, or x if that is 0; near 0 one as invisibly far (Rump,
-/// Zimmermann, Boldo and Melquiond, Computing Predecessor and Successor in Rounding to Nearest, BIT 49,
-/// 2009). Without branches, which would be guessed wrongly for every ray that leaves a surface.
+/// The next number from a finite x in the direction of `move`, or x if that is 0; near 0 one as invisibly far
+/// (Rump, Zimmermann, Boldo and Melquiond, Computing Predecessor and Successor in Rounding to Nearest, BIT
+/// 49, 2009). Without branches, which would be guessed wrongly for every ray that leaves a surface.
 inline Real onward(Real x, Real move) {
   const Real step = std::abs(x) * (0x1p-53 * (1 + 0x1p-52)) + std::numeric_limits<Real>::min();
   return x + (move != 0 ? std::copysign(step, move) : 0);
