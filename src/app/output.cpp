@@ -79,12 +79,22 @@ std::map<std::string, std::string> whatCounts(const Metadata& metadata) {
   return words;
 }
 
-Picture pictureOf(const Output& output, const Film& film, const Settings& settings) {
+/// Calls use(picture) with what the file is to hold.
+template <class Use>
+void withPictureOf(const Output& output, const Film& film, const Settings& settings, Use use) {
   const PictureFormat& format = pictureFormatFor(output.path);
-  if (output.layer < 0) return format.keepsBright ? film.picture() : toned(film.picture(), settings.tone);
+  if (output.layer < 0) {
+    film.withPicture([&](const Picture& picture) {
+      if (format.keepsBright || settings.tone == Tone::clamp)
+        use(picture);
+      else
+        use(toned(picture, settings.tone));
+    });
+    return;
+  }
   const auto layer = static_cast<std::size_t>(output.layer);
   const bool raw = format.keepsBright && format.lossless;  // Radiance has no negative and no infinite values
-  return raw ? film.layer(layer) : passesOf(settings)[layer]->shown(film.layer(layer), settings);
+  use(raw ? film.layer(layer) : passesOf(settings)[layer]->shown(film.layer(layer), settings));
 }
 
 }  // namespace
@@ -125,7 +135,9 @@ bool isRendered(const Output& output, const Metadata& metadata) {
 void write(const Output& output, const Film& film, const Settings& settings, Metadata metadata) {
   if (!output.pass.empty()) metadata.emplace_back(kPass, output.pass);
   if (!film.complete()) metadata.emplace_back("Incomplete", "the render was stopped");
-  writePicture(output.path, pictureOf(output, film, settings), settings.rounding, metadata);
+  withPictureOf(output, film, settings, [&](const Picture& picture) {
+    writePicture(output.path, picture, settings.rounding, metadata);
+  });
 }
 
 Metadata describe(const Scene& scene, const Settings& settings) {

@@ -56,6 +56,14 @@ class Film {
 
   /// What is done so far, black elsewhere. May be called from any thread while workers write.
   Picture picture() const { return doneOf(picture_, Color(0)); }
+  /// Calls use(picture) with the same; no copy is made once all is done.
+  template <class Use>
+  void withPicture(Use use) const {
+    if (complete())
+      use(picture_);
+    else
+      use(picture());
+  }
   /// The same of a layer, blank elsewhere.
   Picture layer(std::size_t index) const { return doneOf(layers_[index].values, layers_[index].blank); }
   std::size_t layers() const { return layers_.size(); }

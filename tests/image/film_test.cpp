@@ -24,6 +24,18 @@ TEST(Film, ShowsTilesThatAreDone) {
   EXPECT_EQ(film.layer(0).at(Film::kTileSize + 4, 2), Color(Film::kTileSize + 4));
 }
 
+TEST(Film, IsNotCopiedOnceItIsComplete) {
+  Film film(Film::kTileSize + 5, 3);
+  for (int x = 0; x < film.width(); ++x) film.set(x, 1, Color(x));
+  for (std::int64_t tile = 0; tile < film.tiles(); ++tile) {
+    film.markDone(tile);
+    film.withPicture([&](const Picture& one) {
+      EXPECT_EQ(one, film.picture());
+      film.withPicture([&](const Picture& other) { EXPECT_EQ(&one == &other, film.complete()); });
+    });
+  }
+}
+
 TEST(Film, KeepsNoLayersUnasked) { EXPECT_EQ(Film(4, 4).layers(), 0u); }
 
 }  // namespace
