@@ -146,9 +146,11 @@ TEST(Explain, TheDrawingShowsEveryColourOfItsRays) {
     const auto pixels = std::count(picture.pixels.begin(), picture.pixels.end(), color);
     EXPECT_GT(pixels, 150) << look(segment.looks).name;  // the legend has 90
   }
-  const std::string svg = toSvg(drawing);
+  std::string svg = toSvg(drawing);
   EXPECT_EQ(svg.find("<svg "), 0u);
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+  for (std::size_t at; (at = svg.find("base64,")) != std::string::npos;)  // holds any three letters by chance
+    svg.erase(at, svg.find('"', at) - at);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
