@@ -13,8 +13,9 @@ using simd::Float4;
 
 constexpr std::size_t kMostBins = 32;     // fewer where there are few items: most time goes into small nodes
 constexpr std::uint32_t kFew = 16;        // so few items are sorted, and every plane between them is tried
-constexpr int kDepthOfHeuristic = 48;     // deeper, nodes are halved by count: 28 more levels hold 2^32 items
+constexpr int kDepthOfHeuristic = 48;     // deeper, nodes are halved by count
 constexpr std::uint32_t kSubtree = 8192;  // items that one thread takes at a time
+static_assert(kMostDepthBuilt == kDepthOfHeuristic + 28 + kFew - 1);  // 28 times halved, 2^32 are few
 
 /// Three boxes, one in each lane, coordinate by coordinate.
 struct ThreeBoxes {
@@ -100,11 +101,6 @@ class BinaryTree {
   bool staysLeaf(const Bounds& box, std::uint32_t count, const Split& split) const {
     const float area = box.halfArea();
     return count <= leafSize_ && !(area * kCostOfNode + split.cost < area * leafCost(count, leafSize_));
-  }
-
-  static void set(Branch& branch, const Bounds& box, std::uint32_t first, std::uint32_t count) {
-    box.low.store(branch.low), box.high.store(branch.high);
-    branch.first = first, branch.count = count;
   }
 
   void branch(std::vector<Branch>& tree, std::uint32_t index, std::uint32_t first, std::uint32_t count,
@@ -234,7 +230,11 @@ void BinaryTree::few(std::vector<Branch>& tree, std::uint32_t index, std::uint32
       few.order[axis][static_cast<std::size_t>(number[axis])] = static_cast<std::uint8_t>(i);
   }
   fewBranch(tree, index, few, 0, count, box, first);
-  for (std::uint32_t i = 0; i < count; ++i) some[i].item = names[few.order[0][i]];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint8_t old = few.order[0][i];
+    few.box[old].low.store(some[i].low), few.box[old].high.store(some[i].high);
+    some[i].item = names[old];
+  }
 }
 
 /// Builds tree[index] and what is below of the items at begin, ... in the orders.

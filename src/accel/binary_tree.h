@@ -29,11 +29,19 @@ inline Bounds boxOf(const Branch& branch) {
   return {simd::Float4::loadThree(branch.low), simd::Float4::loadThree(branch.high)};
 }
 
+inline void set(Branch& branch, const Bounds& box, std::uint32_t first, std::uint32_t count) {
+  box.low.store(branch.low), box.high.store(branch.high);
+  branch.first = first, branch.count = count;
+}
+
 /// What visiting a node costs, and a leaf, whose items are tested so many at a time.
 inline constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;
 inline float leafCost(std::uint32_t count, std::uint32_t leafSize) {
   return kCostOfLeaf * static_cast<float>((count + leafSize - 1) / leafSize);
 }
+
+/// No item lies deeper.
+inline constexpr int kMostDepthBuilt = 91;
 
 /// The tree, its root first, parents before their children, over items that are put in the order of the
 /// leaves; these hold up to leafSize of them. Their boxes are finite. The same for any number of threads; 0

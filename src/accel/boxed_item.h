@@ -13,7 +13,7 @@ struct alignas(16) BoxedItem {
   float low[3];
   std::uint32_t item;
   float high[3];
-  float note = 0;  ///< for whoever makes the item; the tree leaves it alone
+  float note = 0;  ///< for whoever makes the item, until the tree is built
 };
 
 inline float floatBelow(Real x) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "accel/binary_tree.h"
+#include "accel/reinsertion.h"
 
 namespace trace {
 
@@ -34,8 +35,9 @@ struct Bvh::Builder {
   struct Forests {
     std::array<float, 8> cost;
     std::array<std::uint8_t, 9> left;
+    float itemArea;  ///< of the boxes of all items
   };
-  std::vector<Forests> forests{};  ///< of inner branches: children come in pairs behind the root
+  std::vector<Forests> forests = std::vector<Forests>(branches.size() / 2);  ///< of inner branches, by pairs
   Forests& forestsOf(const Branch& inner) { return forests[inner.first / 2]; }
   std::array<float, 8> costsOf(const Branch& b) {
     if (b.count == 0) return forestsOf(b).cost;
@@ -44,36 +46,47 @@ struct Bvh::Builder {
     return costs;
   }
 
+  float itemArea(const Branch& b) {
+    if (b.count == 0) return forestsOf(b).itemArea;
+    float sum = 0;
+    for (const BoxedItem& item : items.subspan(b.first, b.count)) sum += boxOf(item).halfArea();
+    return sum;
+  }
+  /// How full of items the box is: the likelier a ray that meets the one ends at the others.
+  float density(const Branch& b) {
+    const float density = itemArea(b) / boxOf(b).halfArea();
+    return density >= 0 ? density : 0;  // 0 / 0 is a point
+  }
+
   /// Ylitie, Karras and Laine 2017, Efficient incoherent ray traversal on GPUs through compressed wide BVHs,
-  /// section 3: from the leaves up, the cheapest forest of each size.
-  void planCollapse() {
-    forests.resize(branches.size() / 2);
-    for (std::size_t i = branches.size(); i-- > 0;) {  // children lie behind their parents
-      const Branch& b = branches[i];
-      if (b.count > 0) continue;
-      Forests& f = forestsOf(b);
-      const std::array<float, 8> left = costsOf(branches[b.first]), right = costsOf(branches[b.first + 1]);
-      const auto parted = [&](std::uint8_t into) {
-        float best = Bounds::kFar;
-        for (std::uint8_t k = 1; k < into; ++k) {
-          const float cost = left[k] + right[into - k];
-          if (k == 1 || cost < best) best = cost, f.left[into] = k;
-        }
-        return best;
-      };
-      f.cost[1] = boxOf(b).halfArea() * kCostOfNode + parted(8);
-      for (std::uint8_t into = 2; into < 8; ++into) {
-        f.cost[into] = parted(into);
-        if (f.cost[into - 1] <= f.cost[into]) f.cost[into] = f.cost[into - 1], f.left[into] = 0;
+  /// section 3: from the leaves up, the cheapest forest of each size. For a branch and all below.
+  void planCollapse(std::uint32_t index) {
+    const Branch& b = branches[index];
+    if (b.count > 0) return;
+    planCollapse(b.first), planCollapse(b.first + 1);
+    Forests& f = forestsOf(b);
+    const std::array<float, 8> left = costsOf(branches[b.first]), right = costsOf(branches[b.first + 1]);
+    const auto parted = [&](std::uint8_t into) {
+      float best = Bounds::kFar;
+      for (std::uint8_t k = 1; k < into; ++k) {
+        const float cost = left[k] + right[into - k];
+        if (k == 1 || cost < best) best = cost, f.left[into] = k;
       }
+      return best;
+    };
+    f.itemArea = itemArea(branches[b.first]) + itemArea(branches[b.first + 1]);
+    f.cost[1] = boxOf(b).halfArea() * kCostOfNode + parted(8);
+    for (std::uint8_t into = 2; into < 8; ++into) {
+      f.cost[into] = parted(into);
+      if (f.cost[into - 1] <= f.cost[into]) f.cost[into] = f.cost[into - 1], f.left[into] = 0;
     }
   }
 
-  /// The children of a node: branches, and how large they are.
+  /// The children of a node: branches, and how dense they are.
   struct Children {
     struct Child {
       std::uint32_t branch;
-      float area;
+      float density;
     };
     std::array<Child, 8> all;
     std::size_t count = 0;
@@ -84,7 +97,7 @@ struct Bvh::Builder {
     const Branch& b = branches[index];
     while (most > 1 && b.count == 0 && forestsOf(b).left[most] == 0) --most;
     if (most == 1 || b.count > 0) {
-      children.all[children.count++] = {index, boxOf(b).halfArea()};
+      children.all[children.count++] = {index, density(b)};
       return;
     }
     const std::uint8_t left = forestsOf(b).left[most];
@@ -96,9 +109,9 @@ struct Bvh::Builder {
   std::uint32_t collapse(std::uint32_t index) {
     Children children;
     addForest(index, 8, children);
-    // Larger ones first, in the order in which a query for any hit takes the lanes: see traverse().
+    // Denser ones first, in the order in which a query for any hit takes the lanes: see traverse().
     const std::span some(children.all.begin(), children.count);
-    std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.area < b.area; });
+    std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.density < b.density; });
     std::rotate(some.begin(), some.end() - 1, some.end());
     const auto number = static_cast<std::uint32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();
@@ -158,12 +171,13 @@ void Bvh::build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, 
     extent_.low[axis] = whole.low[axis] - pad, extent_.high[axis] = whole.high[axis] + pad;
 
   const std::uint32_t leafSize = leaves == Leaves::single ? 1 : kLeafSize;
-  const std::vector<Branch> branches = binaryTree(items, leafSize, threads);
+  std::vector<Branch> branches = binaryTree(items, leafSize, threads);
+  reinsertLargeBranches(branches);
   Builder builder{items, branches, leafSize, simd::Float4::all(floatAbove(pad)), *this};
   const std::size_t leafCount = (branches.size() + 1) / 2;
   items_.reserve(leafCount * leafSize);
   nodes_.reserve(leafCount / 4 + 1);  // most nodes have more children; what is not written takes no memory
-  builder.planCollapse();
+  builder.planCollapse(0);
   builder.collapse(0);
 }
 

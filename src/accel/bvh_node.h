@@ -9,7 +9,7 @@ namespace trace {
 
 /// Eight children: their boxes, lane by lane, and what they are.
 struct alignas(32) BvhNode {
-  static constexpr int kMostDepth = 96;                ///< of any tree
+  static constexpr int kMostDepth = 160;               ///< of any tree
   static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
 
   float plane[3][2][8];    ///< axis, low or high, lane; an empty lane has low > high

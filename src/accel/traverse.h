@@ -105,8 +105,8 @@ inline Pending pending(float near, std::uint32_t child) {
 }
 
 /// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
-/// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else those of larger area
-/// first, which the builder has put into the lanes 0, 7, 6, ... of a node.
+/// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
+/// that are fullest of items, which the builder has put into the lanes 0, 7, 6, ... of a node.
 template <bool kNearestFirst, class VisitLeaf>
 [[gnu::always_inline]] inline void traverse(const BvhNode* nodes, Leaves leaves, const SlabRay& ray,
                                             float limit, NodeCount& visited, const VisitLeaf& visit) {
