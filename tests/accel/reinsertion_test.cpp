@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -18,10 +18,10 @@ struct Tree {
 };
 
 /// Of boxes that box(i) makes.
-Tree treeOf(int count, const std::function<Box3(int)>& box, int threads = 1) {
+Tree treeOf(int count, const std::function<Box3(int)>& box) {
   Tree tree;
   for (int i = 0; i < count; ++i) tree.items.push_back(boxedItem(box(i), static_cast<std::uint32_t>(i)));
-  tree.branches = binaryTree(tree.items, 4, threads);
+  tree.branches = binaryTree(tree.items, 4, 1);
   return tree;
 }
 
@@ -83,24 +83,24 @@ TEST(Reinsertion, LeavesAScanAlone) {
 TEST(Reinsertion, OddBoxes) {
   Random random(3);
   const std::vector<std::function<Box3(int)>> odd{
-      [](int) {
-        return Box3{{-1, -1, -1}, {1, 1, 1}};
+      [&](int) {
+        return boxAt({}, {1, 1, 1});
       },
-      [](int) {
-        return Box3{{2, 2, 2}, {2, 2, 2}};
+      [&](int) {
+        return boxAt({2, 2, 2}, {});
       },
-      [](int i) {
-        return Box3{{0, 0, 0}, Vec3{1, 1, 1} * std::pow(10.0, i / 60.0 - 30)};
-      },
-      [](int i) {
+      [&](int i) {
         return boxAt({}, Vec3{1, 1, 1} * i);
-      },  // each in the next
-      [](int i) {
-        return boxAt({1.0 * i, 0, 0}, {0, 1, 0});
-      },  // without volume
-      [](int i) {
-        return boxAt({1.0 * i, 1.0 * i, 0}, {0, 0, 0});
-      },  // points
+      },
+      [&](int i) {
+        return boxAt({}, Vec3{1, 1, 1} * std::pow(10.0, i / 60.0 - 30));
+      },
+      [&](int i) {
+        return boxAt(Vec3{1, 0, 0} * i, {0, 1, 0});
+      },
+      [&](int i) {
+        return boxAt(Vec3{1, 1, 0} * i, {});
+      },
       [&](int) { return boxAt(random.inCube(1), random.inCube(20)); },
       [&](int i) { return boxAt(random.inCube(1), random.inCube(i % 2 ? 20 : 1e-6)); }};
   for (const auto& box : odd)
