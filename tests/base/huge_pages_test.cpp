@@ -1,0 +1,45 @@
+#include "base/huge_pages.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace trace {
+namespace {
+
+using Pages = HugePages<std::uint64_t>;
+
+std::size_t placeInPage(const void* p) { return reinterpret_cast<std::uintptr_t>(p) % Pages::kPage; }
+
+TEST(HugePages, LargeArraysAreWholePagesAndSmallOnesAreNot) {
+  HugeVector<std::uint64_t> small(10), large(Pages::kLeast / 8), odd(Pages::kLeast / 8 + 1);
+#if defined(__linux__)
+  EXPECT_EQ(placeInPage(large.data()), 0u);
+  EXPECT_EQ(placeInPage(odd.data()), 0u);
+#endif
+  EXPECT_EQ(large.front(), 0u);
+  odd.back() = 7;  // in a page of its own
+  EXPECT_EQ(odd.back(), 7u);
+  EXPECT_EQ(small.size(), 10u);
+}
+
+TEST(HugePages, GrowthAndCopiesKeepWhatIsThere) {
+  HugeVector<std::uint64_t> grown;
+  for (std::uint64_t i = 0; i < 3 * Pages::kLeast / 8; ++i) grown.push_back(i);
+  const HugeVector<std::uint64_t> copy = grown;
+  grown.clear(), grown.shrink_to_fit();
+  std::uint64_t expected = 0;
+  for (const std::uint64_t value : copy) ASSERT_EQ(value, expected++);
+}
+
+TEST(HugePages, MemoryIsGivenBack) {
+  for (int i = 0; i < 150'000; ++i)
+    HugeVector<char>().reserve(std::size_t{1} << 30);  // together more than addresses
+}
+
+TEST(HugePages, MoreThanThereIsThrows) {
+  EXPECT_THROW(HugeVector<char>().reserve(std::size_t{1} << 60), std::bad_alloc);
+}
+
+}  // namespace
+}  // namespace trace
