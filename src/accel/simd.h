@@ -78,10 +78,6 @@ inline Float4 step(Float4 edge, Float4 x) { return {_mm_and_ps(_mm_cmple_ps(edge
 /// y z x, and the fourth lane stays.
 inline Float4 rotate(Float4 a) { return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(3, 0, 2, 1))}; }
 inline float first(Float4 a) { return _mm_cvtss_f32(a.v); }
-template <int kLane>
-Float4 spread(Float4 a) {
-  return {_mm_shuffle_ps(a.v, a.v, kLane * 0x55)};
-}
 /// The x, the y and the z of all four.
 inline void transpose(Float4 a, Float4 b, Float4 c, Float4 d, Float4* out) {
   const __m128 ab = _mm_unpacklo_ps(a.v, b.v), cd = _mm_unpacklo_ps(c.v, d.v);
@@ -102,17 +98,26 @@ struct Float8 {
   __m256 v;
   static Float8 load(const float* p) { return {_mm256_load_ps(p)}; }
   static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
-  static Float8 twice(Float4 a) { return {_mm256_set_m128(a.v, a.v)}; }
   void store(float* p) const {
     _mm_store_ps(p, _mm256_castps256_ps128(v)), _mm_store_ps(p + 4, _mm256_extractf128_ps(v, 1));
   }
 };
+/// A lane of four in all eight.
+template <int kLane>
+Float8 spread(Float4 a) {
+  if constexpr (kLane == 0)
+    return {_mm256_broadcastss_ps(a.v)};
+  else
+    return {_mm256_permutevar8x32_ps(_mm256_castps128_ps256(a.v), _mm256_set1_epi32(kLane))};
+}
 inline Float8 timesMinus(Float8 a, Float8 b, Float8 c) { return {_mm256_fmsub_ps(a.v, b.v, c.v)}; }
 inline Float8 min(Float8 a, Float8 b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline Float8 max(Float8 a, Float8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline unsigned lessEqual(Float8 a, Float8 b) {
 #if defined(__AVX512VL__)
-  return _mm256_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ);
+  unsigned mask;  // all of it is defined, but GCC clears the upper bits of an 8-bit mask once more
+  __asm__("kmovw %1, %0" : "=r"(mask) : "k"(_mm256_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)));
+  return mask;
 #else
   return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
 #endif
@@ -152,9 +157,13 @@ struct Float8 {
   __m128 lo, hi;
   static Float8 load(const float* p) { return {_mm_load_ps(p), _mm_load_ps(p + 4)}; }
   static Float8 all(float x) { return {_mm_set1_ps(x), _mm_set1_ps(x)}; }
-  static Float8 twice(Float4 a) { return {a.v, a.v}; }
   void store(float* p) const { _mm_store_ps(p, lo), _mm_store_ps(p + 4, hi); }
 };
+template <int kLane>
+Float8 spread(Float4 a) {
+  const __m128 lanes = _mm_shuffle_ps(a.v, a.v, kLane * 0x55);
+  return {lanes, lanes};
+}
 inline Float8 timesMinus(Float8 a, Float8 b, Float8 c) {
   return {_mm_sub_ps(_mm_mul_ps(a.lo, b.lo), c.lo), _mm_sub_ps(_mm_mul_ps(a.hi, b.hi), c.hi)};
 }
@@ -223,11 +232,6 @@ struct Lanes {
   static Lanes widen(const float* p) { return load(p); }
   static Lanes narrow(double x, double y, double z) {
     return {static_cast<T>(x), static_cast<T>(y), static_cast<T>(z), static_cast<T>(z)};
-  }
-  static Lanes twice(const Lanes<T, N / 2>& a) {
-    Lanes r;
-    for (int i = 0; i < N; ++i) r.v[i] = a.v[i % (N / 2)];
-    return r;
   }
   void storeWhole(int* p) const {
     for (int i = 0; i < N; ++i) p[i] = static_cast<int>(v[i]);
@@ -328,9 +332,9 @@ template <class T>
 T first(const Lanes<T, 4>& a) {
   return a.v[0];
 }
-template <int kLane, class T, int N>
-Lanes<T, N> spread(const Lanes<T, N>& a) {
-  return Lanes<T, N>::all(a.v[kLane]);
+template <int kLane, class T>
+Lanes<T, 8> spread(const Lanes<T, 4>& a) {
+  return Lanes<T, 8>::all(a.v[kLane]);
 }
 template <class T, int N>
 Lanes<T, N> timesPlus(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c) {

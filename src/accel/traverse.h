@@ -115,12 +115,11 @@ template <bool kNearestFirst, class VisitLeaf>
 
   // t of a plane at p: p inverse - shift
   const Float4 shifts = ray.origin * ray.inverse;
-  const Float8 inverse[3] = {Float8::twice(spread<0>(ray.inverse)), Float8::twice(spread<1>(ray.inverse)),
-                             Float8::twice(spread<2>(ray.inverse))};
-  const Float8 shift[3] = {Float8::twice(spread<0>(shifts)), Float8::twice(spread<1>(shifts)),
-                           Float8::twice(spread<2>(shifts))};
-  // Where the planes that the ray meets first lie in a node, in floats.
-  const unsigned backward = signs(ray.inverse);
+  const Float8 inverse[3] = {spread<0>(ray.inverse), spread<1>(ray.inverse), spread<2>(ray.inverse)};
+  const Float8 shift[3] = {spread<0>(shifts), spread<1>(shifts), spread<2>(shifts)};
+  // Where the planes that the ray meets first lie in a node, in floats. (The signs of the inverse are the
+  // same, but a division later.)
+  const unsigned backward = signs(ray.direction);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
   std::uint32_t next = 0;
   for (;;) {
