@@ -15,6 +15,7 @@ struct Bounds {
   simd::Float4 low = simd::Float4::all(kFar), high = simd::Float4::all(-kFar);
 
   void extend(const Bounds& b) { low = min(low, b.low), high = max(high, b.high); }
+  bool inside(const Bounds& b) const { return (lessEqual(b.low, low) & lessEqual(high, b.high) & 7) == 7; }
   float halfArea() const {
     const simd::Float4 size = high - low, products = size * rotate(size);
     return first(products + rotate(products) + rotate(rotate(products)));

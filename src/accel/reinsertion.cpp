@@ -7,8 +7,9 @@
 namespace trace {
 namespace {
 
-constexpr float kShares[] = {1e-2f, 1e-3f};  // of the whole's area: first so large branches, then those too
-constexpr double kPays = 0.99;               // on only if no more than this is left of the inner boxes' areas
+// Of the whole's area: first so large branches, then smaller ones too.
+constexpr float kShares[] = {1e-2f, 1e-3f, 3e-4f};
+constexpr double kPays = 0.99;  // on only if no more than this is left of the inner boxes' areas
 
 // Where many large boxes lie in one place a search would go through them all: so it costs 70 ms at most.
 constexpr std::size_t kMostNodes = 1 << 14;
@@ -88,16 +89,19 @@ class Top {
     if (branch.count == 0) parents_[branch.first / 2] = place;
   }
 
-  /// Boxes and heights from an inner node up; returns how much area they lose.
+  /// Boxes and heights from an inner node up, as far as they change; returns how much area they lose.
   float fit(std::uint32_t place) {
     float lost = 0;
     for (;; place = parents_[place / 2]) {
       Branch& node = nodes_[place];
+      const Bounds before = boxOf(node);
       Bounds box = boxOf(nodes_[node.first]);
       box.extend(boxOf(nodes_[node.first + 1]));
-      lost += area(place) - box.halfArea();
+      const int height = 1 + std::max(heights_[node.first], heights_[node.first + 1]);
+      if (box.inside(before) && before.inside(box) && height == heights_[place]) return lost;
+      lost += before.halfArea() - box.halfArea();
       set(node, box, node.first, 0);
-      heights_[place] = 1 + std::max(heights_[node.first], heights_[node.first + 1]);
+      heights_[place] = height;
       if (place == 0) return lost;
     }
   }
@@ -109,7 +113,10 @@ class Top {
     const float own = box.halfArea();
     waiting_.assign(1, {0, 0, 0});
     for (int looks = 0; !waiting_.empty() && looks < kMostLooks; ++looks) {
-      const auto [grown, place, depth] = waiting_.back();
+      const Waiting& next = waiting_.back();  // one by one, as they were written: a copy would wait for them
+      const float grown = next.grown;
+      const std::uint32_t place = next.place;
+      const int depth = next.depth;
       waiting_.pop_back();
       if (!(grown + own < most)) continue;
       Bounds both = boxOf(nodes_[place]);

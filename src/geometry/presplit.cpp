@@ -129,8 +129,7 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
   for (std::size_t i = 0; i < wholes; ++i) {
     const Grid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
     const Real empty = Real{parts[i].note} * parts[i].note;
-    const float gain =
-        cut.axis < 0 ? 0 : std::pow(static_cast<float>(empty * share * (1 << cut.bit)), 1 / 3.0f);
+    const float gain = cut.axis < 0 ? 0 : std::cbrt(static_cast<float>(empty * share * (1 << cut.bit)));
     parts[i].note = gain, allGains += gain;
   }
   if (!(allGains > 0)) return parts;
