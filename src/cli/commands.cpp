@@ -79,8 +79,10 @@ std::string_view chosenFormat(const Arguments& arguments, std::string_view comma
     if (arguments.format == name) return name;
   std::string expected;
   for (std::string_view name : known) expected += (expected.empty() ? "" : " | ") + std::string(name);
-  throw Error(Fault::usage, "ray " + std::string(command) + " --format: expected " + expected + ", found \"" +
-                                arguments.format + "\"");
+  throw Error(Fault::usage,
+              "ray " + std::string(command) + " --format: expected " + expected + ", found \"" +
+                  arguments.format + "\"",
+              didYouMean(arguments.format, known));
 }
 
 std::span<const Command> commands() {

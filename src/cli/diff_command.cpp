@@ -106,13 +106,14 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 2)
     throw Error(Fault::usage,
                 "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
+  const bool json = chosenFormat(arguments, "diff", kFormats) == "json";
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
                                          {arguments.tolerance, arguments.pixelsPerDegree});
-  printResult(chosenFormat(arguments, "diff", kFormats) == "json" ? diffJson(d, arguments)
-              : arguments.printed.empty()                         ? diffText(d, arguments)
-                                                                  : printed(d, arguments));
+  printResult(json                        ? diffJson(d, arguments)
+              : arguments.printed.empty() ? diffText(d, arguments)
+                                          : printed(d, arguments));
   if (!d.numbers.sameSize) return Finding::sizesDiffer;
   if (!arguments.output.empty()) {
     writePicture(arguments.output, arguments.show->picture(d.pictures(), arguments.magnify),

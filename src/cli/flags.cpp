@@ -257,10 +257,7 @@ std::span<const Flag> flags() {
            [](Arguments& a, std::string_view value) { a.sample = value; }},
       Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info bench explain lint diff grade", true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
-           [](Arguments& a, std::string_view value) {
-             constexpr std::array<std::string_view, 5> kNames{"text", "json", "obj", "svg", "png"};
-             a.format = kNames[pick("format", value, kNames)];
-           }},
+           [](Arguments& a, std::string_view value) { a.format = value; }},  // each command knows its own
       Flag{"markdown", 0, Takes::nothing, "", "", "features", false, "print docs/options.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
       Flag{"print-defaults", 0, Takes::nothing, "", "", "render", false,

@@ -60,6 +60,21 @@ TEST_F(Cli, PassesLieBesideThePicture) {
   EXPECT_TRUE(contains(run({"white.ray", "-w", "8", "--passes", "depht"}).err, "did you mean \"depth\"?"));
 }
 
+TEST_F(Cli, EachCommandNamesItsOwnFormats) {
+  const auto said = [&](const std::string& command, const std::string& format) {
+    std::vector<std::string> words{command, "white.ray", "--format", format};
+    if (command == "explain") words.insert(words.end(), {"--pixel", "0,0"});
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 2) << command;
+    return r.err;
+  };
+  for (const char* command : {"info", "bench", "lint"})
+    EXPECT_TRUE(contains(said(command, "svg"),
+                         "ray " + std::string(command) + " --format: expected text | json, found \"svg\""));
+  EXPECT_TRUE(contains(said("explain", "vsg"), "expected text | json | obj | svg | png, found \"vsg\""));
+  EXPECT_TRUE(contains(said("explain", "vsg"), "did you mean \"svg\"?"));
+}
+
 TEST_F(Cli, CoursesFlagsAreOptions) {
   const auto settings = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"white.ray", "-w", "8", "--stats=json"});
