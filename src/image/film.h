@@ -20,14 +20,14 @@ struct Tile {
 
 class Film {
  public:
-  /// A constant: the tile, not the thread, selects the work (same picture for any number of threads).
-  static constexpr int kTileSize = 32;
+  static constexpr int kTileSize = 32;  ///< in pixels, of a side
 
   /// With one layer for each of `blank`, of that value wherever nothing is rendered.
-  explicit Film(int width, int height, std::span<const Color> blank = {})
+  explicit Film(int width, int height, std::span<const Color> blank = {}, int tileSize = kTileSize)
       : picture_(width, height),
-        columns_((width + kTileSize - 1) / kTileSize),
-        rows_((height + kTileSize - 1) / kTileSize),
+        tileSize_(tileSize),
+        columns_((width + tileSize - 1) / tileSize),
+        rows_((height + tileSize - 1) / tileSize),
         done_(std::make_unique<std::atomic<bool>[]>(static_cast<std::size_t>(tiles()))) {
     for (const Color& color : blank) layers_.push_back({filled(color), color});
   }
@@ -36,9 +36,9 @@ class Film {
   int height() const { return picture_.height; }
   std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
   Tile tile(std::int64_t index) const {
-    const int x = static_cast<int>(index % columns_) * kTileSize,
-              y = static_cast<int>(index / columns_) * kTileSize;
-    return {x, y, std::min(x + kTileSize, width()), std::min(y + kTileSize, height())};
+    const int x = static_cast<int>(index % columns_) * tileSize_,
+              y = static_cast<int>(index / columns_) * tileSize_;
+    return {x, y, std::min(x + tileSize_, width()), std::min(y + tileSize_, height())};
   }
 
   /// Each pixel is set by the one worker that has its tile, before that tile is marked done.
@@ -97,7 +97,7 @@ class Film {
 
   Picture picture_;
   std::vector<Layer> layers_;
-  int columns_, rows_;
+  int tileSize_, columns_, rows_;
   std::unique_ptr<std::atomic<bool>[]> done_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "image/false_color.h"
 #include "math/box.h"
+#include "render/render.h"
 
 namespace trace {
 namespace {
@@ -107,7 +108,12 @@ std::vector<const PassRow*> passesOf(const Settings& settings) {
 Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Color> blank;
   for (const PassRow* row : passesOf(settings)) blank.push_back(row->background);
-  return Film(width, height, blank);
+  // Who stops a render waits for the tiles in work, and who watches it hears of tiles: so none has too much.
+  constexpr std::int64_t kMostSamples = 1 << 16;
+  const std::int64_t samples = std::int64_t{gridSize(settings)} * gridSize(settings);
+  int tileSize = Film::kTileSize;
+  while (tileSize > 1 && tileSize * tileSize * samples > kMostSamples) tileSize /= 2;
+  return Film(width, height, blank, tileSize);
 }
 
 }  // namespace trace

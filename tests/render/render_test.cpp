@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "render/integrator.h"
+#include "render/passes.h"
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -149,6 +150,27 @@ TEST(Render, StopsWhenCancelledOrOutOfTime) {
     EXPECT_GT(job.done, 0);
     EXPECT_LT(job.fraction(), 1);
   }
+}
+
+TEST(Render, TilesAreSmallWherePixelsHaveManySamplesAndMeanNothing) {
+  Settings settings{.width = 64, .spp = 1};
+  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 4);
+  settings.spp = 64;
+  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 4);
+  settings.spp = 256;
+  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 16);
+  settings.spp = 65536;
+  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 64 * 64);
+
+  Random random(8);
+  const World world = build(randomScene(random, 15));
+  settings = {.width = 45, .height = 45, .spp = 4};
+  Film large(45, 45), small(45, 45, {}, 2);
+  Job one, other;
+  render(world, settings, large, one);
+  render(world, settings, small, other);
+  EXPECT_TRUE(small.complete());
+  EXPECT_TRUE(sameBits(large.picture(), small.picture()));
 }
 
 TEST(Render, SupersampledPictureIsTheMeanOfTheGrid) {
