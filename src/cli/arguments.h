@@ -4,6 +4,7 @@
 // THE options table (scene/options.h); the others from the table in flags.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,10 @@ struct Arguments {
   Conversion conversion;
   bool strict = false;
   bool quick = false;
-  std::string format;     ///< --format; may be empty
-  std::string pixel;      ///< explain: --pixel, as typed
-  std::string sample;     ///< explain: --sample, as typed
-  bool markdown = false;  ///< features: as docs/options.md
+  std::optional<std::string> format;  ///< --format
+  std::string pixel;                  ///< explain: --pixel, as typed
+  std::string sample;                 ///< explain: --sample, as typed
+  bool markdown = false;              ///< features: as docs/options.md
   // diff and grade
   double tolerance = 0;  ///< levels or values
   std::vector<Limit> limits;

@@ -74,15 +74,15 @@ void checkDistinct(const std::string& read, const std::string& written) {
 
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
                               std::span<const std::string_view> known) {
-  if (arguments.format.empty()) return known.front();
+  if (!arguments.format) return known.front();
   for (std::string_view name : known)
     if (arguments.format == name) return name;
   std::string expected;
   for (std::string_view name : known) expected += (expected.empty() ? "" : " | ") + std::string(name);
   throw Error(Fault::usage,
               "ray " + std::string(command) + " --format: expected " + expected + ", found \"" +
-                  arguments.format + "\"",
-              didYouMean(arguments.format, known));
+                  *arguments.format + "\"",
+              didYouMean(*arguments.format, known));
 }
 
 std::span<const Command> commands() {

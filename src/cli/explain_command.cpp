@@ -41,7 +41,7 @@ std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text
 /// As chosen, or by the suffix of the file to write. Throws Error(Fault::usage) for one that promises
 /// something else, such as .jpg.
 std::string_view formatOf(const Arguments& arguments) {
-  if (!arguments.format.empty()) return chosenFormat(arguments, "explain", kFormats);
+  if (arguments.format) return chosenFormat(arguments, "explain", kFormats);
   const std::string suffix = std::filesystem::path(arguments.output).extension().string();
   for (std::string_view format : kFormats)
     if (suffix == "." + std::string(format)) return format;

@@ -71,6 +71,7 @@ TEST_F(Cli, EachCommandNamesItsOwnFormats) {
   for (const char* command : {"info", "bench", "lint"})
     EXPECT_TRUE(contains(said(command, "svg"),
                          "ray " + std::string(command) + " --format: expected text | json, found \"svg\""));
+  EXPECT_TRUE(contains(said("info", ""), "expected text | json, found \"\""));
   EXPECT_TRUE(contains(said("explain", "vsg"), "expected text | json | obj | svg | png, found \"vsg\""));
   EXPECT_TRUE(contains(said("explain", "vsg"), "did you mean \"svg\"?"));
 }
