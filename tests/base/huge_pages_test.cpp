@@ -11,8 +11,8 @@ using Pages = HugePages<std::uint64_t>;
 
 std::size_t placeInPage(const void* p) { return reinterpret_cast<std::uintptr_t>(p) % Pages::kPage; }
 
-TEST(HugePages, LargeArraysAreWholePagesAndSmallOnesAreNot) {
-  HugeVector<std::uint64_t> small(10), large(Pages::kLeast / 8), odd(Pages::kLeast / 8 + 1);
+TEST(HugePages, LargeArraysAreWholePages) {
+  HugeVector<std::uint64_t> large(Pages::kLeast / 8), odd(Pages::kLeast / 8 + 1);
 #if defined(__linux__)
   EXPECT_EQ(placeInPage(large.data()), 0u);
   EXPECT_EQ(placeInPage(odd.data()), 0u);
@@ -20,7 +20,6 @@ TEST(HugePages, LargeArraysAreWholePagesAndSmallOnesAreNot) {
   EXPECT_EQ(large.front(), 0u);
   odd.back() = 7;  // in a page of its own
   EXPECT_EQ(odd.back(), 7u);
-  EXPECT_EQ(small.size(), 10u);
 }
 
 TEST(HugePages, GrowthAndCopiesKeepWhatIsThere) {

@@ -152,7 +152,7 @@ TEST(Render, StopsWhenCancelledOrOutOfTime) {
   }
 }
 
-TEST(Render, TilesAreSmallWherePixelsHaveManySamplesAndMeanNothing) {
+TEST(Render, TilesAreSmallWherePixelsHaveManySamples) {
   Settings settings{.width = 64, .spp = 1};
   EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 4);
   settings.spp = 64;
@@ -161,10 +161,12 @@ TEST(Render, TilesAreSmallWherePixelsHaveManySamplesAndMeanNothing) {
   EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 16);
   settings.spp = 65536;
   EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 64 * 64);
+}
 
+TEST(Render, SameBitsForAnySizeOfTiles) {
   Random random(8);
   const World world = build(randomScene(random, 15));
-  settings = {.width = 45, .height = 45, .spp = 4};
+  const Settings settings = {.width = 45, .height = 45, .spp = 4};
   Film large(45, 45), small(45, 45, {}, 2);
   Job one, other;
   render(world, settings, large, one);
