@@ -57,8 +57,15 @@ TEST_F(Stop, CtrlCKeepsThePart) {
 }
 
 TEST_F(Stop, CtrlCTwiceEndsAtOnce) {
-  // Tiles of many seconds: only the second signal ends this soon.
-  Program program(folder(), {"white.ray", "out.png", "-w", "100", "--spp", "65536", "--progress=json"});
+  // One tile of years, as two panes of glass split each ray sixty times: only the second signal ends it.
+  write("panes.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }
+point_light { position=(0,0,5); color=(1,1,1); }
+material = { reflective=(1,1,1); transmissive=(1,1,1); index=1; }
+scale(99,99,1, box {})
+translate(0,0,-2, scale(99,99,1, box {}))
+)");
+  Program program(folder(), {"panes.ray", "out.png", "-w", "8", "-r", "60", "--progress=json"});
   ASSERT_TRUE(program.says("\"done\":"));
   program.kill(SIGINT);
   ASSERT_TRUE(program.says("Ctrl-C again"));
