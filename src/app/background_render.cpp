@@ -37,7 +37,10 @@ Picture enlarged(const Picture& small, Size size) {
   return large;
 }
 
-BackgroundRender::BackgroundRender() : thread_([this] { work(); }) {}
+BackgroundRender::BackgroundRender() {
+  coarseJob_.patience = {};
+  thread_ = std::thread([this] { work(); });
+}
 
 BackgroundRender::~BackgroundRender() {
   stop();
@@ -147,6 +150,7 @@ void BackgroundRender::work() {
 
 void BackgroundRender::run(const Request& request) {
   const auto session = std::make_shared<Session>();
+  session->job().patience = {};  // who stops it wants to see something else
   session->open(*request.scene, request.settings);
   session->build(built_.get());
   built_ = session;

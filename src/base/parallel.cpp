@@ -27,6 +27,7 @@ void parallelChunks(std::int64_t chunks, int threads, Job& job,
         work(chunk, worker);
         ++job.done;
       }
+    } catch (const GivenUp&) {  // the job is cancelled: nothing more is begun
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();

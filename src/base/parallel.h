@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -13,6 +14,7 @@ namespace trace {
 /// How the owner of a running job watches and stops it, from any thread.
 struct Job {
   std::atomic<bool> cancel{false};     ///< set to stop after the chunks now in work
+  std::chrono::seconds patience{5};    ///< for which those may go on then; set before the job begins
   std::atomic<std::int64_t> done{0};   ///< chunks finished
   std::atomic<std::int64_t> total{0};  ///< chunks in all; 0 until known
   double fraction() const {
@@ -20,6 +22,9 @@ struct Job {
     return all > 0 ? static_cast<double>(done.load()) / static_cast<double>(all) : 0.0;
   }
 };
+
+/// Thrown by a chunk that a cancelled job no longer waits for: it does not count as done.
+struct GivenUp {};
 
 /// The number of hardware threads, at least 1.
 int hardwareThreads();

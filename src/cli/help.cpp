@@ -149,9 +149,8 @@ constexpr std::string_view kExitCodes =
     "not every "
     "picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
-    "Ctrl-C or SIGTERM: finish the tiles in work, write, end; twice: end at once. SIGUSR1 or SIGHUP: write "
-    "what is "
-    "finished and go on";
+    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; twice: end "
+    "at once. SIGUSR1 or SIGHUP: write what is finished and go on";
 
 /// A table's cell: | would end it.
 std::string cell(std::string_view text) {

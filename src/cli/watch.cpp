@@ -60,8 +60,9 @@ void Watch::run() {
       case Signals::Event::stop:
         session_.job().cancel = true;
         progress_.clear();
-        console_.line(LogLevel::info,
-                      "stopping when the tiles in work are finished; Ctrl-C again stops at once");
+        console_.line(LogLevel::info, "stopping when the tiles in work are finished, in " +
+                                          std::to_string(session_.job().patience.count()) +
+                                          " s at most; Ctrl-C again stops at once");
         break;
       case Signals::Event::save: save(); break;
       case Signals::Event::none: break;

@@ -2,8 +2,9 @@
 
 namespace trace {
 
-PixelTracer::PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree)
-    : tracer_(world, settings, tree),
+PixelTracer::PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree,
+                         Tracer::Interrupt interrupt)
+    : tracer_(world, settings, tree, std::move(interrupt)),
       radiance_(integratorRow(settings.integrator).radiance),
       size_(size),
       grid_(gridSize(settings)),

@@ -31,7 +31,8 @@ class PixelMean {
 class PixelTracer {
  public:
   /// `tree`, if any, records the rays.
-  PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree = nullptr);
+  PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree = nullptr,
+              Tracer::Interrupt interrupt = {});
 
   /// How many a pixel has: the rays of its grid.
   int samples() const { return grid_ * grid_; }

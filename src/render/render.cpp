@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "render/passes.h"
@@ -15,8 +16,9 @@ namespace {
 /// Pixels of one tile, one after the other; what a worker does.
 class TileRenderer {
  public:
-  TileRenderer(const World& world, const Settings& settings, Film& film)
-      : tracer_(world, settings, {film.width(), film.height()}),
+  /// `interrupt` may throw GivenUp.
+  TileRenderer(const World& world, const Settings& settings, Film& film, Tracer::Interrupt interrupt)
+      : tracer_(world, settings, {film.width(), film.height()}, nullptr, std::move(interrupt)),
         region_(settings.region),
         film_(film),
         passes_(passesOf(settings)),
@@ -90,15 +92,22 @@ RenderResult render(const World& world, const Settings& settings, Film& film, Jo
   const Clock::time_point start = Clock::now();
   const std::chrono::duration<double> limit(settings.timeLimit);
   std::atomic<bool> late{false};
+  // Looks at the time in the midst of a tile, of which one can take hours. Each worker has a copy.
+  const auto interrupt = [&, stopping = std::optional<Clock::time_point>()]() mutable {
+    const Clock::time_point now = Clock::now();
+    if (settings.timeLimit > 0 && now - start > limit && !job.cancel.exchange(true)) late = true;
+    if (!job.cancel) return;
+    if (!stopping) stopping = now;
+    if (now - *stopping >= job.patience) throw GivenUp{};
+  };
 
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
   const auto renderTile = [&](std::int64_t chunk, int worker) {
     auto& renderer = workers[static_cast<std::size_t>(worker)];
-    if (!renderer) renderer = std::make_unique<TileRenderer>(world, settings, film);
+    if (!renderer) renderer = std::make_unique<TileRenderer>(world, settings, film, interrupt);
     renderer->render(film.tile(chunk));
     film.markDone(chunk);
-    if (settings.timeLimit > 0 && Clock::now() - start > limit) late = true, job.cancel = true;
   };
 
   RenderResult result;

@@ -40,7 +40,8 @@ int gridSize(const Settings& settings);
 
 /// Renders into `film`, which must be of pictureSize() and have a layer for each pass (makeFilm() in
 /// passes.h). Returns early when job.cancel is set or the time limit is over; tiles that were begun are
-/// finished. What is finished survives a failure too. The same bits for any number of threads.
+/// finished, unless they take longer than the job's patience. What is finished survives a failure too. The
+/// same bits for any number of threads.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

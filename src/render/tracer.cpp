@@ -23,8 +23,13 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found, Real airIndex)
       indexBefore(leaving ? material.index : airIndex),
       indexBehind(leaving ? airIndex : material.index) {}
 
+void Tracer::interrupt() {
+  untilInterrupt_ = kRaysBetweenInterrupts;
+  if (interrupt_) interrupt_();
+}
+
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
-  ++statistics_.rays[static_cast<std::size_t>(kind)];
+  count(kind);
   if (records()) begin(ray, kind, kInfinity);
   const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
@@ -54,7 +59,7 @@ bool Tracer::tooNear(const Ray& ray) const {
 }
 
 Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance) {
-  ++statistics_.rays[static_cast<std::size_t>(RayKind::shadow)];
+  count(RayKind::shadow);
   const Ray ray = from.leave(toLight);
   if (records()) begin(ray, RayKind::shadow, distance);
   const Color color = passed(ray, distance);

@@ -34,6 +34,16 @@ TEST(Parallel, CancelStopsAfterTheChunksInWork) {
   EXPECT_GE(job.done, 11);
 }
 
+TEST(Parallel, WhatIsGivenUpIsNotDone) {
+  Job job;
+  parallelChunks(4, 1, job, [&](std::int64_t i, int) {
+    if (i < 3) return;
+    job.cancel = true;
+    throw GivenUp{};
+  });
+  EXPECT_EQ(job.done, 3);
+}
+
 TEST(Parallel, ExceptionsReachTheCaller) {
   for (int threads : {1, 4}) {
     Job job;

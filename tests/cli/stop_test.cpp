@@ -20,6 +20,18 @@ class Stop : public ProgramTest {
     return more;
   }
 
+  /// Years of work in one tile: two panes of glass split each ray sixty times.
+  std::vector<std::string> endlessTile() const {
+    write("panes.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }
+point_light { position=(0,0,5); color=(1,1,1); }
+material = { reflective=(1,1,1); transmissive=(1,1,1); index=1; }
+scale(99,99,1, box {})
+translate(0,0,-2, scale(99,99,1, box {}))
+)");
+    return {"panes.ray", "out.png", "-w", "8", "-r", "60", "--progress=json"};
+  }
+
   /// The first tile is white, the last one black.
   void expectPart() const {
     const Picture picture = readPicture(path("out.png"));
@@ -56,16 +68,16 @@ TEST_F(Stop, CtrlCKeepsThePart) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(Stop, CtrlCDoesNotWaitForATileThatTakesTooLong) {
+  Program program(folder(), endlessTile());
+  ASSERT_TRUE(program.says("\"done\":"));
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 4);
+  EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: nothing written"));
+}
+
 TEST_F(Stop, CtrlCTwiceEndsAtOnce) {
-  // One tile of years, as two panes of glass split each ray sixty times: only the second signal ends it.
-  write("panes.ray", R"(SBT-raytracer 1.0
-camera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }
-point_light { position=(0,0,5); color=(1,1,1); }
-material = { reflective=(1,1,1); transmissive=(1,1,1); index=1; }
-scale(99,99,1, box {})
-translate(0,0,-2, scale(99,99,1, box {}))
-)");
-  Program program(folder(), {"panes.ray", "out.png", "-w", "8", "-r", "60", "--progress=json"});
+  Program program(folder(), endlessTile());
   ASSERT_TRUE(program.says("\"done\":"));
   program.kill(SIGINT);
   ASSERT_TRUE(program.says("Ctrl-C again"));

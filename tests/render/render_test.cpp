@@ -132,6 +132,21 @@ TEST(Render, BadSamplesAreDroppedCountedAndFound) {
   for (const Color& c : film.picture().pixels) EXPECT_EQ(c, Color(0));
 }
 
+TEST(Render, DoesNotWaitForATileThatTakesTooLong) {
+  Phong glass;
+  glass.reflective = glass.transmissive = Color(1);
+  Scene scene;  // of two panes, which split each ray sixty times: years of work
+  scene.camera.position = {0, 0, 9};
+  for (const Real z : {0.0, -2.0})
+    addObject(scene, Cube{}, Affine::translation({0, 0, z}) * Affine::scaling({99, 99, 1}), glass);
+  Film film(8, 8);
+  Job job;
+  job.patience = {};
+  const Settings settings{.width = 8, .depth = 60, .timeLimit = 0.01};
+  EXPECT_EQ(render(build(scene), settings, film, job).end, End::timeLimit);
+  EXPECT_EQ(job.done, 0);
+}
+
 TEST(Render, StopsWhenCancelledOrOutOfTime) {
   Random random(6);
   const Scene scene = randomScene(random, 30);
