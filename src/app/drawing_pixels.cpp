@@ -67,7 +67,7 @@ class Canvas {
     for (int i = 0; i < quads; ++i) {
       const auto vertex = [&](int corner, int axis) {  // 16 bytes each: x, y, z, colour
         float value = 0;
-        const char* at = buffer.data() + (i * 4 + corner) * 16 + axis * 4;
+        const char* at = &buffer[static_cast<std::size_t>((i * 4 + corner) * 16 + axis * 4)];
         std::copy(at, at + sizeof value, reinterpret_cast<char*>(&value));
         return static_cast<double>(value);
       };

@@ -169,7 +169,8 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   const double top = kMargin + 2 * kLine, right = 2 * kMargin + kPanelWidth;
   Drawing drawing;
   drawing.width = static_cast<int>(2 * kPanelWidth + 3 * kMargin);
-  drawing.height = static_cast<int>(top + height + 2 * kMargin + (kRayLooks.size() + 3) / 3 * kLine);
+  const std::size_t legendRows = (kRayLooks.size() + 3) / 3;
+  drawing.height = static_cast<int>(top + height + 2 * kMargin + static_cast<double>(legendRows) * kLine);
   const DrawnFrame whole{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)};
 
   Scene sideScene = scene;

@@ -54,8 +54,7 @@ SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& wi
     if (Corners corners = in(kept)) return corners;
     if (Corners corners = in(made_)) return kept.push_back({shape, corners}), corners;
   }
-  const auto corners =
-      std::make_shared<const std::vector<SurfaceCorner>>(tessellate(shape, kDivisions, within));
+  Corners corners = std::make_shared<const std::vector<SurfaceCorner>>(tessellate(shape, kDivisions, within));
   if (lasts) kept.push_back({shape, corners});
   return corners;
 }

@@ -1,8 +1,10 @@
 #include "cli/explain_text.h"
 
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <cstring>
 
 #include "base/text.h"
 #include "cli/console.h"
@@ -26,7 +28,8 @@ std::string exact(const Color& c) { return toText(c.r) + " " + toText(c.g) + " "
 
 bool sameBits(const Color& a, const Color& b) {
   const auto same = [](double x, double y) {
-    return std::memcmp(&x, &y, sizeof x) == 0 || (std::isnan(x) && std::isnan(y));
+    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+    return bits(x) == bits(y) || (std::isnan(x) && std::isnan(y));
   };
   return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);
 }

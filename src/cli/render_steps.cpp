@@ -46,7 +46,7 @@ std::string save(Session& session, const std::string& output, const Console& con
     console.error(error);
   }
   namespace fs = std::filesystem;
-  const std::string elsewhere = (fs::temp_directory_path() / fs::path(output).filename()).string();
+  std::string elsewhere = (fs::temp_directory_path() / fs::path(output).filename()).string();
   session.save(elsewhere);
   return elsewhere;
 }

@@ -7,6 +7,8 @@
 namespace trace::composer {
 namespace {
 
+constexpr std::size_t kWord = 4;  ///< bytes of an integer and of a float
+
 class BinaryReader {
  public:
   BinaryReader(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21)
@@ -25,8 +27,8 @@ class BinaryReader {
     v.position = vector(), v.direction = vector(), v.focalDistance = real();
     v.up = vector(), v.verticalFov = real();
     if (v.verticalFov != 0) file.view = v;
-    for (std::uint32_t n = count(12 * 4); n > 0; --n) file.lamps.push_back(lamp());
-    for (std::uint32_t n = count(3 * 4); n > 0; --n) file.objects.push_back(object());
+    for (std::uint32_t n = count(12 * kWord); n > 0; --n) file.lamps.push_back(lamp());
+    for (std::uint32_t n = count(3 * kWord); n > 0; --n) file.objects.push_back(object());
     return file;
   }
 
@@ -59,12 +61,13 @@ class BinaryReader {
   std::uint32_t count(std::size_t size) {
     const std::int32_t n = integer();
     if (n < 0 || static_cast<std::size_t>(n) > (bytes_.size() - at_) / size)
-      at_ -= 4, fail("found the number " + std::to_string(n) + " of things, more than the file has room for");
+      at_ -= kWord,
+          fail("found the number " + std::to_string(n) + " of things, more than the file has room for");
     return static_cast<std::uint32_t>(n);
   }
   std::int32_t choice(std::int32_t most, const char* what) {
     const std::int32_t n = integer();
-    if (n < 0 || n > most) at_ -= 4, fail(std::string(what) + ": expected 0 to " + std::to_string(most));
+    if (n < 0 || n > most) at_ -= kWord, fail(std::string(what) + ": expected 0 to " + std::to_string(most));
     return n;
   }
 
@@ -81,7 +84,7 @@ class BinaryReader {
     o.place = {file_, 0, 0, {}};
     const bool isSphere = choice(1, "kind of object") == 0;
     o.name = name();
-    for (std::uint32_t n = old_ ? 1 : count(14 * 4); n > 0; --n) {
+    for (std::uint32_t n = old_ ? 1 : count(14 * kWord); n > 0; --n) {
       Material& m = o.materials.emplace_back();
       m.diffuse = color(), m.ambient = color(), m.specular = color(), m.emission = color();
       m.shininess = real(), m.ktran = real();
@@ -117,8 +120,8 @@ class BinaryReader {
       p.vertexMaterials = choice(1, "binding of materials") == 1, p.hasUv = choice(1, "texture") == 1;
     integer();  // of a grid: polygons in a row
     const std::size_t size =
-        4u * (3u + (p.vertexNormals ? 3u : 0u) + (p.vertexMaterials ? 1u : 0u) + (p.hasUv ? 2u : 0u));
-    for (std::uint32_t n = count(4); n > 0; --n) {
+        kWord * (3u + (p.vertexNormals ? 3u : 0u) + (p.vertexMaterials ? 1u : 0u) + (p.hasUv ? 2u : 0u));
+    for (std::uint32_t n = count(kWord); n > 0; --n) {
       p.counts.push_back(count(size));
       for (std::uint32_t k = p.counts.back(); k > 0; --k) {
         Vertex& v = p.vertices.emplace_back();

@@ -40,18 +40,7 @@ struct ClippedQuadric {
 
   template <class Visit>
   void crossings(const Ray& ray, Visit&& visit) const {
-    Crossing in{-kInfinity, 0}, out{kInfinity, 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Real o = ray.origin[axis], d = ray.direction[axis];
-      if (d == 0) {
-        if (o < clip.low[axis] || o > clip.high[axis]) return;
-        continue;
-      }
-      Crossing low{(clip.low[axis] - o) / d, 2 * axis}, high{(clip.high[axis] - o) / d, 2 * axis + 1};
-      if (d < 0) std::swap(low, high);
-      if (low.t > in.t) in = low;
-      if (high.t < out.t) out = high;
-    }
+    const auto [in, out] = crossingsOf(clip, ray);
     if (!(in.t <= out.t)) return;
 
     // A far ray first comes near, where its quadratic keeps its digits; a near one is decided at its origin.

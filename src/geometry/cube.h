@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include "base/field.h"
-#include "geometry/ray.h"
-#include "math/box.h"
+#include "geometry/span.h"
 
 namespace trace {
 
@@ -24,18 +22,7 @@ struct Cube {
   /// A part is 2 axis + (0 for the face at -0.5, 1 for the face at +0.5).
   template <class Visit>
   void crossings(const Ray& ray, Visit&& visit) const {
-    Crossing in{-kInfinity, 0}, out{kInfinity, 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Real o = ray.origin[axis], d = ray.direction[axis];
-      if (d == 0) {
-        if (o < -0.5 || o > 0.5) return;
-        continue;
-      }
-      Crossing low{(-0.5 - o) / d, 2 * axis}, high{(0.5 - o) / d, 2 * axis + 1};
-      if (d < 0) std::swap(low, high);
-      if (low.t > in.t) in = low;
-      if (high.t < out.t) out = high;
-    }
+    const auto [in, out] = crossingsOf(bounds(), ray);
     if (in.t <= out.t) visit(in), visit(out);
   }
 

@@ -31,19 +31,7 @@ class EscapeSearch {
   Box3 bounds() const { return {Vec3{-1, -1, -1} * step_.half(), Vec3{1, 1, 1} * step_.half()}; }
 
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-    const Box3 box = bounds();
-    Crossing in{-kInfinity, 0}, out{kInfinity, 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Real o = ray.origin[axis], d = ray.direction[axis];
-      if (d == 0) {
-        if (o < box.low[axis] || o > box.high[axis]) return;
-        continue;
-      }
-      Crossing low{(box.low[axis] - o) / d, 2 * axis}, high{(box.high[axis] - o) / d, 2 * axis + 1};
-      if (d < 0) std::swap(low, high);
-      if (low.t > in.t) in = low;
-      if (high.t < out.t) out = high;
-    }
+    const auto [in, out] = crossingsOf(bounds(), ray);
     if (!(in.t < out.t)) return;
     const Real speed = length(ray.direction);
     const auto over = [&](const Interval& t) {

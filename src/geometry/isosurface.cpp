@@ -16,18 +16,7 @@ TracedIsosurface::TracedIsosurface(const Isosurface& shape)
       capped_(shape.capped) {}
 
 void TracedIsosurface::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-  Crossing in{-kInfinity, 0}, out{kInfinity, 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real o = ray.origin[axis], d = ray.direction[axis];
-    if (d == 0) {
-      if (o < box_.low[axis] || o > box_.high[axis]) return;
-      continue;
-    }
-    Crossing low{(box_.low[axis] - o) / d, 2 * axis}, high{(box_.high[axis] - o) / d, 2 * axis + 1};
-    if (d < 0) std::swap(low, high);
-    if (low.t > in.t) in = low;
-    if (high.t < out.t) out = high;
-  }
+  const auto [in, out] = crossingsOf(box_, ray);
   if (!(in.t < out.t)) return;
   const auto at = [&](Real t) {
     const Along<Real> a = formula_.along(ray.origin, ray.direction, t);

@@ -1,6 +1,9 @@
 // Stretches of a ray's line, and where it runs through a convex body.
 #pragma once
 
+#include <cstdint>
+#include <utility>
+
 #include "geometry/ray.h"
 #include "math/box.h"
 #include "math/roots.h"
@@ -34,6 +37,30 @@ inline Span spanIn(const Box3& box, const Ray& ray) {
     span.to = min(span.to, max(a, b));
   }
   return span;
+}
+
+/// Where the line of a ray enters a box and leaves it. A part is 2 axis + (0 for the low face, 1 for the
+/// high).
+struct BoxCrossings {
+  Crossing in{-kInfinity, 0}, out{kInfinity, 0};  ///< of a miss, not in.t <= out.t
+};
+
+/// By slabs, axis by axis (Kay and Kajiya, SIGGRAPH 1986, section 2).
+inline BoxCrossings crossingsOf(const Box3& box, const Ray& ray) {
+  BoxCrossings found;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real o = ray.origin[axis], d = ray.direction[axis];
+    if (d == 0) {
+      if (o < box.low[axis] || o > box.high[axis]) return {{kInfinity, 0}, {-kInfinity, 0}};
+      continue;
+    }
+    const std::int64_t face = std::int64_t{2} * axis;
+    Crossing low{(box.low[axis] - o) / d, face}, high{(box.high[axis] - o) / d, face + 1};
+    if (d < 0) std::swap(low, high);
+    if (low.t > found.in.t) found.in = low;
+    if (high.t < found.out.t) found.out = high;
+  }
+  return found;
 }
 
 /// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1, as far as they

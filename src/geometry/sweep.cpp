@@ -168,6 +168,7 @@ Path::Path(const Sweep& shape, std::vector<PathArc> arcs) : arcs_(std::move(arcs
   }
 
   std::vector<Section> sections;
+  sections.reserve(stations.size());
   for (const Station& s : stations)
     sections.push_back(
         sectionAt(arcs_[s.arc], s.u, s.frame, turn_ * (static_cast<Real>(s.arc) + s.u), s.piece));
@@ -372,10 +373,11 @@ SurfacePoint TracedProfileSweep::surface(const Ray& ray, const Crossing& crossin
   SurfacePoint s = sides_.place(ray, onSide);
   const bool away = solid_ ? (outward_ < 0) != insideOut : dot(s.normal, ray.direction) > 0;
   if (away) s.normal = s.shading = -s.normal;
-  const std::size_t patch = TracedPatches::patchOf(onSide.part);
+  const std::size_t patch = TracedPatches::patchOf(onSide.part), column = patch % across_,
+                    row = patch / across_;
   const Vec2 within = s.uv;
-  s.uv = {(static_cast<Real>(patch % across_) + within.x) / static_cast<Real>(across_),
-          (static_cast<Real>(patch / across_) + within.y) / static_cast<Real>(along_)};
+  s.uv = {(static_cast<Real>(column) + within.x) / static_cast<Real>(across_),
+          (static_cast<Real>(row) + within.y) / static_cast<Real>(along_)};
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/height_field.h"
+#include "geometry/span.h"
 #include "geometry/terrain.h"
 #include "math/expression.h"
 #include "math/noise.h"
@@ -84,8 +85,7 @@ TracedHeights::TracedHeights(HeightGrid grid, Real floor, bool smooth, bool capp
     const Level& from = levels_.back();
     Level next{(from.columns + 1) / 2, (from.rows + 1) / 2, {}};
     const auto block = [&](int i, int j) {
-      return from.blocks[static_cast<std::size_t>(std::min(j, from.rows - 1) * from.columns +
-                                                  std::min(i, from.columns - 1))];
+      return from.at(std::min(i, from.columns - 1), std::min(j, from.rows - 1));
     };
     for (int j = 0; j < next.rows; ++j)
       for (int i = 0; i < next.columns; ++i)
@@ -250,7 +250,7 @@ struct TracedHeights::Walk {
     if (!(a < range.to)) return;
     if (level == 0) return cell(column, row, a, b, visit);
     const Level& blocks = field.levels_[static_cast<std::size_t>(level - 1)];
-    const Reach& reach = blocks.blocks[static_cast<std::size_t>(row * blocks.columns + column)];
+    const Reach& reach = blocks.at(column, row);
     const Real za = ray.at(a).z, zb = ray.at(b).z;
     if (min(za, zb) - room > reach.most) return become(false, a, kSurface, visit);
     if (max(za, zb) + room < reach.least) return become(true, a, kSurface, visit);
@@ -281,22 +281,13 @@ struct TracedHeights::Walk {
 
 void TracedHeights::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
   if (box_.empty()) return;
-  Crossing in{-kInfinity, 0}, out{kInfinity, 0};
   const Real size = maxComponent(max(abs(box_.low), abs(box_.high)));
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real o = ray.origin[axis], d = ray.direction[axis];
-    // The highest and lowest places stay clear of the box's top, and of an open sheet's bottom.
-    const Real room = axis == 2 ? std::ldexp(size, -40) : 0;
-    const Real bottom = box_.low[axis] - (capped_ ? 0 : room), top = box_.high[axis] + room;
-    if (d == 0) {
-      if (o < bottom || o > top) return;
-      continue;
-    }
-    Crossing low{(bottom - o) / d, 2 * axis}, high{(top - o) / d, 2 * axis + 1};
-    if (d < 0) std::swap(low, high);
-    if (low.t > in.t) in = low;
-    if (high.t < out.t) out = high;
-  }
+  // The highest and lowest places stay clear of the box's top, and of an open sheet's bottom.
+  Box3 box = box_;
+  const Real clear = std::ldexp(size, -40);
+  box.high.z += clear;
+  if (!capped_) box.low.z -= clear;
+  const auto [in, out] = crossingsOf(box, ray);
   if (!(in.t < out.t && in.t < range.to)) return;
   const Real first = max(in.t, range.from);
   if (!(first < out.t)) return;

@@ -36,6 +36,10 @@ class TracedHeights {
   struct Level {
     int columns, rows;
     std::vector<Reach> blocks;
+    const Reach& at(int column, int row) const {
+      return blocks[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)];
+    }
   };
   /// z = sum of c[j][i] u^i v^j, u and v from 0 to 1 in the cell.
   struct Patch {

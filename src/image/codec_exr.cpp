@@ -126,7 +126,7 @@ std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata
 
 Picture decodeExr(std::string_view bytes) {
   const Imf::Header header = headerOf(bytes);
-  const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+  const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
   const Extent stored = checkedExtent(data, bytes.size()), shown = checkedExtent(display, bytes.size());
 
   MemoryInput stream(bytes);

@@ -86,8 +86,8 @@ Kernel normalized(Kernel k) {
 
 /// Beyond its border the picture goes on as it ends.
 Plane filteredRows(Plane plane, const Kernel& k) {
-  const int radius = static_cast<int>(k.size() / 2);
-  std::vector<double> row(static_cast<std::size_t>(plane.width + 2 * radius));
+  const int radius = static_cast<int>(k.size() / 2), length = plane.width + 2 * radius;
+  std::vector<double> row(static_cast<std::size_t>(length));
   for (int y = 0; y < plane.height; ++y) {
     for (int x = -radius; x < plane.width + radius; ++x)
       row[static_cast<std::size_t>(x + radius)] = plane.at(std::clamp(x, 0, plane.width - 1), y);

@@ -112,7 +112,7 @@ Film makeFilm(const Settings& settings, int width, int height) {
   constexpr std::int64_t kMostSamples = 1 << 16;
   const std::int64_t samples = std::int64_t{gridSize(settings)} * gridSize(settings);
   int tileSize = Film::kTileSize;
-  while (tileSize > 1 && tileSize * tileSize * samples > kMostSamples) tileSize /= 2;
+  while (tileSize > 1 && samples * tileSize * tileSize > kMostSamples) tileSize /= 2;
   return Film(width, height, blank, tileSize);
 }
 

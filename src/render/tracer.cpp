@@ -156,7 +156,7 @@ RayNode& Tracer::finish() {
 
 void Tracer::record(int node, Term term) {
   term.ray = std::exchange(last_, kNoNode);
-  tree_->nodes[static_cast<std::size_t>(node)].terms.push_back(std::move(term));
+  tree_->nodes[static_cast<std::size_t>(node)].terms.push_back(term);
 }
 
 void Tracer::record(int node, const RayEnd& why) {
