@@ -68,6 +68,10 @@ double Samples::median() const {
   return n == 0 ? 0 : (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
 }
 
+double Samples::largest() const {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
 double Samples::spread() const {
   if (values.empty()) return 0;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());

@@ -18,6 +18,7 @@ using PerKernel = std::array<T, kKernelNames.size()>;
 struct Samples {
   std::vector<double> values;
   double median() const;
+  double largest() const;
   double spread() const;  ///< largest / smallest
 };
 
