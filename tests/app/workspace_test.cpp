@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "image/codec.h"
+#include "support/panes.h"
 #include "support/scene_files.h"
 
 namespace trace::test {
@@ -122,6 +123,21 @@ TEST_F(WorkspaceTest, StopsAtOnceKeepsWhatIsThereAndStartsAnew) {
   waitFor(workspace.render);
   EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
   EXPECT_EQ(workspace.render.picture().width, 219);
+}
+
+TEST_F(WorkspaceTest, AnEditDoesNotWaitForATileThatTakesTooLong) {
+  write("panes.ray", kPanes);
+  // The narrow picture has no coarse one before it.
+  for (const auto& [width, phase] :
+       {std::pair{"8", BackgroundRender::Phase::tracing}, std::pair{"64", BackgroundRender::Phase::coarse}}) {
+    Workspace workspace;
+    ASSERT_TRUE(opened(workspace, path("panes.ray"), {{"width", width, {}}, {"depth", "60", {}}}));
+    while (workspace.render.state().phase != phase) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    workspace.document.choose("depth", "1");
+    workspace.update();
+    waitFor(workspace.render);
+    EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  }
 }
 
 TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {

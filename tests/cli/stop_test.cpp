@@ -5,6 +5,7 @@
 
 #include "image/codec.h"
 #include "program.h"
+#include "support/panes.h"
 
 namespace trace::test {
 namespace {
@@ -20,15 +21,9 @@ class Stop : public ProgramTest {
     return more;
   }
 
-  /// Years of work in one tile: two panes of glass split each ray sixty times.
+  /// Years of work in one tile.
   std::vector<std::string> endlessTile() const {
-    write("panes.ray", R"(SBT-raytracer 1.0
-camera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }
-point_light { position=(0,0,5); color=(1,1,1); }
-material = { reflective=(1,1,1); transmissive=(1,1,1); index=1; }
-scale(99,99,1, box {})
-translate(0,0,-2, scale(99,99,1, box {}))
-)");
+    write("panes.ray", kPanes);
     return {"panes.ray", "out.png", "-w", "8", "-r", "60", "--progress=json"};
   }
 
