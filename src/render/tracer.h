@@ -18,7 +18,7 @@ class Tracer {
  public:
   /// Called every kRaysBetweenInterrupts rays. It may throw, which ends whatever the rays are for.
   using Interrupt = std::function<void()>;
-  static constexpr int kRaysBetweenInterrupts = 4096;
+  static constexpr int kRaysBetweenInterrupts = 128;
 
   /// `tree`, if any, takes every ray from now on.
   Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr, Interrupt interrupt = {})

@@ -147,6 +147,14 @@ TEST(Render, DoesNotWaitForATileThatTakesTooLong) {
   EXPECT_EQ(job.done, 0);
 }
 
+TEST(Render, LooksAtTheTimeInEachTile) {  // a thousand rays can take long, as without a hierarchy
+  Film film(64, 64);
+  Job job;
+  const Settings settings{.width = 64, .threads = 1, .timeLimit = 1e-9};
+  EXPECT_EQ(render(build(Scene()), settings, film, job).end, End::timeLimit);
+  EXPECT_EQ(job.done, 1);
+}
+
 TEST(Render, StopsWhenCancelledOrOutOfTime) {
   Random random(6);
   const Scene scene = randomScene(random, 30);
