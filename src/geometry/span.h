@@ -23,22 +23,6 @@ inline Box3 roomy(const Box3& box) {
   return {box.low - room, box.high + room};
 }
 
-/// Where the line of the ray is in the box, up to rounding.
-inline Span spanIn(const Box3& box, const Ray& ray) {
-  Span span;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Real o = ray.origin[axis], d = ray.direction[axis];
-    if (d == 0) {
-      if (o < box.low[axis] || o > box.high[axis]) return {1, 0};
-      continue;
-    }
-    const Real a = (box.low[axis] - o) / d, b = (box.high[axis] - o) / d;
-    span.from = max(span.from, min(a, b));
-    span.to = min(span.to, max(a, b));
-  }
-  return span;
-}
-
 /// Where the line of a ray enters a box and leaves it. A part is 2 axis + (0 for the low face, 1 for the
 /// high).
 struct BoxCrossings {
@@ -61,6 +45,12 @@ inline BoxCrossings crossingsOf(const Box3& box, const Ray& ray) {
     if (high.t < found.out.t) found.out = high;
   }
   return found;
+}
+
+/// Where the line of the ray is in the box, up to rounding.
+inline Span spanIn(const Box3& box, const Ray& ray) {
+  const auto [in, out] = crossingsOf(box, ray);
+  return {in.t, out.t};
 }
 
 /// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1, as far as they
