@@ -9,13 +9,14 @@
 #include "image/codec.h"
 #include "image/compare.h"
 #include "render/passes.h"
+#include "support/paths.h"
 #include "support/shared.h"
 
 namespace trace::test {
 namespace {
 
-const std::string kScenes = std::string(TRACE_SHARED) + "/scenes/";
-const std::string kReference = std::string(TRACE_SHARED) + "/reference/";
+const std::string kScenes = test::sharedFolder() + "/scenes/";
+const std::string kReference = test::sharedFolder() + "/reference/";
 
 struct Agreement {
   double exact = 0, within = 0, rmse = 0;  ///< shares of channel values, the latter within one level; of 255
@@ -85,7 +86,7 @@ TEST(CourseReference, BritishColumbiasPicturesAreRepeatedButForSilhouettes) {
 TEST(CourseReference, TheSceneOfNoSceneIsTheRedSquare) {
   TRACE_NEEDS_SHARED("reference/ubc");
   Session session;
-  session.open(TRACE_SOURCE "/scenes/cpsc314-default.ray", {});
+  session.open(test::sourceFolder() + "/scenes/cpsc314-default.ray", {});
   session.build();
   session.render();
   const Settings& settings = session.settings();

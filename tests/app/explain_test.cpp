@@ -9,6 +9,7 @@
 #include "app/ray_segments.h"
 #include "app/session.h"
 #include "render/visited_boxes.h"
+#include "support/paths.h"
 #include "support/shared.h"
 
 namespace trace::test {
@@ -49,7 +50,7 @@ std::vector<std::string> examples() {
   std::vector<std::string> files;
   for (const SceneFormat& format : sceneFormats())
     for (const std::string_view suffix : format.suffixes)
-      for (const std::string& file : filesUnder(std::string(TRACE_SOURCE) + "/scenes", std::string(suffix)))
+      for (const std::string& file : filesUnder(test::sourceFolder() + "/scenes", std::string(suffix)))
         if (file.find("/meshes/") == std::string::npos) files.push_back(file);
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
@@ -83,7 +84,7 @@ TEST(Explain, EverySampleSumsToThePictureUnderEveryOption) {
     for (const std::string& value : valuesOf(option))
       for (const char* scene : {"conventions.ray", "glass.ray", "mesh.ray"}) {
         SCOPED_TRACE(std::string(option.name) + " = " + value);
-        const std::string file = std::string(TRACE_SOURCE) + "/scenes/" + scene;
+        const std::string file = test::sourceFolder() + "/scenes/" + scene;
         EXPECT_GT(explainAll(file, {{std::string(option.name), value, {}}, {"spp", "1", {}}}, 16), 100u);
       }
   }
@@ -91,7 +92,7 @@ TEST(Explain, EverySampleSumsToThePictureUnderEveryOption) {
 
 TEST(Explain, EverySampleOfTheCoursesScenesSumsToThePicture) {
   TRACE_NEEDS_SHARED("scenes/uw");
-  const std::vector<std::string> all = filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray");
+  const std::vector<std::string> all = filesUnder(test::sharedFolder() + "/scenes/uw", ".ray");
   int explained = 0;
   for (std::size_t i = 0; i < all.size(); i += all.size() / 25 + 1) {
     try {
@@ -105,7 +106,7 @@ TEST(Explain, EverySampleOfTheCoursesScenesSumsToThePicture) {
 
 /// The middle of a ball of glass.
 Explanation ofGlass(Session& session) {
-  session.open(std::string(TRACE_SOURCE) + "/scenes/glass.ray", {});
+  session.open(test::sourceFolder() + "/scenes/glass.ray", {});
   session.build();
   return session.explain(200, 120, 0);
 }

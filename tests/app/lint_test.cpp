@@ -10,6 +10,7 @@
 #include "app/session.h"
 #include "base/file.h"
 #include "support/folder.h"
+#include "support/paths.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/shared.h"
@@ -17,7 +18,7 @@
 namespace trace::test {
 namespace {
 
-const std::string kScenes = std::string(TRACE_SOURCE) + "/tests/corpus/lint/";
+const std::string kScenes = test::sourceFolder() + "/tests/corpus/lint/";
 
 std::vector<LintFinding> lintFile(const std::string& file) {
   Session session;
@@ -65,7 +66,7 @@ TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
 }
 
 TEST(Lint, OurOwnExamplesAreClean) {
-  for (const std::string& scene : filesUnder(std::string(TRACE_SOURCE) + "/scenes", ".ray"))
+  for (const std::string& scene : filesUnder(test::sourceFolder() + "/scenes", ".ray"))
     if (scene.find("infinity") == std::string::npos) {  // its depth of 2 is that of the program it is from
       EXPECT_EQ(names(lintFile(scene)), "") << scene;
     }
@@ -143,7 +144,7 @@ TEST(Lint, IsQuickOnAMeshOfSeventyThousandTriangles) {
   if (kSanitized) GTEST_SKIP() << "SKIPPED: the sanitizers are slow";
   TRACE_NEEDS_SHARED("scenes/uw/uw2005/polymesh");
   const auto start = std::chrono::steady_clock::now();
-  lintFile(std::string(TRACE_SHARED) + "/scenes/uw/uw2005/polymesh/dragon.ray");
+  lintFile(test::sharedFolder() + "/scenes/uw/uw2005/polymesh/dragon.ray");
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
 }
 

@@ -9,6 +9,7 @@
 #include "app/session.h"
 #include "image/codec.h"
 #include "support/folder.h"
+#include "support/paths.h"
 
 namespace trace::test {
 namespace {
@@ -17,7 +18,7 @@ class OutputTest : public testing::Test {
  protected:
   void render(std::vector<Choice> choices, const std::string& name) {
     choices.push_back({"width", "24", {}});
-    session_.open(std::string(TRACE_SOURCE) + "/scenes/shapes.ray", choices);
+    session_.open(test::sourceFolder() + "/scenes/shapes.ray", choices);
     session_.build();
     session_.render();
     session_.save(folder_ / name);

@@ -9,6 +9,7 @@
 #include "app/session.h"
 #include "image/codec.h"
 #include "image/compare.h"
+#include "support/paths.h"
 #include "support/shared.h"
 
 namespace trace::test {
@@ -16,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScenes = std::string(TRACE_SHARED) + "/scenes/uw/uw2005/";
-const std::string kReference = std::string(TRACE_SHARED) + "/reference/uw/";
+const std::string kScenes = test::sharedFolder() + "/scenes/uw/uw2005/";
+const std::string kReference = test::sharedFolder() + "/reference/uw/";
 
 /// The scene of a picture: its path under uw2005 with "/" written "_".
 std::string sceneOf(std::string name) {
@@ -110,7 +111,7 @@ TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
 TEST(Reference, EverySceneLoadsAndRenders) {
   TRACE_NEEDS_SHARED("scenes/uw");
   int rendered = 0, refused = 0;
-  for (const std::string& scene : filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray")) {
+  for (const std::string& scene : filesUnder(test::sharedFolder() + "/scenes/uw", ".ray")) {
     try {
       Session session;
       session.open(scene, std::vector<Choice>{{"width", "40", {}}});

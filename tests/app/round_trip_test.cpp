@@ -4,6 +4,7 @@
 #include <string>
 
 #include "formats/format.h"
+#include "support/paths.h"
 #include "support/scenes.h"
 #include "support/shared.h"
 
@@ -34,13 +35,14 @@ constexpr const char* kSuffixes[] = {".ray", ".out", ".ascii", ".scene", ".iv", 
 
 TEST(RoundTrip, ExamplesLookTheSame) {
   for (const char* suffix : kSuffixes)
-    for (const std::string& file : test::filesUnder(TRACE_SOURCE "/scenes", suffix)) expectSamePicture(file);
+    for (const std::string& file : test::filesUnder(test::sourceFolder() + "/scenes", suffix))
+      expectSamePicture(file);
 }
 
 TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
   TRACE_NEEDS_SHARED("scenes/uw");
   for (const char* suffix : kSuffixes)
-    for (const std::string& file : test::filesUnder(std::string(TRACE_SHARED) + "/scenes", suffix))
+    for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes", suffix))
       expectSamePicture(file);
 }
 

@@ -8,13 +8,14 @@
 #include <map>
 
 #include "image/codec.h"
+#include "support/paths.h"
 #include "support/random.h"
 #include "support/shared.h"
 
 namespace trace::test {
 namespace {
 
-const std::string kExamples = std::string(TRACE_SOURCE) + "/scenes";
+const std::string kExamples = test::sourceFolder() + "/scenes";
 
 Picture renderFile(const std::string& file, std::vector<Choice> choices) {
   Session session;

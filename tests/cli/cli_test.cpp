@@ -9,6 +9,7 @@
 #include "image/codec.h"
 #include "program.h"
 #include "scene/options.h"
+#include "support/paths.h"
 
 namespace trace::test {
 namespace {
@@ -29,7 +30,7 @@ void addPaths(const json& value, const std::string& path, std::set<std::string>&
 
 /// The keys in the first column of the tables of a chapter of docs/statistics.md.
 std::set<std::string> documentedKeys(const std::string& chapter) {
-  const std::string page = readFile(TRACE_SOURCE "/docs/statistics.md");
+  const std::string page = readFile(test::sourceFolder() + "/docs/statistics.md");
   const std::size_t begin = page.find("\n## " + chapter + "\n");
   EXPECT_NE(begin, std::string::npos) << chapter;
   std::istringstream lines(page.substr(begin + 1, page.find("\n## ", begin + 1) - begin - 1));
@@ -420,13 +421,13 @@ TEST_F(Cli, Features) {
 }
 
 TEST_F(Cli, OptionsPageIsUpToDate) {
-  EXPECT_EQ(run({"features", "--markdown"}).out, readFile(TRACE_SOURCE "/docs/options.md"))
+  EXPECT_EQ(run({"features", "--markdown"}).out, readFile(test::sourceFolder() + "/docs/options.md"))
       << "run: ray features --markdown >docs/options.md";
 }
 
 TEST_F(Cli, FullDiskOfStdoutIs1) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const std::string command = std::string(TRACE_RAY_BINARY) + " features >/dev/full 2>/dev/null";
+  const std::string command = test::rayProgram() + " features >/dev/full 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 

@@ -7,6 +7,7 @@
 #include "cli/program.h"
 #include "image/codec.h"
 #include "support/folder.h"
+#include "support/paths.h"
 #include "support/shared.h"
 
 namespace trace::test {
@@ -14,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-const std::string kScenes = std::string(TRACE_SOURCE) + "/scenes/";
-const std::string kLint = std::string(TRACE_SOURCE) + "/tests/corpus/lint/";
+const std::string kScenes = test::sourceFolder() + "/scenes/";
+const std::string kLint = test::sourceFolder() + "/tests/corpus/lint/";
 
 struct Explain : testing::Test {
   test::Folder folder;
@@ -117,7 +118,7 @@ translate(2, 0, 0, polymesh { name = "mixed"; points = ((-1,-1,0), (1,-1,0), (0,
 
 TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
   // The first block of docs/explain.md is what the command above it prints.
-  const std::string page = readFile(std::string(TRACE_SOURCE) + "/docs/explain.md");
+  const std::string page = readFile(test::sourceFolder() + "/docs/explain.md");
   std::smatch match;
   ASSERT_TRUE(std::regex_search(page, match,
                                 std::regex("\n    ray explain (scenes/[a-z]+\\.ray) --pixel ([0-9,]+)\n")));

@@ -17,6 +17,7 @@
 
 #include "base/file.h"
 #include "support/folder.h"
+#include "support/paths.h"
 
 namespace trace::test {
 
@@ -28,7 +29,7 @@ class Program {
   Program(const std::string& folder, std::vector<std::string> words, const Variables& variables = {})
       : out_(folder + "/.stdout"), err_(folder + "/.stderr") {
     std::filesystem::remove(err_);  // so that nobody reads that of an earlier run
-    words.insert(words.begin(), TRACE_RAY_BINARY);
+    words.insert(words.begin(), test::rayProgram());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);

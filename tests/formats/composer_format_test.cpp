@@ -4,12 +4,13 @@
 #include "base/file.h"
 #include "formats/composer_file.h"
 #include "mesh_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
 
 std::string corpusFile(const char* name) {
-  return readFile(std::string(TRACE_SOURCE "/tests/corpus/composer/") + name);
+  return readFile(test::sourceFolder() + "/tests/corpus/composer/" + name);
 }
 
 std::string headed(const std::string& text) { return "Composer format 2.1 ascii\n" + text; }

@@ -7,11 +7,12 @@
 #include "formats/format.h"
 #include "scene/conventions.h"
 #include "scene/scene.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
 
-std::string page(const char* name) { return readFile(std::string(TRACE_SOURCE) + "/docs/" + name); }
+std::string page(const char* name) { return readFile(test::sourceFolder() + "/docs/" + name); }
 
 template <class Struct>
 void expectDocumented(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ray_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -40,7 +41,7 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
 
 TEST(Format, ReadsFilesByName) {
   Messages messages;
-  const std::string file = TRACE_SOURCE "/tests/corpus/ray/plain.ray";
+  const std::string file = test::sourceFolder() + "/tests/corpus/ray/plain.ray";
   const Scene scene = readScene(file, messages);
   EXPECT_EQ(scene.file, file);
   EXPECT_EQ(scene.format, "ray");

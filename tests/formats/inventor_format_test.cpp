@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh_helpers.h"
+#include "support/paths.h"
 #include "support/shapes.h"
 
 namespace trace {
@@ -258,7 +259,7 @@ TEST(Inventor, TellsWhereAndWhat) {
 
 TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
   Messages messages;
-  const Scene scene = readScene(TRACE_SOURCE "/tests/corpus/inventor/with_parts.wrl", messages);
+  const Scene scene = readScene(test::sourceFolder() + "/tests/corpus/inventor/with_parts.wrl", messages);
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_EQ(placeOf(scene, 0), (Vec3{5, 0, 0}));
   EXPECT_EQ(placeOf(scene, 1), (Vec3{0, 5, 0}));

@@ -6,11 +6,12 @@
 
 #include "base/file.h"
 #include "mesh_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
 
-std::string corpusFile(const std::string& name) { return TRACE_SOURCE "/tests/corpus/" + name; }
+std::string corpusFile(const std::string& name) { return test::sourceFolder() + "/tests/corpus/" + name; }
 
 Scene read(const std::string& name, std::size_t warnings = 0) {
   Messages messages;

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "mesh_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -70,7 +71,7 @@ TEST(MeshWriters, OtherShapesBecomeTrianglesUnlessTheyHaveNoEnd) {
 
 TEST(MeshWriters, ObjKeepsObjectsAndMaterials) {
   Messages messages;
-  const Scene from = readScene(TRACE_SOURCE "/tests/corpus/obj/rooms.obj", messages);
+  const Scene from = readScene(test::sourceFolder() + "/tests/corpus/obj/rooms.obj", messages);
   const std::string folder = testing::TempDir() + "trace_obj_writer";
   std::filesystem::create_directories(folder);
   for (const NamedBytes& file : writeObj(from, folder + "/out.obj", {}, messages))

@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "mesh_helpers.h"
+#include "support/paths.h"
 #include "support/random.h"
 
 namespace trace {
@@ -200,7 +201,7 @@ TEST(Ply, WarnsOfWhatIsRepaired) {
 }
 
 TEST(Ply, ReadsTheLargeMeshesInTime) {
-  const std::string file = std::string(TRACE_SHARED) + "/meshes/dragon.ply";
+  const std::string file = test::sharedFolder() + "/meshes/dragon.ply";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "SKIPPED: needs " << file;
   const std::clock_t start = std::clock();
   Messages messages;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ray_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::string> scenes(const fs::path& folder) {
 }
 
 TEST(RayCorpus, EverySceneLoadsButTheBrokenOnes) {
-  const fs::path folder = fs::path(TRACE_SHARED) / "scenes" / "uw";
+  const fs::path folder = fs::path(test::sharedFolder()) / "scenes" / "uw";
   if (!fs::exists(folder)) GTEST_SKIP() << "the scenes of the courses are absent: " << folder;
   std::map<std::string, std::string> failures;
   const auto files = scenes(folder);
@@ -66,7 +67,7 @@ std::vector<std::string> of2001(const fs::path& folder) {
 }
 
 TEST(RayCorpus, KnowsTheDialectsApart) {
-  const fs::path folder = fs::path(TRACE_SHARED) / "scenes" / "uw";
+  const fs::path folder = fs::path(test::sharedFolder()) / "scenes" / "uw";
   if (!fs::exists(folder)) GTEST_SKIP() << "the scenes of the courses are absent: " << folder;
   EXPECT_EQ(of2001(folder / "uw2005"), std::vector<std::string>{});
   EXPECT_EQ(of2001(folder / "manitoba-a1"), std::vector<std::string>{});

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "ray_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// Every file of our corpus, in the order of their names.
 std::vector<std::string> corpus() {
   std::vector<std::string> names, files;
-  for (const auto& entry : std::filesystem::directory_iterator(TRACE_SOURCE "/tests/corpus/ray"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() + "/tests/corpus/ray"))
     if (entry.path().extension() == ".ray") names.push_back(entry.path().string());
   std::sort(names.begin(), names.end());
   for (const std::string& name : names) files.push_back(readFile(name));

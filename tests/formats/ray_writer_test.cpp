@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mesh_helpers.h"
+#include "support/paths.h"
 #include "support/shapes.h"
 #include "support/shared.h"
 
@@ -76,7 +77,7 @@ void expectRoundTrip(const Scene& scene, const std::string& name) {
 }
 
 TEST(RayWriter, EveryExampleRoundTrips) {
-  const auto files = test::filesUnder(TRACE_SOURCE "/scenes", ".ray");
+  const auto files = test::filesUnder(test::sourceFolder() + "/scenes", ".ray");
   ASSERT_GE(files.size(), 10u);
   for (const std::string& file : files) {
     Messages messages;
@@ -87,7 +88,7 @@ TEST(RayWriter, EveryExampleRoundTrips) {
 TEST(RayWriter, EverySceneOfTheCoursesRoundTrips) {
   TRACE_NEEDS_SHARED("scenes/uw");
   std::size_t scenes = 0;
-  for (const std::string& file : test::filesUnder(std::string(TRACE_SHARED) + "/scenes/uw", ".ray")) {
+  for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes/uw", ".ray")) {
     Messages messages;
     Scene scene;
     try {

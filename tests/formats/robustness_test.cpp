@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "mesh_helpers.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -25,7 +26,8 @@ std::vector<File> corpus() {
   std::vector<File> files;
   for (const SceneFormat& format : sceneFormats()) {
     if (format.name == "ray") continue;
-    for (const auto& entry : fs::directory_iterator(TRACE_SOURCE "/tests/corpus/" + std::string(format.name)))
+    for (const auto& entry :
+         fs::directory_iterator(test::sourceFolder() + "/tests/corpus/" + std::string(format.name)))
       if (entry.path().extension() != ".mtl")
         files.push_back({entry.path().string(), std::string(format.name), readFile(entry.path().string()),
                          entry.path().filename().string().starts_with("broken")});

@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.h"
+
 namespace trace::test {
 
 /// Skips the calling test, by name and loudly, when `folder` of the shared material is not there.
-#define TRACE_NEEDS_SHARED(folder)                                                \
-  if (!std::filesystem::is_directory(std::string(TRACE_SHARED) + "/" + (folder))) \
-  GTEST_SKIP() << "SKIPPED: needs the shared material in " << TRACE_SHARED << "/" << (folder)
+#define TRACE_NEEDS_SHARED(folder)                                           \
+  if (!std::filesystem::is_directory(test::sharedFolder() + "/" + (folder))) \
+  GTEST_SKIP() << "SKIPPED: needs the shared material in " << test::sharedFolder() << "/" << (folder)
 
 inline std::vector<std::string> filesUnder(const std::string& folder, const std::string& suffix) {
   std::vector<std::string> files;
