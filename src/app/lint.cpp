@@ -5,26 +5,14 @@
 #include <set>
 
 #include "app/coplanar.h"
-#include "app/lint_rays.h"
+#include "app/lint_checks.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "geometry/csg_tree.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {
-
-/// What the checks look at.
-struct LintScene {
-  const Scene& scene;
-  const Settings& settings;
-  const World& world;
-  const std::vector<Message>& warnings;
-  Survey survey;
-  std::vector<std::uint32_t> aroundCamera{};  ///< the objects that enclose it
-};
-
-namespace {
-
-using Findings = std::vector<LintFinding>;
+namespace lint_checks {
 
 void warn(Findings& findings, std::string_view check, const Place& place, std::string what,
           std::string hint) {
@@ -35,12 +23,34 @@ std::string quoted(const LintScene& s, std::uint32_t object) {
   const std::string name = objectName(s.scene, object);
   return s.scene.objects[object].name.empty() ? "the " + name : "\"" + name + "\"";
 }
+
 std::string percent(double share) { return toText(std::max(1.0, std::round(share * 100))) + " %"; }
 
 const Place& placeOf(const LintScene& s, std::uint32_t object) { return s.scene.objects[object].place; }
 
 const Phong& materialOf(const LintScene& s, std::uint32_t object) {
   return *std::get_if<Phong>(&s.scene.materials[s.scene.objects[object].material].model);
+}
+
+bool isAroundCamera(const LintScene& s, std::uint32_t object) {
+  return std::find(s.aroundCamera.begin(), s.aroundCamera.end(), object) != s.aroundCamera.end();
+}
+
+}  // namespace lint_checks
+
+namespace {
+
+using namespace lint_checks;
+
+/// A scene of another format, or one that has no file any more, tells nothing but its name.
+RayRemarks remarksOn(const Scene& scene) {
+  const RayRemarks none{.degrees = {}, .camera = {.file = scene.file}};
+  if (scene.format != "ray") return none;
+  try {
+    return trace::remarksOn(scene.file, readFile(scene.file));
+  } catch (const Error&) {
+    return none;
+  }
 }
 
 /// Calls visit(object, mesh data) once for each mesh, however many objects share it.
@@ -50,73 +60,6 @@ void forEachMesh(const LintScene& s, Visit&& visit) {
   for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i)
     if (const auto* mesh = std::get_if<Mesh>(&s.scene.objects[i].shape))
       if (seen.insert(mesh->data.get()).second) visit(i, *mesh->data);
-}
-
-bool isAroundCamera(const LintScene& s, std::uint32_t object) {
-  return std::find(s.aroundCamera.begin(), s.aroundCamera.end(), object) != s.aroundCamera.end();
-}
-
-// --- lights and camera --------------------------------------------------------------------------------
-
-void lightInside(const LintScene& s, Findings& findings) {
-  for (const LightSource& source : s.scene.lights) {
-    const auto* light = std::get_if<PointLight>(&source.light);
-    if (!light) continue;
-    for (std::uint32_t object : objectsAround(s.world, light->position)) {
-      if (!s.world.opaque(object) || isAroundCamera(s, object)) continue;
-      warn(findings, "light-inside", source.place,
-           "the light is inside " + quoted(s, object) + ", which is opaque: it lights nothing outside",
-           "move the light out of it; a lamp that shines needs `emissive` for its looks and a light beside "
-           "it");
-    }
-  }
-}
-
-void cameraInside(const LintScene& s, Findings& findings) {
-  for (std::uint32_t object : s.aroundCamera) {
-    const bool glass = !s.world.opaque(object);
-    if (!glass && s.survey.objects[object].lit > 0) continue;  // a room
-    warn(findings, "camera-inside", placeOf(s, object),
-         "the camera is inside " + quoted(s, object) +
-             (glass ? ": all is seen through its surface, from within"
-                    : ": only its inside is seen, which no light reaches"),
-         "move the camera's position out of it");
-  }
-}
-
-void lightBehindGlass(const LintScene& s, Findings& findings) {
-  constexpr int kFew = 10;
-  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
-    const Survey::Lamp& lamp = s.survey.lights[i];
-    if (lamp.throughGlass < kFew || 2 * lamp.throughGlass < lamp.reached) continue;
-    warn(findings, "light-behind-glass", s.scene.lights[i].place,
-         "most of this light comes through " + quoted(s, lamp.glass) +
-             ", which refracts: shadow rays run straight on, so light is neither bent nor gathered there",
-         "move the light out of the glass, or give what is around it index = 1");
-  }
-}
-
-void unlit(const LintScene& s, Findings& findings) {
-  constexpr int kFew = 5;
-  if (s.scene.lights.empty()) return;  // said when it was read
-  for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
-    const Survey::Seen& seen = s.survey.objects[object];
-    if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
-    const auto most = std::max_element(seen.blockedBy.begin(), seen.blockedBy.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    const bool away = most == seen.blockedBy.end() || seen.facesAway > most->second;
-    warn(
-        findings, "unlit", placeOf(s, object),
-        quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" +
-            (away ? "; it faces away from the lights"
-                  : (most->first == object ? "; it stands in its own light"
-                                           : "; in the way is " + quoted(s, most->first))),
-        away
-            ? "move a light to the side that is seen, add an ambient light with `ambient` in the material, "
-              "or "
-              "turn its faces round"
-            : "move the light or what is in the way, or add an ambient light with `ambient` in the material");
-  }
 }
 
 // --- meshes -------------------------------------------------------------------------------------------
@@ -265,18 +208,69 @@ void indexBelowOne(const LintScene& s, Findings& findings) {
 }
 
 void depthTooLow(const LintScene& s, Findings& findings) {
-  constexpr double kFew = 0.02;
-  constexpr int kMostDepth = 30;
-  const double share = s.survey.samples > 0 ? static_cast<double>(s.survey.cutShort) / s.survey.samples : 0;
-  if (share < kFew) return;
-  int enough = s.settings.depth + 1;
-  while (enough < kMostDepth && shareCutShort(s.settings, s.world, enough) >= kFew) ++enough;
+  constexpr double kFew = 0.04;
+  const double samples = s.survey.samples;
+  if (s.survey.cutShort.size() < kFew * samples || s.survey.cutShort.empty()) return;
+  const std::vector<int> darker = changedByDepth(s.settings, s.world, s.survey);
+  // With the depth set, and with each depth above it.
+  const auto enough = std::find_if(darker.begin(), darker.end(), [&](int n) { return n < kFew * samples; });
+  if (darker.empty() || enough == darker.begin()) return;
+  const std::string depth = std::to_string(s.settings.depth + static_cast<int>(enough - darker.begin()));
   warn(findings, "depth-too-low", placeOf(s, s.survey.cutShortIn),
-       "rays end inside glass, at first in " + quoted(s, s.survey.cutShortIn) + ", in " + percent(share) +
-           " of the picture, for the depth is only " + std::to_string(s.settings.depth) +
-           ": it is black there",
-       "--depth " + std::to_string(enough) + ", or settings { depth = " + std::to_string(enough) +
-           "; } in the scene");
+       "rays end inside glass, at first in " + quoted(s, s.survey.cutShortIn) + ", for the depth is only " +
+           std::to_string(s.settings.depth) + ": " + percent(darker.front() / samples) +
+           " of the picture would look different with more",
+       "--depth " + depth + ", or settings { depth = " + depth + "; } in the scene");
+}
+
+/// Nothing but black, and nothing said of it.
+bool isBare(const Material& material) {
+  return material.name.empty() && material.maps.empty() && *std::get_if<Phong>(&material.model) == Phong{};
+}
+
+/// Whether the shape, or a part of it, would be of that material and it is bare.
+bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
+  return match(shape, [&](const auto& form) {
+    if constexpr (requires { form.objects.list(); }) {
+      std::span<const Operand> parts = form.objects.list();
+      if constexpr (std::is_same_v<decltype(form), const Clip&>) parts = parts.first(1);  // others only cut
+      return std::any_of(parts.begin(), parts.end(),
+                         [&](const Operand& part) { return isBare(s, part.shape, part.material); });
+    }
+    if constexpr (requires { form.materials.indices; })
+      if (!form.materials.indices.empty()) return false;
+    if constexpr (requires { form.data->materials; })
+      if (!form.data->materials.empty()) return false;
+    return isBare(s.scene.materials[material]);
+  });
+}
+
+void noMaterial(const LintScene& s, Findings& findings) {
+  std::vector<std::uint32_t> bare;
+  for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i)
+    if (isBare(s, s.scene.objects[i].shape, s.scene.objects[i].material)) bare.push_back(i);
+  if (bare.empty()) return;
+  const std::size_t others = bare.size() - 1;
+  warn(findings, "no-material", placeOf(s, bare.front()),
+       quoted(s, bare.front()) +
+           (others == 0   ? " has no material"
+            : others == 1 ? " and one more object have no material"
+                          : " and " + std::to_string(others) + " more objects have no material") +
+           ", or one that says nothing: no light makes it other than black",
+       "give it one, as in material = { diffuse = (0.8, 0.8, 0.8); ambient = (0.8, 0.8, 0.8); }");
+}
+
+void degrees(const LintScene& s, Findings& findings) {
+  if (s.remarks.degrees.empty()) return;
+  const RayRemarks::Angle& first = s.remarks.degrees.front();
+  const std::size_t others = s.remarks.degrees.size() - 1;
+  warn(findings, "degrees", first.place,
+       "rotate takes radians, and " + toText(first.value) + " of them are " +
+           toText(std::round(std::abs(first.value) / (2 * kPi) * 10) / 10) + " turns" +
+           (others == 0 ? "" : "; so with " + std::to_string(others) + " more angles") +
+           ": are degrees meant?",
+       toText(first.value) + " degrees are " + toText(std::round(first.value * kPi / 180 * 1e5) / 1e5) +
+           " radians");
 }
 
 }  // namespace
@@ -284,9 +278,12 @@ void depthTooLow(const LintScene& s, Findings& findings) {
 std::span<const LintCheck> lintChecks() {
   static constexpr std::array kTable{
       LintCheck{"light-inside", "a point light inside an opaque object", lightInside},
-      LintCheck{"light-behind-glass", "a light most of which comes through refracting glass",
+      LintCheck{"light-behind-glass", "a point light most of which comes through refracting glass",
                 lightBehindGlass},
+      LintCheck{"light-too-weak", "a light that is too weak to see", lightTooWeak},
+      LintCheck{"light-blocked", "a light that one object shuts out, such as the sun a sky", lightBlocked},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
+      LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},
       LintCheck{"inside-out", "a closed mesh whose faces look inward", insideOut},
       LintCheck{"turned-faces", "neighbouring faces of a mesh turned opposite ways", turnedFaces},
@@ -295,7 +292,10 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
-      LintCheck{"depth-too-low", "glass that is black for too small a depth", depthTooLow},
+      LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
+      LintCheck{"no-material", "objects without a material", noMaterial},
+      LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},
+      LintCheck{"degrees", "degrees where a rotation takes radians", degrees},
   };
   return kTable;
 }
@@ -304,6 +304,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
                               const std::vector<Message>& warnings) {
   LintScene s{scene, settings, world, warnings, survey(scene, settings, world)};
   s.aroundCamera = objectsAround(world, world.camera().eye);
+  s.remarks = remarksOn(scene);
   std::vector<LintFinding> findings;
   for (const Message& message : warnings)
     if (!isOfArea(message)) findings.push_back({"reading", message});

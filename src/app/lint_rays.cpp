@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "image/tone.h"
 #include "render/pixel.h"
 
 namespace trace {
 namespace {
 
 constexpr int kDirections = 14;
-constexpr Real kCounts = 0.02;  ///< a ray of less weight shows too little
+constexpr int kWidth = 64, kHeight = 48;  ///< of the picture that is surveyed
+constexpr Real kCounts = 0.02;            ///< a ray of less weight shows too little
 
 /// Spread over the sphere (a Fibonacci spiral: Gonzalez 2010), none along an axis.
 Vec3 direction(int i) {
@@ -35,12 +38,12 @@ std::vector<Found> allCrossings(const World& world, const Ray& ray, Real tMost) 
 /// The picture that is surveyed: small, one ray a pixel.
 Settings sparse(const Settings& settings) {
   Settings result = settings;
-  result.width = 64, result.height = 48, result.spp = 1, result.region = {};
+  result.width = kWidth, result.height = kHeight, result.spp = 1, result.region = {};
   result.threshold = std::max(result.threshold, kCounts / 2);
   return result;
 }
 
-/// Calls visit(tree) for each pixel; trees that are too large to record are left out.
+/// Calls visit(tree, number of the pixel) for each pixel; trees that are too large to record are left out.
 template <class Visit>
 void forEachTree(const Settings& settings, const World& world, Visit&& visit) {
   const Size size{settings.width, settings.height};
@@ -53,7 +56,7 @@ void forEachTree(const Settings& settings, const World& world, Visit&& visit) {
         continue;
       }
       weigh(tree, 1);
-      visit(tree);
+      visit(tree, static_cast<std::size_t>(y * size.width + x));
     }
 }
 
@@ -69,25 +72,47 @@ bool isCutShort(const RayNode& node) {
   });
 }
 
+Bytes levels(const Picture& picture, const Settings& settings) {
+  return toBytes(toned(picture, settings.tone), settings.rounding);
+}
+
+/// How many of the pixels differ so that an eye sees it.
+int different(const Bytes& a, const Bytes& b, const std::vector<std::size_t>& pixels) {
+  constexpr int kVisible = 16;  // levels: a difference that nobody overlooks
+  return static_cast<int>(std::count_if(pixels.begin(), pixels.end(), [&](std::size_t pixel) {
+    for (std::size_t channel = 3 * pixel; channel < 3 * pixel + 3; ++channel)
+      if (std::abs(a.rgb[channel] - b.rgb[channel]) >= kVisible) return true;
+    return false;
+  }));
+}
+
 class Surveyor {
  public:
   Surveyor(const Scene& scene, const World& world) : world_(world) {
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
+    survey_.picture = Picture(kWidth, kHeight);
   }
 
-  void look(const RayTree& tree) {
+  void look(const RayTree& tree, std::size_t pixel) {
     ++survey_.samples;
+    const RayNode& first = tree.nodes.front();
+    survey_.met += first.hit.has_value();
+    survey_.cutOff += std::any_of(first.ends.begin(), first.ends.end(),
+                                  [](const RayEnd& end) { return std::holds_alternative<CutOff>(end); });
+    survey_.picture.pixels[pixel] = first.radiance;
     bool cutShort = false;
     for (const RayNode& node : tree.nodes) {
-      if (!node.hit || !counts(node)) continue;
+      if (!counts(node)) continue;
+      if (node.parent >= 0) sent(tree.nodes[static_cast<std::size_t>(node.parent)], node);
+      if (!node.hit) continue;
       place(tree, node);
       if (node.kind == RayKind::camera) coplanar(node);
       if (!isCutShort(node)) continue;
-      if (survey_.cutShort == 0) survey_.cutShortIn = node.hit->object;
+      if (survey_.cutShort.empty() && !cutShort) survey_.cutShortIn = node.hit->object;
       cutShort = true;
     }
-    survey_.cutShort += cutShort;
+    if (cutShort) survey_.cutShort.push_back(pixel);
   }
 
   Survey take() { return std::move(survey_); }
@@ -105,21 +130,41 @@ class Surveyor {
     });
     for (const Term& term : node.terms) {
       if (!term.light) continue;
+      Survey::Lamp& lamp = survey_.lights[term.light->light];
+      if (!isBlack(material.diffuse) || !isBlack(material.specular)) {
+        ++lamp.places;
+        lamp.strongest = std::max(lamp.strongest, maxComponent(term.light->arriving.intensity()));
+      }
       if (term.ray < 0) {
         ++seen.facesAway;
         continue;
       }
       const RayNode& shadow = tree.nodes[static_cast<std::size_t>(term.ray)];
       if (!shadow.ends.empty())
-        if (const auto* blocked = std::get_if<Blocked>(&shadow.ends.front()))
+        if (const auto* blocked = std::get_if<Blocked>(&shadow.ends.front())) {
           ++seen.blockedBy[blocked->object];
-      lamp(survey_.lights[term.light->light], shadow);
+          ++lamp.blocked[{node.hit->object, blocked->object}];
+        }
+      if (isBlack(shadow.radiance)) continue;
+      ++lamp.reached[node.hit->object];
+      // What comes to glass through other glass, or from the far side of its own, is not seen as light.
+      if (!material.transmits()) arrived(lamp, shadow);
     }
   }
 
-  void lamp(Survey::Lamp& lamp, const RayNode& shadow) const {
-    if (isBlack(shadow.radiance)) return;
-    ++lamp.reached;
+  /// A mirrored or refracted ray that comes from an object and does not stay inside it.
+  void sent(const RayNode& from, const RayNode& node) {
+    if (node.kind == RayKind::shadow || !from.hit) return;
+    if (node.hit && node.hit->object == from.hit->object) return;
+    Survey::Seen& seen = survey_.objects[from.hit->object];
+    ++seen.sent;
+    if (node.hit) return;
+    ++seen.leftScene;
+    seen.mirroredAway += node.kind == RayKind::reflection;
+  }
+
+  void arrived(Survey::Lamp& lamp, const RayNode& shadow) const {
+    ++lamp.reachedOthers;
     for (const Filter& filter : shadow.filters) {
       if (!refracts(shadow.ray, filter)) continue;
       if (lamp.throughGlass == 0) lamp.glass = filter.object;
@@ -171,6 +216,35 @@ std::vector<std::uint32_t> objectsAround(const World& world, const Vec3& point) 
   return around;
 }
 
+bool isShell(const World& world, std::uint32_t object, const Vec3& point) {
+  int closed = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const std::vector<Found> crossed = allCrossings(world, {point, direction(i)}, kInfinity);
+    const auto times = std::count_if(crossed.begin(), crossed.end(),
+                                     [&](const Found& found) { return found.object == object; });
+    if (times == 0) continue;
+    if (times > 1 || crossed.back().object != object) return false;
+    ++closed;
+  }
+  return 2 * closed >= kDirections;
+}
+
+Real strongestAround(const World& world, const Light& light, const Vec3& position) {
+  Real strongest = 0;
+  Statistics uncounted;
+  const auto look = [&](const Vec3& direction) {
+    const Ray ray{position, direction};
+    const std::optional<Found> found = world.closest(ray, Faces::both, uncounted);
+    if (!found) return;
+    const Vec3 there = position + direction * found->t;
+    if (const auto arriving = match(light, [&](const auto& l) { return l.illuminate(there); }))
+      strongest = std::max(strongest, maxComponent(arriving->intensity()));
+  };
+  for (int i = 0; i < kDirections; ++i) look(direction(i));
+  if (const auto* spot = std::get_if<SpotLight>(&light)) look(normalize(spot->direction));
+  return strongest;
+}
+
 double shareInsideOut(const World& world, std::uint32_t object, const MeshData& mesh) {
   constexpr std::size_t kMost = 200;
   const std::size_t count = mesh.triangles.size(), step = std::max<std::size_t>(1, count / kMost);
@@ -199,19 +273,35 @@ double shareInsideOut(const World& world, std::uint32_t object, const MeshData& 
 
 Survey survey(const Scene& scene, const Settings& settings, const World& world) {
   Surveyor surveyor(scene, world);
-  forEachTree(sparse(settings), world, [&](const RayTree& tree) { surveyor.look(tree); });
+  forEachTree(sparse(settings), world,
+              [&](const RayTree& tree, std::size_t pixel) { surveyor.look(tree, pixel); });
   return surveyor.take();
 }
 
-double shareCutShort(const Settings& settings, const World& world, int depth) {
-  Settings sampled = sparse(settings);
-  sampled.depth = depth;
-  int all = 0, cut = 0;
-  forEachTree(sampled, world, [&](const RayTree& tree) {
-    ++all;
-    cut += std::any_of(tree.nodes.begin(), tree.nodes.end(), isCutShort);
-  });
-  return all > 0 ? static_cast<double>(cut) / all : 0;
+std::vector<int> changedByDepth(const Settings& settings, const World& world, const Survey& survey) {
+  constexpr std::uint64_t kMostRays = 1000000;
+  constexpr int kMostMore = 30;
+  Settings deeper = sparse(settings);
+  const Size size{deeper.width, deeper.height};
+  std::vector<Bytes> pictures{levels(survey.picture, settings)};
+  std::uint64_t rays = 0;
+  // Glass behind glass shows nothing before the second ray more: it takes two that change nothing to be sure.
+  int unchanged = 0;
+  for (int more = 1; more <= kMostMore && rays < kMostRays && unchanged < 2; ++more) {
+    deeper.depth = settings.depth + more;
+    PixelTracer tracer(world, deeper, size);
+    Picture picture = survey.picture;
+    for (std::size_t pixel : survey.cutShort)
+      picture.pixels[pixel] =
+          tracer.sample(static_cast<int>(pixel) % size.width, static_cast<int>(pixel) / size.width, 0);
+    rays += tracer.statistics().allRays();
+    pictures.push_back(levels(picture, settings));
+    unchanged = pictures.back() == pictures[pictures.size() - 2] ? unchanged + 1 : 0;
+  }
+  std::vector<int> changed;
+  for (const Bytes& picture : pictures)
+    changed.push_back(different(picture, pictures.back(), survey.cutShort));
+  return changed;
 }
 
 }  // namespace trace
