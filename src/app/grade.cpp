@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <set>
 
+#include "app/grade_files.h"
 #include "app/session.h"
-#include "base/file.h"
 #include "base/parallel.h"
 #include "image/codec.h"
 
@@ -14,38 +15,6 @@ namespace trace {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isPicture(const fs::path& file) {
-  std::string suffix = file.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  for (const PictureFormat& format : pictureFormats())
-    for (std::string_view known : format.suffixes)
-      if (known == suffix) return true;
-  return false;
-}
-
-bool isScene(const fs::path& file) {
-  if (isPicture(file)) return false;
-  const std::string bytes = readFile(file.string());
-  for (const SceneFormat& format : sceneFormats())
-    if (format.recognises(bytes)) return true;
-  return false;
-}
-
-/// The files in and below the folder for which `wanted` holds, seen from the folder, in the order of names.
-std::vector<fs::path> filesIn(const std::string& folder, bool (*wanted)(const fs::path&)) {
-  std::vector<fs::path> files;
-  try {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && wanted(entry.path()))
-        files.push_back(fs::relative(entry.path(), folder));
-  } catch (const fs::filesystem_error& error) {
-    throw Error(Fault::io, "cannot read the folder \"" + folder + "\": " + error.code().message());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// Without the suffix: what pairs are made by.
 std::string stemOf(const fs::path& file) { return fs::path(file).replace_extension().generic_string(); }
@@ -113,6 +82,57 @@ void compareOrNote(GradedPair& pair, const GradeTask& task) {
   }
 }
 
+void addPair(Grades& grades, const fs::path& reference) {
+  GradedPair pair;
+  pair.name = reference.generic_string();
+  grades.pairs.push_back(std::move(pair));
+}
+
+void addUnreadable(Grades& grades, const fs::path& folder, std::string why) {
+  GradedPair pair;
+  pair.name = folder.generic_string() + "/";
+  pair.verdict = Verdict::unreadable;
+  pair.problem = std::move(why);
+  grades.pairs.push_back(std::move(pair));
+}
+
+/// Gives each pair the file of the same name: the same suffix counts before others, what can be read before
+/// what cannot, and a name that differs in its case only if there is no other. Returns the files left over.
+std::vector<std::string> findPartners(std::vector<GradedPair>& pairs, const FolderFiles& files) {
+  std::map<std::string, std::vector<fs::path>> byName, byAnyCase;
+  for (const std::vector<fs::path>* list : {&files.files, &files.unreadable})
+    for (const fs::path& file : *list) {
+      byName[stemOf(file)].push_back(file);
+      byAnyCase[lowerCase(stemOf(file))].push_back(file);
+    }
+  std::set<std::string> used;
+  const auto take = [&](GradedPair& pair, const fs::path& file) {
+    pair.file = file.generic_string();
+    used.insert(pair.file);
+  };
+  for (GradedPair& pair : pairs) {
+    const auto found = byName.find(stemOf(pair.name));
+    if (found == byName.end()) continue;
+    const auto same = std::find(found->second.begin(), found->second.end(), fs::path(pair.name));
+    take(pair, same != found->second.end() ? *same : found->second.front());
+  }
+  for (GradedPair& pair : pairs) {
+    if (!pair.file.empty()) continue;
+    for (const fs::path& file : byAnyCase[lowerCase(stemOf(pair.name))])
+      if (pair.file.empty() && !used.contains(file.generic_string())) take(pair, file);
+    if (!pair.file.empty()) continue;
+    for (const auto& [folder, why] : files.unreadableFolders)
+      if (pair.name.starts_with(folder.generic_string() + "/")) {
+        pair.verdict = Verdict::unreadable;
+        pair.problem = "cannot read the folder \"" + folder.generic_string() + "\": " + why;
+      }
+  }
+  std::vector<std::string> left;
+  for (const fs::path& file : files.files)
+    if (!used.contains(file.generic_string())) left.push_back(file.generic_string());
+  return left;
+}
+
 /// Worst first: by verdict, by what an eye sees, by the numbers, by name.
 bool worse(const GradedPair& a, const GradedPair& b) {
   if (a.verdict != b.verdict) return a.verdict < b.verdict;
@@ -133,28 +153,17 @@ std::string_view verdictText(Verdict verdict) {
 }
 
 Grades grade(const GradeTask& task) {
-  std::map<std::string, std::vector<fs::path>> files;
-  for (const fs::path& file : filesIn(task.folder, task.renderScenes ? isScene : isPicture))
-    files[stemOf(file)].push_back(file);
-
   Grades grades;
-  std::map<std::string, bool> used;
-  for (const fs::path& reference : filesIn(task.reference, isPicture)) {
-    GradedPair pair;
-    pair.name = reference.generic_string();
-    if (const auto found = files.find(stemOf(reference)); found != files.end()) {
-      const std::vector<fs::path>& same = found->second;
-      const auto best = std::find(same.begin(), same.end(), reference);  // of the same suffix, or the first
-      pair.file = (best != same.end() ? *best : same.front()).generic_string();
-      used[pair.file] = true;
-    }
-    grades.pairs.push_back(std::move(pair));
-  }
+  const FolderFiles files = filesBelow(task.folder, task.renderScenes ? isSceneFile : isPictureFile);
+  const FolderFiles references = filesBelow(task.reference, isPictureFile);
+  for (const fs::path& reference : references.files) addPair(grades, reference);
+  for (const fs::path& reference : references.unreadable)
+    if (isPictureFile(reference)) addPair(grades, reference);
+  for (const auto& [folder, why] : references.unreadableFolders)
+    addUnreadable(grades, folder, "cannot read the folder: " + why);
   if (grades.pairs.empty())
     throw Error(Fault::usage, "there is no picture in the folder \"" + task.reference + "\"");
-  for (const auto& [stem, same] : files)
-    for (const fs::path& file : same)
-      if (!used.contains(file.generic_string())) grades.extra.push_back(file.generic_string());
+  grades.extra = findPartners(grades.pairs, files);
 
   Job job;
   const int threads = resolve({task.choices}).threads;

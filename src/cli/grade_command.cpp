@@ -2,6 +2,7 @@
 //
 // Keys of the JSON object: folder, reference, passed, pairs[] of {name, file, verdict, problem, unit, width,
 // height, then each metric by name, null where it is infinite or there is none}, extra[], page (or null).
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -35,24 +36,47 @@ GradeTask taskOf(const Arguments& arguments) {
           .keepsPictures = !arguments.output.empty()};
 }
 
-std::string padded(std::string text, std::size_t width, bool right = false) {
-  if (text.size() < width) text.insert(right ? 0 : text.size(), width - text.size(), ' ');
+/// Of UTF-8 text, as far as each character is one column wide.
+std::size_t columnsOf(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+using Row = std::vector<std::string>;
+
+/// Two spaces between columns; from the third on they are numbers and stand at the right.
+std::string tableText(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == widths.size()) widths.push_back(0);
+      widths[i] = std::max(widths[i], columnsOf(row[i]));
+    }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string space(widths[i] - columnsOf(row[i]), ' ');
+      line += (i == 0 ? "" : "  ") + (i < 2 ? row[i] + space : space + row[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
   return text;
 }
 
 std::string gradesText(const Grades& grades) {
-  constexpr std::size_t kVerdict = 14, kNumber = 9;
-  std::size_t widest = 8;
-  for (const GradedPair& pair : grades.pairs) widest = std::max(widest, pair.name.size() + 2);
-  std::string text = padded("verdict", kVerdict) + padded("picture", widest);
-  for (const Metric& metric : metrics()) text += padded(std::string(metric.name), kNumber, true);
-  text += "\n";
+  std::vector<Row> rows{{"verdict", "picture"}};
+  for (const Metric& metric : metrics()) rows[0].emplace_back(metric.name);
   for (const GradedPair& pair : grades.pairs) {
-    text += padded(std::string(verdictText(pair.verdict)), kVerdict) + padded(pair.name, widest);
-    for (double value : pair.values) text += padded(numberText(value), kNumber, true);
-    if (!pair.problem.empty()) text += pair.problem.substr(0, pair.problem.find('\n'));
-    text += "\n";
+    Row row{std::string(verdictText(pair.verdict)), pair.name};
+    for (double value : pair.values) row.push_back(numberText(value));
+    rows.push_back(std::move(row));
   }
+  std::string text = tableText(rows);
+  for (const GradedPair& pair : grades.pairs)
+    if (!pair.problem.empty())
+      text += pair.name + ": " + pair.problem.substr(0, pair.problem.find('\n')) + "\n";
   if (!grades.extra.empty()) text += "without a reference: " + counted(grades.extra.size(), "file") + "\n";
   return text + std::to_string(grades.passed) + " of " + std::to_string(grades.pairs.size()) +
          " within the limits\n";

@@ -2,7 +2,9 @@
 #include "app/grade.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "base/file.h"
@@ -94,6 +96,74 @@ TEST_F(GradeTest, RendersScenesWhenAsked) {
   EXPECT_EQ(lines(grades),
             (std::vector<std::string>{"broken.png broken.ray unreadable", "white.png white.ray identical"}));
   EXPECT_NE(grades.pairs[0].problem.find("broken.ray:1:"), std::string::npos) << grades.pairs[0].problem;
+}
+
+TEST_F(GradeTest, FollowsLinksAndMindsNoCase) {
+  for (const char* name : {"spheres.png", "final.png", "linked.png", "B.png", "b.png", "sub/deep.png"})
+    grey(reference(name), 0.5);
+  grey(out("Spheres.PNG"), 0.5);
+  grey(out("b.png"), 0.5);
+  fs::create_directories(out("elsewhere"));
+  grey(out("elsewhere/v7.png"), 0.5);
+  fs::create_symlink("elsewhere/v7.png", out("final.png"));
+  fs::create_symlink("nowhere", out("linked.png"));
+  fs::remove(out("sub"));
+  fs::create_directory(root_ / "other");
+  grey(root_ / "other/Deep.Png", 0.5);
+  fs::create_directory_symlink("../other", out("sub"));
+  fs::create_directory_symlink("..", out("elsewhere/round"));  // without end, were it followed
+  const Grades grades = grade(task());
+  EXPECT_EQ(lines(grades),
+            (std::vector<std::string>{"B.png  missing",  // b.png is the other's
+                                      "linked.png linked.png unreadable", "b.png b.png identical",
+                                      "final.png final.png identical", "spheres.png Spheres.PNG identical",
+                                      "sub/deep.png sub/Deep.Png identical"}));
+}
+
+/// As someone who may not read everything, even where the tests run as root.
+class WithoutPrivileges {
+ public:
+  WithoutPrivileges() {
+    if (user_ == 0) done_ = seteuid(65534) == 0;
+  }
+  ~WithoutPrivileges() {
+    if (done_ && user_ == 0 && seteuid(0) != 0) std::abort();
+  }
+  explicit operator bool() const { return done_; }
+
+ private:
+  const uid_t user_ = geteuid();
+  bool done_ = true;
+};
+
+TEST_F(GradeTest, GoesOnWhereAFileOrAFolderCannotBeRead) {
+  for (const char* name : {"a.png", "b.png", "sub/c.png"}) grey(reference(name), 0.5), grey(out(name), 0.5);
+  fs::create_directory(reference("secret"));
+  const auto closed = {out("b.png"), out("sub"), reference("secret")};
+  for (const std::string& path : closed) fs::permissions(path, fs::perms::none);
+  std::vector<std::string> found;
+  {
+    const WithoutPrivileges user;
+    if (!user) GTEST_SKIP() << "SKIPPED: this user may read everything";
+    found = lines(grade(task()));
+  }
+  for (const std::string& path : closed) fs::permissions(path, fs::perms::owner_all);
+  EXPECT_EQ(found, (std::vector<std::string>{"b.png b.png unreadable", "secret/  unreadable",
+                                             "sub/c.png  unreadable", "a.png a.png identical"}));
+}
+
+TEST_F(GradeTest, GoesOnWhereAFileOfScenesCannotBeRead) {
+  writeFile(out("white.ray"),
+            "SBT-raytracer 1.0 camera {} scale(10, sphere { material={ emissive=(1,1,1); } })");
+  fs::create_symlink("/proc/self/mem", out("broken.ray"));  // a file that nobody can read from its start
+  fs::create_symlink("nowhere", out("gone.ray"));
+  grey(reference("white.png"), 1), grey(reference("broken.png"), 1), grey(reference("gone.png"), 1);
+  GradeTask t = task();
+  t.renderScenes = true;
+  t.choices = {{"width", "8", {}}, {"height", "4", {}}};
+  EXPECT_EQ(lines(grade(t)),
+            (std::vector<std::string>{"broken.png broken.ray unreadable", "gone.png gone.ray unreadable",
+                                      "white.png white.ray identical"}));
 }
 
 TEST_F(GradeTest, FoldersMustBeThere) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "app/difference.h"
 #include "image/codec.h"
 #include "program.h"
 
@@ -96,6 +98,28 @@ TEST_F(Diff, Grade) {
   EXPECT_FALSE(exists("b.html"));
   EXPECT_EQ(run({"grade", "out"}).code, 2);
   EXPECT_EQ(run({"grade", "nowhere", "--reference", "ref"}).code, 1);
+}
+
+TEST_F(Diff, GradeKeepsItsColumnsApart) {
+  const std::string name = "ref/a_name_that_is_longer_than_others.png";
+  picture(name, 0.1), picture("out/" + name.substr(4), 0.6), picture("ref/b.png", 0.5),
+      picture("out/b.png", 0.5);
+  write("out/c.png", "no picture"), picture("ref/c.png", 0.5);
+  writePicture(path("ref/d.exr"), Picture(2, 2));
+  Picture bright(2, 2);
+  for (Color& c : bright.pixels) c = Color(1.2345e30);
+  writePicture(path("out/d.exr"), bright);
+  const Run r = run({"grade", "out", "--reference", "ref"});
+  EXPECT_EQ(r.code, 6);
+  std::istringstream text(r.out);
+  std::string line;
+  for (int row = 0; row < 5 && std::getline(text, line); ++row) {
+    std::istringstream words(line);
+    std::vector<std::string> all;
+    for (std::string word; words >> word;) all.push_back(word);
+    EXPECT_EQ(all.size(), line.starts_with("unreadable") ? 2u : 2 + metrics().size()) << r.out;
+  }
+  EXPECT_TRUE(contains(r.out, "\nc.png: ")) << "why it is unreadable stands below the table\n" << r.out;
 }
 
 TEST_F(Diff, GradeRendersScenes) {
