@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/ray_format.h"
+#include "scene/picture_size.h"
 
 namespace trace {
 namespace {
@@ -64,7 +65,7 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
 
 void Document::settle() {
   const Edition& edition = editions_[current_];
-  settings_ = resolve({edition.scene->choices, commandLine_, edition.choices});
+  settings_ = settingsFor(edition.scene->camera, {edition.scene->choices, commandLine_, edition.choices});
   ++revision_;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "render/passes.h"
+#include "scene/picture_size.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
@@ -69,7 +70,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   const auto readAt = [&](Real time) {
     messages_ = {};
     scene_ = readScene(file, bytes, messages_, time);
-    settings_ = resolve({scene_.choices, choices});
+    settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
   };
   const Real time = resolve({choices}).time;
   readAt(time);

@@ -7,6 +7,7 @@
 
 #include "app/output.h"
 #include "image/codec.h"
+#include "scene/picture_size.h"
 
 namespace trace {
 namespace {
@@ -158,7 +159,7 @@ void Workspace::takeReread() {
 Settings Workspace::chosenSettings() const {
   if (!wanted_) return document.settings();
   const Document::Source source = document.source(*wanted_);
-  return resolve({document.scene().choices, source.commandLine, source.choices});
+  return settingsFor(document.scene().camera, {document.scene().choices, source.commandLine, source.choices});
 }
 
 void Workspace::undo() {

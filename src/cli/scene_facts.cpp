@@ -1,5 +1,7 @@
 #include "cli/scene_facts.h"
 
+#include <algorithm>
+
 #include "base/match.h"
 
 namespace trace::cli {
@@ -18,7 +20,7 @@ Counts countKinds(const Items& items, Get&& get) {
   return counts;
 }
 
-/// Who gave the option its value, by the rules of resolve().
+/// Who gave the option its value, by the rules of settingsFor().
 std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
   std::string from = "default";
   for (std::span<const Choice> layer : {std::span<const Choice>(scene.choices), commandLine})
@@ -32,6 +34,13 @@ std::string chooser(const Option& option, const Scene& scene, std::span<const Ch
         if (from.empty()) from = "scene file";
         if (byLike && !byName) from += ", by like";
       }
+  const auto typed = [&](std::string_view name) {
+    return std::any_of(commandLine.begin(), commandLine.end(),
+                       [&](const Choice& choice) { return choice.option == name; });
+  };
+  if (option.name == "height" && from != "default" && typed("width") && !typed("height"))
+    return "command line, by width";
+  if (option.name == "width" && typed("height") && !typed("width")) return "command line, by height";
   return from;
 }
 

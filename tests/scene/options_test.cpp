@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/conventions.h"
+#include "scene/picture_size.h"
 
 namespace trace {
 namespace {
@@ -137,6 +138,34 @@ TEST(Resolve, ErrorsCarryTheChoicesPlace) {
     EXPECT_EQ(error.fault(), Fault::scene);
     EXPECT_EQ(std::string(error.what()).find("a.ray:4:9: error: --depth: expected"), 0u);
   }
+}
+
+TEST(PictureSize, OneSideGivenAboveTheSceneKeepsItsShape) {
+  using Layer = std::vector<Choice>;
+  Camera wide;
+  wide.aspectratio = 2;
+  const auto size = [&](const Layer& scene, const Layer& line, const Layer& more = {}) {
+    const Settings settings = settingsFor(wide, {scene, line, more});
+    return std::pair{settings.width, settings.height};
+  };
+  const Choice w240{"width", "240", {}}, h240{"height", "240", {}}, none{"height", "0", {}};
+  const Layer both{{"width", "800", {}}, {"height", "600", {}}};
+  using Size = std::pair<int, int>;
+  EXPECT_EQ(size(both, {}), Size(800, 600));
+  EXPECT_EQ(size(both, {w240}), Size(240, 180));
+  EXPECT_EQ(size(both, {h240}), Size(320, 240));
+  EXPECT_EQ(size(both, {w240, h240}), Size(240, 240)) << "both: as given";
+  EXPECT_EQ(size(both, {w240, none}), Size(240, 0)) << "height 0 is the camera's";
+  EXPECT_EQ(size(both, {none}), Size(800, 0));
+  EXPECT_EQ(size({}, {w240}), Size(240, 0));
+  EXPECT_EQ(size({}, {h240}), Size(480, 240)) << "the camera's shape";
+  EXPECT_EQ(size({h240}, {}), Size(400, 240)) << "the scene's own sizes are as they stand there";
+  EXPECT_EQ(size({h240}, {{"width", "100", {}}}), Size(100, 60));
+  EXPECT_EQ(size(both, {w240}, {{"height", "90", {}}}), Size(120, 90)) << "layer by layer";
+  EXPECT_EQ(size(both, {{"width", "1", {}}}), Size(1, 1));
+  EXPECT_EQ(settingsFor(wide, {both, Layer{{"depth", "3", {}}}}).depth, 3);
+  wide.aspectratio = 1e9;
+  EXPECT_THROW(size({}, {h240}), Error);
 }
 
 TEST(ChangedOptions, AreWhatRecreatesTheSettings) {
