@@ -95,7 +95,8 @@ class Parser {
   void add(const Flag& flag) {
     const std::string name = "--" + std::string(flag.name);
     if (flag.takes == Flag::Takes::nothing) {
-      actions_[app_.add_flag(name)] = [&flag, name](Arguments& arguments, const std::string& value) {
+      const std::string names = flag.letter ? "-" + std::string(1, flag.letter) + "," + name : name;
+      actions_[app_.add_flag(names)] = [&flag, name](Arguments& arguments, const std::string& value) {
         if (value != "true") throw Error(Fault::usage, name + ": takes no value, found \"" + value + "\"");
         flag.apply(arguments, value);
       };

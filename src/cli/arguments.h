@@ -39,6 +39,7 @@ struct Arguments {
   Conversion conversion;
   bool strict = false;
   bool quick = false;
+  bool quiet = false;
   std::optional<std::string> format;  ///< --format
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed

@@ -11,18 +11,30 @@
 namespace trace::cli {
 namespace {
 
+const Command* findCommand(std::string_view name) {
+  for (const Command& command : commands())
+    if (command.name == name) return &command;
+  return nullptr;
+}
+
+/// The page of the command; of `help` and of no command that of all.
+std::string page(const Command* command, bool all) {
+  return command && command->name != "help" ? helpText(*command, all) : helpText(all);
+}
+
 int help(const Arguments& arguments, const Console&) {
   const std::vector<std::string>& words = arguments.files;
-  if (words.size() > 1)
-    throw Error(Fault::usage, "ray help: expected \"all\" or nothing, found also \"" + words[1] + "\"");
-  std::vector<std::string_view> known{"all"};  // the page is of all commands, so naming one is harmless
-  for (const Command& command : commands()) known.push_back(command.name);
-  if (!words.empty() && std::find(known.begin(), known.end(), words[0]) == known.end()) {
-    const std::string name = nearest(words[0], known);
-    throw Error(Fault::usage, "ray help: expected \"all\" or nothing, found \"" + words[0] + "\"",
-                name.empty() ? "" : "did you mean \"" + name + "\"?");
+  const Command* command = words.empty() ? nullptr : findCommand(words[0]);
+  const std::size_t place = command ? 1 : 0;  // of the word "all"
+  const bool all = words.size() > place && words[place] == "all";
+  if (words.size() > place + all) {
+    std::vector<std::string_view> known{"all"};
+    for (const Command& c : commands()) known.push_back(c.name);
+    const std::string& odd = words[place + all];
+    throw Error(Fault::usage, "ray help: expected a command, \"all\" or nothing, found \"" + odd + "\"",
+                place + all == 0 ? didYouMean(odd, known) : "");
   }
-  printResult(helpText(words == std::vector<std::string>{"all"}));
+  printResult(page(command, all));
   return kDone;
 }
 
@@ -36,15 +48,16 @@ std::string whyNothing(const Error& error) {
   return "it failed";
 }
 
-/// Runs the row, and turns everything that can go wrong into messages and an exit code.
-int runCommand(const Command& command, const std::vector<std::string>& words) {
+/// Runs the row, and turns everything that can go wrong into messages and an exit code. `named`: the command
+/// was typed.
+int runCommand(const Command& command, const std::vector<std::string>& words, bool named) {
   Console console;
   std::string why;
   int code = kFailed;
   try {
     const Arguments arguments = parse(words, command.name);
-    console = Console(arguments.logLevel);
-    if (arguments.help) return printResult(helpText(arguments.helpAll)), kDone;
+    console = Console(arguments.logLevel, arguments.quiet);
+    if (arguments.help) return printResult(page(named ? &command : nullptr, arguments.helpAll)), kDone;
     if (arguments.version) return printResult("Trace " TRACE_VERSION "\n"), kDone;
     return command.run(arguments, console);
   } catch (const Error& error) {
@@ -61,6 +74,14 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
   }
   if (command.writes) console.line(LogLevel::error, "nothing written: " + why);
   return code;
+}
+
+/// Nothing was typed, and there is no window to open.
+int runAlone() {
+  const Console console;
+  console.last(false, briefHelp());
+  console.error(noStudio());
+  return static_cast<int>(Fault::usage);
 }
 
 }  // namespace
@@ -103,17 +124,16 @@ std::span<const Command> commands() {
       Command{"convert", "IN OUT", "write a scene or mesh in another format, by the suffix of OUT", true,
               convert},
       Command{"features", "", "extras, picture and scene formats, integrators", false, features},
-      Command{"help", "[all]", "print help, or all of it", false, help},
+      Command{"help", "[COMMAND] [all]", "print help, of one command, or all of it", false, help},
   };
   return kTable;
 }
 
 int run(const std::vector<std::string>& words) {
-  const Command& otherwise = commands().front();
-  if (words.empty()) return run({"gui"});
-  for (const Command& command : commands())
-    if (command.name == words.front()) return runCommand(command, {words.begin() + 1, words.end()});
-  return runCommand(otherwise, words);
+  if (words.empty()) return studioProgram().empty() ? runAlone() : run({"gui"});
+  if (const Command* command = findCommand(words.front()))
+    return runCommand(*command, {words.begin() + 1, words.end()}, true);
+  return runCommand(commands().front(), words, false);
 }
 
 }  // namespace trace::cli

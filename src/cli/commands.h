@@ -35,6 +35,11 @@ void checkDistinct(const std::string& read, const std::string& written);
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
                               std::span<const std::string_view> known);
 
+/// The file of the studio's program, which lies beside this one; "" if it was not built.
+std::string studioProgram();
+/// Says that it was not, and how to get it.
+Error noStudio();
+
 // The functions of the table; each in its own file.
 int render(const Arguments& arguments, const Console& console);
 int info(const Arguments& arguments, const Console& console);

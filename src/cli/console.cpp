@@ -44,7 +44,7 @@ LogLevel logLevel(std::string_view who, std::string_view name) {
   return static_cast<LogLevel>(found - std::begin(kLevels));
 }
 
-Console::Console(LogLevel level) : level_(level), color_(canColor()) {}
+Console::Console(LogLevel level, bool quiet) : level_(level), quiet_(quiet), color_(canColor()) {}
 
 void Console::print(std::span<const Message> messages, std::string_view kind) const {
   for (const Message& message : messages.first(std::min(messages.size(), kMostMessages)))
@@ -61,6 +61,10 @@ void Console::error(const Error& error) const { print(error.messages(), "error")
 
 void Console::line(LogLevel importance, const std::string& text) const {
   if (importance == LogLevel::error || shows(importance)) cli::print(text + "\n");
+}
+
+void Console::last(bool well, const std::string& text) const {
+  if (!well || !quiet_) cli::print(text + "\n");
 }
 
 void printResult(const std::string& text) {

@@ -20,7 +20,8 @@ class Console {
   /// More messages than this are only counted.
   static constexpr std::size_t kMostMessages = 20;
 
-  explicit Console(LogLevel level = LogLevel::info);
+  /// Quiet: without last() where all went well.
+  explicit Console(LogLevel level = LogLevel::info, bool quiet = false);
 
   bool shows(LogLevel level) const { return level <= level_; }
 
@@ -30,11 +31,14 @@ class Console {
   void error(const Error& error) const;
   /// One line of text without its end, if the level shows it; an importance of error is always shown.
   void line(LogLevel importance, const std::string& text) const;
+  /// The last line of a command, which did what it was asked for (`well`) or did not. Shown at every level.
+  void last(bool well, const std::string& text) const;
 
  private:
   void print(std::span<const Message> messages, std::string_view kind) const;
 
   LogLevel level_;
+  bool quiet_;
   bool color_;
 };
 

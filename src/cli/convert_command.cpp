@@ -86,7 +86,7 @@ int convert(const Arguments& arguments, const Console& console) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::string held = counted(scene.objects.size(), "object");
   if (const std::size_t triangles = countTriangles(scene)) held += ", " + counted(triangles, "triangle");
-  console.line(LogLevel::error, "wrote " + names + " (" + held + ") in " + durationText(seconds));
+  console.last(true, "wrote " + names + " (" + held + ") in " + durationText(seconds));
   return kDone;
 }
 

@@ -216,6 +216,12 @@ std::span<const Flag> flags() {
            "render info bench explain lint diff grade convert", false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
+      Flag{"quiet", 'q', Takes::nothing, "", "", "render info bench explain lint diff grade convert", true,
+           "show errors only: no warnings, no progress, no last line when all went well",
+           [](Arguments& a, std::string_view) {
+             a.quiet = true;
+             a.logLevel = LogLevel::error, a.progress = ProgressStyle::none;
+           }},
       Flag{"strict", 0, Takes::nothing, "", "", "render info bench explain lint grade convert", true,
            "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
       Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
@@ -264,7 +270,7 @@ std::span<const Flag> flags() {
            "print every option as NAME=VALUE with its default, and end",
            [](Arguments& a, std::string_view) { a.printDefaults = true; }},
       Flag{"help", 'h', Takes::optional, "all", "common", kEverywhere, true,
-           "print this page; with \"all\" every flag, its range and source",
+           "print this page, after a command the page of that; with \"all\" every flag, its range and source",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 2> kNames{"common", "all"};
              a.help = true;

@@ -66,8 +66,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
   const std::size_t there = arguments.frames.size() - missing.size();
   const std::string skipped = there > 0 ? std::to_string(there) + " already there" : "";
   if (missing.empty()) {
-    console.line(LogLevel::error,
-                 "nothing to write: " + span(pattern, arguments.frames) + " are already there");
+    console.last(true, "nothing to write: " + span(pattern, arguments.frames) + " are already there");
     return kDone;
   }
 
@@ -107,7 +106,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
           ? "nothing written"
           : "wrote " + span(pattern, {missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(done)});
   const std::string of = done < missing.size() ? " of " + std::to_string(missing.size()) : "";
-  console.line(LogLevel::error,
+  console.last(code == kDone,
                stopped + what + " (" +
                    (of.empty() ? counted(done, "frame") : std::to_string(done) + of + " frames") +
                    (size.empty() ? "" : ", " + size) + (skipped.empty() ? "" : "; " + skipped) + ") in " +

@@ -168,39 +168,61 @@ std::string spaced(std::string_view words) {
 
 std::string code(std::string_view text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
 
+/// The options of a picture: by groups, or the common ones.
+std::string optionsText(bool all) {
+  std::string text;
+  if (!all) {
+    text = "\nThe picture\n";
+    for (const Option& option : options())
+      if (isCommon(option.name)) text += optionEntry(option, false);
+    return text;
+  }
+  for (std::string_view group : groups()) {
+    text += "\n" + std::string(group) + "\n";
+    for (const Option& option : options())
+      if (option.group == group) text += optionEntry(option, true);
+  }
+  return text + conventionsText();
+}
+
+std::string usageOf(const Command& command) {
+  const bool first = &command == &commands().front();
+  return "ray " + (first ? "[render]" : std::string(command.name)) +
+         (command.arguments.empty() ? "" : " " + std::string(command.arguments));
+}
+
 }  // namespace
 
 std::string helpText(bool all) {
   std::string text = "Trace " TRACE_VERSION ", the ray tracer you can see inside\n\n";
-  for (const Command& command : commands()) {
-    const bool first = &command == &commands().front();
-    text += entry("ray " + (first ? "[render]" : std::string(command.name)) +
-                      (command.arguments.empty() ? "" : " " + std::string(command.arguments)),
-                  std::string(command.help));
-  }
-  text += "\n  As in the courses: ray -b -w 400 -r 5 -t 1 in.ray out.bmp\n";
-  if (all) {
-    for (std::string_view group : groups()) {
-      text += "\n" + std::string(group) + "\n";
-      for (const Option& option : options())
-        if (option.group == group) text += optionEntry(option, true);
-    }
-    text += conventionsText();
-  } else {
-    text += "\nThe picture\n";
-    for (const Option& option : options())
-      if (isCommon(option.name)) text += optionEntry(option, false);
-  }
+  for (const Command& command : commands()) text += entry(usageOf(command), std::string(command.help));
+  text += "\n  As in the courses: ray -b -w 400 -r 5 -t 1 in.ray out.bmp\n" + optionsText(all);
   text += "\nThe program\n";
   for (const Flag& flag : flags())
     if (all || flag.common) text += entry(flagsOf(flag), std::string(flag.help));
-  if (!all) return text + "\nEverything else: ray --help all\n";
+  if (!all) return text + "\nOf one command: ray COMMAND --help; everything: ray --help all\n";
   text += "\nEnvironment\n" +
           entry("RAY_THREADS, RAY_LOG", "stand for --threads and --log-level; flags override them") +
           entry("NO_COLOR, TERM, COLUMNS", "no colours; \"dumb\": no colours and no bar; width of the bar");
   text += "\nMore\n" + entry("exit codes", std::string(kExitCodes)) +
           entry("signals", std::string(kSignals)) + entry("--", "what follows are names of files");
   return text;
+}
+
+std::string helpText(const Command& command, bool all) {
+  const std::string name(command.name);
+  std::string text = entry(usageOf(command), std::string(command.help)) + "\nIts flags\n";
+  for (const Flag& flag : flags())
+    if (knows(command.name, flag)) text += entry(flagsOf(flag), std::string(flag.help));
+  if (!takesOptions(command.name)) return text;
+  text += optionsText(all);
+  return all ? text : text + "\nEvery option: ray " + name + " --help all\n";
+}
+
+std::string briefHelp() {
+  return "usage: ray SCENE [OUT]        render a scene, as in: ray scenes/glass.ray glass.png\n"
+         "       ray COMMAND ...        explain, lint, diff, grade, convert, info, bench and others\n"
+         "       ray --help             the common flags; ray COMMAND --help those of one command\n";
 }
 
 std::string defaultsText() {

@@ -8,6 +8,13 @@ namespace trace::cli {
 /// The common flags on one screen, or with `all` every flag with range, default and source.
 std::string helpText(bool all);
 
+struct Command;
+/// The page of one sub-command: what it does and its flags.
+std::string helpText(const Command& command, bool all);
+
+/// What to say to someone who typed `ray` alone and nothing more: a few lines.
+std::string briefHelp();
+
 /// Every option as name=value, a line each.
 std::string defaultsText();
 

@@ -97,10 +97,9 @@ int render(const Arguments& arguments, const Console& console) {
   if (written != output) code = kFailed;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   reportStatistics(arguments, session, result, written, seconds, console);
-  console.line(LogLevel::error, stopped + "wrote " + written + andPasses(session.settings()) + " (" +
-                                    pictureText(session, session.job().fraction()) + ") in " +
-                                    durationText(seconds) +
-                                    (written == output ? "" : " instead of " + output));
+  console.last(code == kDone, stopped + "wrote " + written + andPasses(session.settings()) + " (" +
+                                  pictureText(session, session.job().fraction()) + ") in " +
+                                  durationText(seconds) + (written == output ? "" : " instead of " + output));
   return code;
 }
 

@@ -260,13 +260,14 @@ constexpr Option row(const Text& t) {
 constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
 
 constexpr std::array kTable{
-    row<&Settings::width>({.name = "width",
-                           .group = "Picture",
-                           .help = "width of the picture",
-                           .source = "courses: -w",
-                           .least = 1,
-                           .most = kMostPixels,
-                           .unit = "pixels"}),
+    row<&Settings::width>(
+        {.name = "width",
+         .group = "Picture",
+         .help = "width of the picture; above a scene, width or height alone keeps the scene's shape",
+         .source = "courses: -w",
+         .least = 1,
+         .most = kMostPixels,
+         .unit = "pixels"}),
     row<&Settings::height>({.name = "height",
                             .group = "Picture",
                             .help = "height of the picture; 0 takes it from the camera's aspect ratio",

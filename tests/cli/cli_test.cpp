@@ -1,10 +1,13 @@
 // The program as a whole: what goes to which stream, exit codes, names of files.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "cli/commands.h"
+#include "cli/flags.h"
 #include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "program.h"
@@ -93,13 +96,8 @@ TEST_F(Cli, CoursesFlagsAreOptions) {
 }
 
 TEST_F(Cli, HelpGoesToStdout) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"-h"},
-                                                                                     {"--help"},
-                                                                                     {"help"},
-                                                                                     {"help", "explain"},
-                                                                                     {"render", "-h"},
-                                                                                     {"info", "--help"},
-                                                                                     {"white.ray", "-h"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"-h"}, {"--help"}, {"help"}, {"white.ray", "-h"}}) {
     const Run r = run(words);
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.err, "");
@@ -111,17 +109,91 @@ TEST_F(Cli, HelpGoesToStdout) {
   EXPECT_EQ(all, run({"help", "all"}).out);
   for (const Option& option : options()) EXPECT_TRUE(contains(all, "--" + std::string(option.name)));
   EXPECT_TRUE(contains(run({"help", "rener"}).err, "did you mean \"render\"?"));
-  EXPECT_TRUE(contains(run({"help", "all", "odd"}).err, "found also \"odd\""));
+  EXPECT_TRUE(contains(run({"help", "all", "odd"}).err, "found \"odd\""));
   EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
+}
+
+TEST_F(Cli, EachCommandHasItsOwnHelp) {
+  for (const cli::Command& command : cli::commands()) {
+    const std::string name(command.name);
+    if (name == "help") continue;
+    const Run r = run({name, "--help"});
+    EXPECT_EQ(r.code, 0) << name;
+    EXPECT_EQ(r.err, "");
+    EXPECT_TRUE(contains(r.out, std::string(command.arguments)));
+    EXPECT_EQ(r.out.find("As in the courses"), std::string::npos) << name << " prints the page of all";
+    EXPECT_EQ(run({"help", name}).out, r.out);
+    EXPECT_EQ(run({name, "-h"}).out, r.out);
+    EXPECT_EQ(run({"help", name, "all"}).out, run({name, "--help", "all"}).out);
+    for (const cli::Flag& flag : cli::flags()) {
+      const bool told = r.out.find("--" + std::string(flag.name)) != std::string::npos;
+      EXPECT_TRUE(told || !cli::knows(name, flag)) << name << " " << flag.name;
+    }
+  }
+  EXPECT_TRUE(contains(run({"explain", "--help"}).out, "--pixel X,Y"));
+  EXPECT_EQ(run({"explain", "--help"}).out.find("--tolerance"), std::string::npos);
+  EXPECT_FALSE(contains(run({"lint", "--help"}).out, "--shininess-scale"));
+  EXPECT_TRUE(contains(run({"lint", "--help", "all"}).out, "--shininess-scale"));
+  EXPECT_TRUE(contains(run({"help", "lint", "explain"}).err, "found \"explain\""));
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Cli, AloneWithoutAStudioTellsWhatToType) {
+  std::filesystem::create_directory(path("bin"));
+  std::filesystem::copy(test::rayProgram(), path("bin/ray"));  // with no ray-studio beside it
+  const int status = std::system((path("bin/ray") + " >" + path("o") + " 2>" + path("e")).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(readFile(path("o")), "");
+  const std::string said = readFile(path("e"));
+  for (const char* part : {"usage: ray SCENE", "--help", "./dev studio", "was not built"})
+    EXPECT_TRUE(contains(said, part));
+}
+
+TEST_F(Cli, QuietShowsErrorsOnly) {
+  write("odd.ray", std::string(kWhite) + "wood {}\n");
+  for (const char* flag : {"-q", "--quiet"}) {
+    const Run r = run({"odd.ray", "-w", "8", flag, "out.png"});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(r.out + r.err, "");
+    EXPECT_TRUE(exists("out.png"));
+    std::filesystem::remove(path("out.png"));
+  }
+  EXPECT_EQ(run({"odd.ray", "-w", "4", "-q", "--frames", "0-1"}).err, "");
+  EXPECT_EQ(run({"odd.ray", "-w", "4", "-q", "--frames", "0-1"}).err, "") << "they are already there";
+  EXPECT_EQ(run({"convert", "odd.ray", "b.ray", "-q"}).err, "");
+  EXPECT_TRUE(contains(run({"nowhere.ray", "-q"}).err, "cannot read \"nowhere.ray\""));
+  EXPECT_TRUE(contains(run({"odd.ray", "-q", "--strict"}).err, "wood"));
+  const Run limited = run({"odd.ray", "-w", "8000", "-a", "-q", "--time-limit", "0.05", "part.png"});
+  EXPECT_EQ(limited.code, 5);
+  EXPECT_TRUE(contains(limited.err, "stopped by the time limit")) << "a part is not what was asked for";
+}
+
+TEST_F(Cli, OneSideOfThePictureKeepsTheScenesShape) {
+  write("sized.ray", std::string(kWhite) + "settings { width = 80; height = 60; }\n");
+  const auto size = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "sized.ray");
+    return json::parse(run([&] {
+                         words.insert(words.begin(), "info"), words.insert(words.end(), {"--format", "json"});
+                         return words;
+                       }())
+                           .out)["picture"];
+  };
+  EXPECT_EQ(size({}), json({{"width", 80}, {"height", 60}}));
+  EXPECT_EQ(size({"-w", "24"}), json({{"width", 24}, {"height", 18}}));
+  EXPECT_EQ(size({"--height", "30"}), json({{"width", 40}, {"height", 30}}));
+  EXPECT_EQ(size({"-w", "24", "--height", "24"}), json({{"width", 24}, {"height", 24}}));
+  const Run r = run({"sized.ray", "-w", "24"});
+  EXPECT_TRUE(contains(r.last, "(24x18)"));
+  EXPECT_TRUE(contains(run({"white.ray", "--height", "40"}).last, "(50x40)")) << "the camera's shape";
 }
 
 TEST_F(Cli, AloneAndGuiAreTheStudio) {  // without a display, or without the studio: an error that says so
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{}, {"gui"}, {"gui", "white.ray", "-w", "20"}}) {
     const Run r = run(words, {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}});
-    EXPECT_EQ(r.code, 1) << r.err;
-    EXPECT_TRUE(
-        contains(r.err, r.err.find("was not built") == std::string::npos ? "display" : "./dev studio"));
+    const bool built = r.err.find("was not built") == std::string::npos;
+    EXPECT_EQ(r.code, words.empty() && !built ? 2 : 1) << r.err;
+    EXPECT_TRUE(contains(r.err, built ? "display" : "./dev studio"));
     EXPECT_EQ(r.out, "");
   }
   EXPECT_EQ(run({"gui", "white.ray", "b.ray"}).code, 2);

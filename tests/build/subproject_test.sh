@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Another project takes Trace in by add_subdirectory(): its own file compiles with the headers of a floor, and it
+# has neither Trace's tests nor its programs in its way. Usage: subproject_test.sh CHECKOUT COMPILER
+set -euo pipefail
+
+checkout="$1" compiler="$2"
+folder="$(mktemp -d)"
+trap 'rm -rf -- "$folder"' EXIT
+fail() { echo "FAILED: $*" >&2; cat "$folder/log" >&2; exit 1; }
+
+cat >"$folder/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.24)
+project(Mine LANGUAGES CXX)
+enable_testing()
+add_subdirectory("$checkout" trace EXCLUDE_FROM_ALL)
+add_library(mine OBJECT mine.cpp)
+target_link_libraries(mine PRIVATE Trace::image)
+add_library(all_floors INTERFACE)
+target_link_libraries(all_floors INTERFACE Trace::base Trace::math Trace::accel Trace::image Trace::geometry
+  Trace::shading Trace::scene Trace::formats Trace::render Trace::app)
+END
+cat >"$folder/mine.cpp" <<'END'
+#include "image/picture.h"
+static_assert(__cplusplus >= 202002L);
+int pixels() { return static_cast<int>(trace::Picture(2, 3).pixels.size()); }
+END
+cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" >"$folder/log" 2>&1 || fail "configuring"
+cmake --build "$folder/build" --target mine >"$folder/log" 2>&1 || fail "compiling"
+cmake --build "$folder/build" --target help >"$folder/log"
+! grep -q 'test_' "$folder/log" || fail "Trace's tests are among the targets"
+(cd "$folder/build" && ctest -N) >"$folder/log" 2>&1
+grep -q 'Total Tests: 0' "$folder/log" || fail "Trace's tests are among the project's"
+cmake --install "$folder/build" --prefix "$folder/usr" >"$folder/log" 2>&1 || fail "installing"
+[[ ! -e "$folder/usr/bin/ray" ]] || fail "Trace is installed with the project"
