@@ -223,9 +223,6 @@ void cameraLooksAway(const LintScene& s, Findings& findings) {
 
 void blackReflection(const LintScene& s, Findings& findings) {
   constexpr int kFew = 20;
-  const std::vector<Color>& sky = s.scene.background.colors;
-  if (std::all_of(sky.begin(), sky.end(), [](const Color& c) { return maxComponent(c) < kHalfALevel; }))
-    return;
   for (std::uint32_t object = 0; object < s.survey.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
     if (seen.leftScene < kFew || 2 * seen.leftScene < seen.sent) continue;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kDirections = 14;
 constexpr int kWidth = 64, kHeight = 48;  ///< of the picture that is surveyed
+constexpr int kVisible = 16;              ///< levels: a difference that nobody overlooks
 constexpr Real kCounts = 0.02;            ///< a ray of less weight shows too little
 
 /// Spread over the sphere (a Fibonacci spiral: Gonzalez 2010), none along an axis.
@@ -78,7 +79,6 @@ Bytes levels(const Picture& picture, const Settings& settings) {
 
 /// How many of the pixels differ so that an eye sees it.
 int different(const Bytes& a, const Bytes& b, const std::vector<std::size_t>& pixels) {
-  constexpr int kVisible = 16;  // levels: a difference that nobody overlooks
   return static_cast<int>(std::count_if(pixels.begin(), pixels.end(), [&](std::size_t pixel) {
     for (std::size_t channel = 3 * pixel; channel < 3 * pixel + 3; ++channel)
       if (std::abs(a.rgb[channel] - b.rgb[channel]) >= kVisible) return true;
@@ -92,6 +92,8 @@ class Surveyor {
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
     survey_.picture = Picture(kWidth, kHeight);
+    for (const Color& color : scene.background.colors)
+      brightestSky_ = std::max(brightestSky_, maxComponent(color));
   }
 
   void look(const RayTree& tree, std::size_t pixel) {
@@ -158,7 +160,7 @@ class Surveyor {
     if (node.hit && node.hit->object == from.hit->object) return;
     Survey::Seen& seen = survey_.objects[from.hit->object];
     ++seen.sent;
-    if (node.hit) return;
+    if (node.hit || maxComponent(node.weight) * brightestSky_ < kVisible / 255.0) return;
     ++seen.leftScene;
     seen.mirroredAway += node.kind == RayKind::reflection;
   }
@@ -198,6 +200,7 @@ class Surveyor {
   }
 
   const World& world_;
+  Real brightestSky_ = 0;
   Survey survey_;
 };
 

@@ -41,7 +41,7 @@ struct Survey {
     int facesAway = 0;                       ///< pairs of a place and a light behind the surface there
     std::map<std::uint32_t, int> blockedBy;  ///< pairs of a place and a light, by what is between
     int sent = 0;                            ///< mirrored and refracted rays that went on from it
-    int leftScene = 0;                       ///< of them: met nothing
+    int leftScene = 0;                       ///< of them: met nothing, where a background would be seen
     int mirroredAway = 0;                    ///< of these: mirrored
   };
   struct Lamp {
