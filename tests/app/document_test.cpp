@@ -51,6 +51,20 @@ TEST_F(DocumentTest, ContinuedEditsAreOneStep) {
   EXPECT_TRUE(document.canUndo());
 }
 
+TEST_F(DocumentTest, OneSideOfThePictureKeepsTheScenesShape) {
+  writeFile(path("sized.ray"), std::string(kScene) + "settings { width = 80; height = 60; }\n");
+  Document document;
+  document.open(path("sized.ray"), {{"width", "40", {}}});
+  EXPECT_EQ(document.settings().height, 30);
+  document.choose("height", "15");
+  EXPECT_EQ(document.settings().width, 20);
+  document.choose("width", "15");
+  EXPECT_EQ(document.settings().height, 15) << "both are given here";
+  document.undo();
+  document.undo();
+  EXPECT_EQ(document.settings().width, 40);
+}
+
 TEST_F(DocumentTest, OptionsTellWhoChoseThemAndGoBackToIt) {
   Document document;
   document.open(path("scene.ray"), {{"width", "50", {}}});
