@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <new>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "cli/help.h"
 
@@ -51,6 +51,8 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
     console.error(error);
     why = whyNothing(error);
     code = static_cast<int>(error.fault());
+  } catch (const ReaderGone&) {
+    return kReaderGone;
   } catch (const std::bad_alloc&) {
     console.error(Error(Fault::limit, "out of memory", "choose a smaller --width or a simpler scene"));
     why = "out of memory";
@@ -66,8 +68,7 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
 }  // namespace
 
 void checkDistinct(const std::string& read, const std::string& written) {
-  std::error_code absent;
-  if (std::filesystem::equivalent(read, written, absent))
+  if (!written.empty() && sameFile(read, written))
     throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
                 "what is read is not written over; name another file");
 }

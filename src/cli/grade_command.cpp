@@ -32,7 +32,8 @@ GradeTask taskOf(const Arguments& arguments) {
           .difference = {arguments.tolerance, arguments.pixelsPerDegree},
           .limits = arguments.limits,
           .magnify = arguments.magnify,
-          .keepsPictures = !arguments.output.empty()};
+          .keepsPictures = !arguments.output.empty(),
+          .page = arguments.output};
 }
 
 std::string padded(std::string text, std::size_t width, bool right = false) {
