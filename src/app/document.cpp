@@ -40,7 +40,7 @@ Document::Reading Document::read(const Source& source) {
   };
   const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
-  reading.fingerprint = trace::fingerprint(bytes, *reading.scene);
+  reading.fingerprint = reading.scene->inputs.fingerprint();
   reading.changesWithTime = trace::changesWithTime(source.file, bytes);
   return reading;
 }
@@ -207,11 +207,21 @@ Document::Saving Document::saving(const std::string& file) const {
 Document::Saved Document::write(Saving what) {
   Scene scene = *what.scene;
   scene.choices = what.choices;
-  for (const NamedBytes& part : writableFormatFor(what.file).write(scene, what.file, {}, what.messages))
-    writeFile(part.file, part.bytes);
+  const std::vector<NamedBytes> parts =
+      writableFormatFor(what.file).write(scene, what.file, {}, what.messages);
+  InputFiles others;  // the scene's own file may be replaced, and nothing else that it is made of
+  for (const InputFile& input : scene.inputs.all())
+    if (!sameFile(input.path, scene.file)) others.noteNamed(input.path);
+  for (const NamedBytes& part : parts) checkIsNoInput(part.file, others);
+  for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
   Saved saved{std::move(what), {}, {}};
   saved.written = timeOf(saved.what.file);
-  saved.fingerprint = trace::fingerprint(readFile(saved.what.file), *saved.what.scene);
+  try {  // what the file is made of now, which a picture of it has to say
+    Messages again;
+    saved.fingerprint = readScene(saved.what.file, again).inputs.fingerprint();
+  } catch (const Error&) {
+    saved.fingerprint.clear();  // the scene is written all the same
+  }
   return saved;
 }
 

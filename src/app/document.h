@@ -61,7 +61,7 @@ class Document {
 
   /// The scene differs from the file.
   bool edited() const { return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_); }
-  /// fingerprint() of what the file says (app/output.h); "" if the scene was edited.
+  /// The fingerprint of what was read; "" if the scene was edited.
   std::string fileFingerprint() const { return edited() ? "" : fingerprint_; }
   /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
   bool changedOnDisk() const;

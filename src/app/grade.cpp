@@ -19,9 +19,28 @@ namespace fs = std::filesystem;
 /// Without the suffix: what pairs are made by.
 std::string stemOf(const fs::path& file) { return fs::path(file).replace_extension().generic_string(); }
 
-LoadedPicture rendered(const std::string& scene, const GradeTask& task) {
+/// The page is written when all is read, and must not go over any of that.
+void checkPage(const GradeTask& task, const InputFiles& inputs) {
+  if (!task.page.empty()) checkIsNoInput(task.page, inputs);
+}
+
+InputFiles filesOf(const GradeTask& task, const Grades& grades) {
+  InputFiles files;
+  const auto note = [&](const std::string& folder, const std::string& name) {
+    if (!name.empty()) files.noteRead((fs::path(folder) / name).string(), {});
+  };
+  for (const GradedPair& pair : grades.pairs) {
+    note(task.reference, pair.name);
+    note(task.folder, pair.file);
+  }
+  for (const std::string& name : grades.extra) note(task.folder, name);
+  return files;
+}
+
+LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
   Session session;
   session.open(scene, task.choices, task.strict);
+  inputs = session.scene().inputs;
   session.build();
   const RenderResult result = session.render();
   if (result.end != End::finished)
@@ -49,12 +68,13 @@ void addPictures(GradedPair& pair, const PictureDifference& d, double magnify) {
   pair.flipPicture = shown("flip");
 }
 
-void compareInto(GradedPair& pair, const GradeTask& task) {
+void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   if (pair.file.empty()) return;
   const std::string test = (fs::path(task.folder) / pair.file).string();
   const std::string reference = (fs::path(task.reference) / pair.name).string();
-  const PictureDifference d = difference(
-      loadPicture(reference), task.renderScenes ? rendered(test, task) : loadPicture(test), task.difference);
+  const PictureDifference d =
+      difference(loadPicture(reference), task.renderScenes ? rendered(test, task, inputs) : loadPicture(test),
+                 task.difference);
   pair.unit = d.unit();
   pair.width = d.reference.picture.width, pair.height = d.reference.picture.height;
   pair.verdict = !d.numbers.sameSize      ? Verdict::sizesDiffer
@@ -70,9 +90,9 @@ void compareInto(GradedPair& pair, const GradeTask& task) {
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
-void compareOrNote(GradedPair& pair, const GradeTask& task) {
+void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   try {
-    compareInto(pair, task);
+    compareInto(pair, task, inputs);
   } catch (const Error& error) {
     pair.verdict = Verdict::unreadable;
     pair.problem = error.what();
@@ -165,11 +185,17 @@ Grades grade(const GradeTask& task) {
     throw Error(Fault::usage, "there is no picture in the folder \"" + task.reference + "\"");
   grades.extra = findPartners(grades.pairs, files);
 
+  checkPage(task, filesOf(task, grades));
+
   Job job;
+  std::vector<InputFiles> inputs(grades.pairs.size());
   const int threads = resolve({task.choices}).threads;
-  parallelChunks(
-      static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
-      [&](std::int64_t i, int) { compareOrNote(grades.pairs[static_cast<std::size_t>(i)], task); });
+  parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
+                 [&](std::int64_t i, int) {
+                   const auto index = static_cast<std::size_t>(i);
+                   compareOrNote(grades.pairs[index], task, inputs[index]);
+                 });
+  for (const InputFiles& ofScene : inputs) checkPage(task, ofScene);
   std::sort(grades.pairs.begin(), grades.pairs.end(), worse);
   grades.passed = static_cast<std::size_t>(std::count_if(grades.pairs.begin(), grades.pairs.end(),
                                                          [](const auto& p) { return passes(p.verdict); }));

@@ -18,6 +18,7 @@ struct GradeTask {
   std::vector<Limit> limits;
   double magnify = 8;         ///< of the heat pictures
   bool keepsPictures = true;  ///< for a page
+  std::string page{};         ///< the file to be written, which must be none of those read; "" for none
 };
 
 /// Of one reference picture. The order is from worst to best.

@@ -3,15 +3,12 @@
 #include "app/output.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <sstream>
-#include <type_traits>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "image/codec.h"
 #include "render/passes.h"
 
@@ -20,7 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kSettings = "Settings", *kDefaults = "defaults", *kPass = "Pass";
+constexpr const char *kSettings = "Settings", *kDefaults = "defaults", *kPass = "Pass",
+                     *kIncomplete = "Incomplete", *kPartial = ".partial";
+/// The group of options that say how a picture is computed, and nothing of what it shows.
+constexpr std::string_view kResources = "Resources";
 
 std::string passFile(const fs::path& picture, std::string_view pass, const Settings& settings) {
   const PassFormat format = settings.passFormat;
@@ -30,38 +30,6 @@ std::string passFile(const fs::path& picture, std::string_view pass, const Setti
   const char* between = settings.passName == PassName::dot ? "." : "_";
   return (picture.parent_path() / picture.stem()).string() + between + std::string(pass) + suffix;
 }
-
-/// As FNV-1a (Fowler, Noll, Vo), but of eight bytes at a time, and folded so that all bits count for all.
-class Hash {
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    std::uint64_t word = 0;
-    std::size_t i = 0;
-    for (; i + 8 <= size; i += 8) std::memcpy(&word, bytes + i, 8), add(word);
-    word = 0;
-    if (i < size) std::memcpy(&word, bytes + i, size - i), add(word);
-    value_ = (value_ ^ size) * 0x100000001b3u;
-  }
-  template <class Plain>
-  void add(const std::vector<Plain>& values) {
-    static_assert(std::has_unique_object_representations_v<Plain> || sizeof(Plain) == 3 * sizeof(float));
-    if (!values.empty()) add(values.data(), values.size() * sizeof(Plain));
-  }
-  std::string text() const {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value_));
-    return text;
-  }
-
- private:
-  void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x100000001b3u;
-    value_ ^= value_ >> 32;
-  }
-
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
 
 /// The words, with only those options that change what is rendered.
 std::map<std::string, std::string> whatCounts(const Metadata& metadata) {
@@ -97,6 +65,29 @@ void withPictureOf(const Output& output, const Film& film, const Settings& setti
   use(raw ? film.layer(layer) : passesOf(settings)[layer]->shown(film.layer(layer), settings));
 }
 
+bool holdsSomething(const std::string& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  return error ? fs::exists(path, error) : size > 0;
+}
+
+/// Whether words stay with a picture of the format.
+bool keepsWords(const PictureFormat& format) {
+  return !format.metadata(format.encode(Picture(1, 1), Rounding::truncate, {{"Word", "kept"}})).empty();
+}
+
+/// Whether the file is a picture of which a part was never rendered.
+bool isFragment(const std::string& path) {
+  try {
+    for (const auto& [key, text] : readMetadata(path))
+      if (key == kIncomplete) return true;
+    return !keepsWords(pictureFormatFor(path)) &&
+           fs::path(path).filename().string().find(kPartial) != std::string::npos;
+  } catch (const std::exception&) {  // whatever it is, it is not ours
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<Output> outputs(const std::string& path, const Settings& settings) {
@@ -106,47 +97,83 @@ std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   return all;
 }
 
-std::string fingerprint(std::string_view bytes, const Scene& scene) {
-  Hash hash;
-  hash.add(bytes.data(), bytes.size());
-  std::set<const MeshData*> seen;
-  for (const Object& object : scene.objects)
-    if (const Mesh* mesh = std::get_if<Mesh>(&object.shape); mesh && seen.insert(mesh->data.get()).second) {
-      hash.add(mesh->data->points);
-      hash.add(mesh->data->triangles);
-      hash.add(mesh->data->normals);
-    }
-  return hash.text();
-}
-
-bool isRendered(const Output& output, const Metadata& metadata) {
+bool isRendered(const Output& output, const Size& size, const Metadata& metadata) {
   std::error_code ignored;
   if (!fs::exists(output.path, ignored)) return false;
   try {
-    const Metadata stored = readMetadata(output.path);
+    const std::string bytes = readFile(output.path);
+    const Metadata stored = pictureFormatOf(bytes, output.path).metadata(bytes);
     Metadata expected = metadata;
     if (!output.pass.empty()) expected.emplace_back(kPass, output.pass);
-    return !stored.empty() && whatCounts(stored) == whatCounts(expected);
-  } catch (const Error&) {  // not a sound picture
+    if (stored.empty() || whatCounts(stored) != whatCounts(expected)) return false;
+    const Picture picture = decodePicture(bytes, output.path);  // a part of a file may have all its words
+    return picture.width == size.width && picture.height == size.height;
+  } catch (const std::exception&) {  // not a sound picture
     return false;
   }
-}
-
-void write(const Output& output, const Film& film, const Settings& settings, Metadata metadata) {
-  if (!output.pass.empty()) metadata.emplace_back(kPass, output.pass);
-  if (!film.complete()) metadata.emplace_back("Incomplete", "the render was stopped");
-  withPictureOf(output, film, settings, [&](const Picture& picture) {
-    writePicture(output.path, picture, settings.rounding, metadata);
-  });
 }
 
 Metadata describe(const Scene& scene, const Settings& settings) {
   std::string changed;
   for (const Choice& choice : changedOptions(settings))
-    changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
+    if (findOption(choice.option).group != kResources)
+      changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
   return {{"Software", "Trace " TRACE_VERSION},
           {"Title", fs::path(scene.file).filename().string()},
           {kSettings, changed.empty() ? kDefaults : changed}};
+}
+
+void checkIsNoInput(const std::string& path, const InputFiles& inputs) {
+  for (const InputFile& file : inputs.all())
+    if (sameFile(path, file.path))
+      throw Error(Fault::usage,
+                  "\"" + path + "\" is " +
+                      (file.read ? "a file that is read" : "a file that the scene names") +
+                      (path == file.path ? "" : ", \"" + file.path + "\"") + ": it is not written over",
+                  "name another file for the output, as in -o out.png");
+}
+
+bool PictureFiles::isFree(const std::string& path, const Settings& settings) const {
+  for (const Output& output : outputs(path, settings)) {
+    if (holdsSomething(output.path) && !isFragment(output.path)) return false;
+    for (const InputFile& input : inputs_.all())
+      if (sameFile(output.path, input.path)) return false;
+  }
+  return true;
+}
+
+std::string PictureFiles::placeOfFragment(const Settings& settings) const {
+  constexpr int kMost = 1000;
+  if (!fragment_.empty()) return fragment_;
+  if (isFree(path_, settings)) return path_;
+  const fs::path path(path_);
+  for (int i = 1; i <= kMost; ++i) {
+    const std::string name =
+        path.stem().string() + kPartial + (i == 1 ? "" : "-" + std::to_string(i)) + path.extension().string();
+    if (std::string beside = (path.parent_path() / name).string(); isFree(beside, settings)) return beside;
+  }
+  throw Error(Fault::io, "cannot write \"" + path_ + "\": it holds a picture that is whole, and so do " +
+                             std::to_string(kMost) + " files beside it");
+}
+
+std::string PictureFiles::write(const Film& film, const Settings& settings, const Metadata& metadata) {
+  const bool whole = film.complete();
+  const std::string place = whole ? path_ : placeOfFragment(settings);
+  if (!whole) fragment_ = place;
+  for (const Output& output : outputs(place, settings)) {
+    Metadata words = metadata;
+    if (!output.pass.empty()) words.emplace_back(kPass, output.pass);
+    if (!whole) words.emplace_back(kIncomplete, "the render was stopped");
+    withPictureOf(output, film, settings, [&](const Picture& picture) {
+      writePicture(output.path, picture, settings.rounding, words);
+    });
+  }
+  if (whole && !fragment_.empty() && fragment_ != path_) {
+    std::error_code ignored;
+    for (const Output& output : outputs(fragment_, settings)) fs::remove(output.path, ignored);
+  }
+  if (whole) fragment_.clear();
+  return place;
 }
 
 }  // namespace trace

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "image/film.h"
 #include "image/metadata.h"
+#include "render/render.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -21,20 +23,44 @@ struct Output {
 /// layers.
 std::vector<Output> outputs(const std::string& path, const Settings& settings);
 
-/// Sixteen digits for what a scene's file says and the meshes it names: equal for equal scenes, and
-/// different, as far as 64 bits can tell, for different ones.
-std::string fingerprint(std::string_view bytes, const Scene& scene);
+/// Is the whole file there, of this size, rendered to its end, and were its words those of `metadata`?
+/// Options that do not change pixels, such as --pass-name, do not count. Never of a format that keeps no
+/// words.
+bool isRendered(const Output& output, const Size& size, const Metadata& metadata);
 
-/// Is the file there, rendered to its end, and were its words those of `metadata`? Options that do not change
-/// pixels, such as --threads, do not count. Never of a format that keeps no words.
-bool isRendered(const Output& output, const Metadata& metadata);
-
-/// Writes what is done of the film so far, and `metadata`, to which the words Pass, of a pass, and
-/// Incomplete, of a film with tiles to come, are added. A picture gets the tone of the settings unless its
-/// format keeps values above 1; passes are raw in OpenEXR only. Throws Error(Fault::io), Error(Fault::usage).
-void write(const Output& output, const Film& film, const Settings& settings, Metadata metadata);
-
-/// Program version, settings that differ from the defaults and the scene's name, as the picture keeps them.
+/// Program version, scene's name, and the settings that differ from the defaults, as the picture keeps them:
+/// all but those of the group Resources, which do not change the picture.
 Metadata describe(const Scene& scene, const Settings& settings);
+
+/// Throws Error(Fault::usage) if the file is one of the inputs: what is read, or only named, is not written
+/// over.
+void checkIsNoInput(const std::string& path, const InputFiles& inputs);
+
+/// The files that one render writes, perhaps several times before it is done. A fragment, which is a film
+/// with tiles to come, takes no place but that of another fragment: where anything else lies under the name,
+/// it goes beside it, as NAME.partial.png. Its picture has the word Incomplete; a file of a format that keeps
+/// no words is known for a fragment by its name alone.
+class PictureFiles {
+ public:
+  /// `inputs` are the files that a fragment must not replace either.
+  PictureFiles(std::string path, InputFiles inputs) : path_(std::move(path)), inputs_(std::move(inputs)) {}
+
+  const std::string& path() const { return path_; }
+
+  /// Writes the picture and its passes: what is done of the film so far, and `metadata`, to which the words
+  /// Pass, of a pass, and Incomplete are added. A picture gets the tone of the settings unless its format
+  /// keeps values above 1; passes are raw in OpenEXR only. Returns the picture's name: path(), or where a
+  /// fragment went. The whole picture takes away the fragment that this wrote beside it. Throws
+  /// Error(Fault::io), Error(Fault::usage).
+  std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
+
+ private:
+  std::string placeOfFragment(const Settings& settings) const;
+  bool isFree(const std::string& path, const Settings& settings) const;
+
+  std::string path_;
+  InputFiles inputs_;
+  std::string fragment_;  ///< where this has put one; "" before
+};
 
 }  // namespace trace

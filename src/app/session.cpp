@@ -75,7 +75,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   const Real time = resolve({choices}).time;
   readAt(time);
   if (settings_.time != time) readAt(settings_.time);  // the file chooses the moment
-  fingerprint_ = fingerprint(bytes, scene_);
+  fingerprint_ = scene_.inputs.fingerprint();
   messages_.throwIfFailed(strict_);
   phases_ = {watch.stop("read")};
 }
@@ -115,10 +115,16 @@ Metadata Session::metadata() const {
   return words;
 }
 
-void Session::save(const std::string& path) {
+std::string Session::save(PictureFiles& files) {
   const Stopwatch watch;
-  for (const Output& output : outputs(path, settings_)) write(output, *film_, settings_, metadata());
+  std::string written = files.write(*film_, settings_, metadata());
   phases_.push_back(watch.stop("write"));
+  return written;
+}
+
+std::string Session::save(const std::string& path) {
+  PictureFiles files = filesFor(path);
+  return save(files);
 }
 
 }  // namespace trace

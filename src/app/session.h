@@ -56,18 +56,21 @@ class Session {
   /// What is rendered so far. May be asked from other threads while render() runs.
   const Film& film() const { return *film_; }
   Picture picture() const { return film_->picture(); }
-  /// How the picture is made, in words: those of describe(), and Scene, the fingerprint() of what was opened.
+  /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of what was read.
   Metadata metadata() const;
-  /// Writes the outputs() of `path`; not while render() runs, since both note their time.
+  /// The files of a picture of that name, for save().
+  PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs}; }
+  /// Writes them, and returns the picture's name; not while render() runs, since both note their time.
   /// Throws Error(Fault::io), Error(Fault::usage).
-  void save(const std::string& path);
+  std::string save(PictureFiles& files);
+  std::string save(const std::string& path);
 
   const std::vector<Phase>& phases() const { return phases_; }
 
  private:
   Scene scene_;
   Settings settings_;
-  std::string fingerprint_;
+  std::string fingerprint_;  // "" of a scene that was not read here
   Messages messages_;
   bool strict_ = false;
   std::optional<World> world_;

@@ -198,11 +198,11 @@ void Workspace::savePicture(const std::string& file) {
     words.emplace_back("Scene", print);
   saving_.start([file, session, settings, words](const Cancelled&) {
     return outcomeOf(file, [&] {
+      const InputFiles& inputs = session->scene().inputs;
+      for (const Output& output : outputs(file, settings)) checkIsNoInput(output.path, inputs);
       Saved saved;
-      for (const Output& output : outputs(file, settings)) {
-        write(output, session->film(), settings, words);
-        saved.files.push_back(output.path);
-      }
+      const std::string place = PictureFiles(file, inputs).write(session->film(), settings, words);
+      for (const Output& output : outputs(place, settings)) saved.files.push_back(output.path);
       return saved;
     });
   });

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace trace {
 namespace {
 
@@ -19,10 +21,11 @@ std::string excerpt(const Place& place) {
   }
   std::string caret;
   for (size_t i = 0; i < column; ++i) caret += line[i] == '\t' ? '\t' : ' ';
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ' && c != '\t') c = '?';
+  std::string shown = printableInPlace(line);
+  for (size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '\t') shown[i] = '\t';
   std::string text = "  ";
-  text.append(line).append("\n  ").append(caret).append("^\n");
+  text.append(shown).append("\n  ").append(caret).append("^\n");
   return text;
 }
 
@@ -38,14 +41,14 @@ std::string toString(const Message& message) {
   std::string text;
   const Place& place = message.place;
   if (!place.file.empty()) {
-    text += place.file + ":";
+    text += printable(place.file) + ":";
     if (place.line > 0) text += std::to_string(place.line) + ":" + std::to_string(place.column) + ":";
     text += " ";
   }
   text += message.severity == Message::Severity::error ? "error: " : "warning: ";
-  text += message.what + "\n";
+  text += printable(message.what) + "\n";
   if (!place.text.empty()) text += excerpt(place);
-  if (!message.hint.empty()) text += "  hint: " + message.hint + "\n";
+  if (!message.hint.empty()) text += "  hint: " + printable(message.hint) + "\n";
   return text;
 }
 

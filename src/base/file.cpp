@@ -9,67 +9,22 @@
 
 #include "base/error.h"
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
-
 namespace trace {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const std::string& verb, const std::string& path, const std::string& reason) {
-  throw Error(Fault::io, "cannot " + verb + " \"" + path + "\": " + reason);
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw Error(Fault::io, "cannot read \"" + path + "\": " + reason);
 }
-
-std::string temporaryName(const std::string& path) {
-#if defined(__unix__) || defined(__APPLE__)
-  return path + ".tmp" + std::to_string(::getpid());
-#else
-  return path + ".tmp";
-#endif
-}
-
-/// A file opened for writing under a temporary name; removed again unless kept.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& target) : target_(target), name_(temporaryName(target)) {
-    std::error_code ignored;
-    if (target.empty()) fail("write", target, "the name is empty");
-    if (fs::is_directory(target, ignored)) fail("write", target, "it is a folder");
-    file_ = std::fopen(name_.c_str(), "wb");
-    if (!file_) fail("write", target, std::strerror(errno));
-  }
-  ~TemporaryFile() {
-    if (file_) std::fclose(file_);
-    if (!kept_) std::remove(name_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void keep(std::string_view bytes) {
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
-    const bool flushed = std::fclose(file_) == 0;
-    file_ = nullptr;
-    if (!written || !flushed) fail("write", target_, std::strerror(errno));
-    std::error_code error;
-    fs::rename(name_, target_, error);
-    if (error) fail("write", target_, error.message());
-    kept_ = true;
-  }
-
- private:
-  std::string target_, name_;
-  std::FILE* file_ = nullptr;
-  bool kept_ = false;
-};
 
 }  // namespace
 
 std::string readFile(const std::string& path) {
+  if (path.find('\0') != path.npos) fail(path, "the name holds a zero");  // and would be another file's
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) fail("read", path, "it is a folder");
+  if (fs::is_directory(path, ignored)) fail(path, "it is a folder");
   std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file) fail("read", path, std::strerror(errno));
+  if (!file) fail(path, std::strerror(errno));
   // A file of known size in one go; a pipe, or what has grown since, piece by piece.
   std::error_code unknown;
   const std::uintmax_t size = fs::file_size(path, unknown);
@@ -79,21 +34,16 @@ std::string readFile(const std::string& path) {
   for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) bytes.append(buffer, n);
   const bool failed = std::ferror(file);
   std::fclose(file);
-  if (failed) fail("read", path, std::strerror(errno));
+  if (failed) fail(path, std::strerror(errno));
   return bytes;
 }
 
 std::string readBeside(const std::string& from, const std::string& name) {
   const std::string path = besideFile(from, name);
   std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
-    fail("read", path, "it is no ordinary file");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) fail(path, "it is no ordinary file");
   return readFile(path);
 }
-
-void writeFile(const std::string& path, std::string_view bytes) { TemporaryFile(path).keep(bytes); }
-
-void checkWritable(const std::string& path) { TemporaryFile unused(path); }
 
 std::string besideFile(const std::string& from, const std::string& name) {
   const fs::path path(name);

@@ -13,11 +13,22 @@ std::string readFile(const std::string& path);
 /// is no regular file, which may have no end.
 std::string readBeside(const std::string& from, const std::string& name);
 
-/// Writes to a temporary name beside `path`, then renames. Throws Error(Fault::io); `path` is then untouched.
+/// Writes beside `path`, then puts the file in its place, so that nobody ever sees a part of it. A file that
+/// is there is replaced: mode and owner stay, and so do links, which lead to the new one. Throws
+/// Error(Fault::io), also for a file that is read-only; `path` is then untouched.
 void writeFile(const std::string& path, std::string_view bytes);
 
-/// Throws Error(Fault::io) unless a file could be written at `path` now; leaves nothing behind.
+/// Throws Error(Fault::io) unless a file could be written at `path` now. Leaves nothing behind, and removes
+/// from the folder what processes that died while writing have left there.
 void checkWritable(const std::string& path);
+
+/// Are both names of one file? Links and other spellings count; a file that does not exist is known by its
+/// path.
+bool sameFile(const std::string& a, const std::string& b);
+
+/// A new folder among the system's temporary files, which nobody could guess and nobody else may enter.
+/// Throws Error(Fault::io).
+std::string makeOwnFolder();
 
 /// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
 std::string besideFile(const std::string& from, const std::string& name);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <new>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "cli/help.h"
 
@@ -64,6 +64,8 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     console.error(error);
     why = whyNothing(error);
     code = static_cast<int>(error.fault());
+  } catch (const ReaderGone&) {
+    return kReaderGone;
   } catch (const std::bad_alloc&) {
     console.error(Error(Fault::limit, "out of memory", "choose a smaller --width or a simpler scene"));
     why = "out of memory";
@@ -87,8 +89,7 @@ int runAlone() {
 }  // namespace
 
 void checkDistinct(const std::string& read, const std::string& written) {
-  std::error_code absent;
-  if (std::filesystem::equivalent(read, written, absent))
+  if (!written.empty() && sameFile(read, written))
     throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
                 "what is read is not written over; name another file");
 }

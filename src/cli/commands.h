@@ -13,6 +13,8 @@ namespace trace::cli {
 
 /// Exit codes beside the values of Fault, which are the others.
 inline constexpr int kDone = 0, kFailed = 1, kStopped = 4, kFound = 6;
+/// Nobody reads the results any more: 128 + SIGPIPE, as shells report it.
+inline constexpr int kReaderGone = 141;
 
 struct Command {
   std::string_view name;
@@ -28,7 +30,8 @@ std::span<const Command> commands();
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
-/// Throws Error(Fault::usage) if both are names of one file: what is read is not written over.
+/// Throws Error(Fault::usage) if both are names of one file: what is read is not written over. The files that
+/// a scene is made of are known once it is read: checkIsNoInput().
 void checkDistinct(const std::string& read, const std::string& written);
 
 /// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.

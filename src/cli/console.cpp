@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "base/printable.h"
 #include "base/text.h"
 #include "cli/terminal.h"
 
@@ -25,7 +26,7 @@ std::string colored(const Message& message) {
   const bool error = message.severity == Message::Severity::error;
   const std::string word = error ? "error:" : "warning:";
   // The name of the file, which comes first, may hold that word as well.
-  const size_t at = text.find(word, message.place.file.size());
+  const size_t at = text.find(word, printable(message.place.file).size());
   if (at == std::string::npos) return text;
   text.insert(at + word.size(), "\033[0m");
   text.insert(at, error ? "\033[1;31m" : "\033[1;33m");
@@ -60,17 +61,24 @@ void Console::warnings(std::span<const Message> messages) const {
 void Console::error(const Error& error) const { print(error.messages(), "error"); }
 
 void Console::line(LogLevel importance, const std::string& text) const {
-  if (importance == LogLevel::error || shows(importance)) cli::print(text + "\n");
+  if (importance == LogLevel::error || shows(importance)) cli::print(printable(text) + "\n");
+}
+
+void Console::lines(LogLevel importance, const std::string& text) const {
+  if (importance == LogLevel::error || shows(importance)) cli::print(printable(text, LineEnds::kept) + "\n");
 }
 
 void Console::last(bool well, const std::string& text) const {
-  if (!well || !quiet_) cli::print(text + "\n");
+  if (!well || !quiet_) cli::print(printable(text) + "\n");
 }
 
-void printResult(const std::string& text) {
+void printResult(const std::string& text, Paint paint) {
+  const std::string shown = paint == Paint::none ? printable(text, LineEnds::kept) : text;
   errno = 0;
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout);
+  if (failed && errno == EPIPE) throw ReaderGone{};
+  if (failed)
     throw Error(Fault::io, std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
 

@@ -33,6 +33,8 @@ class Console {
   void line(LogLevel importance, const std::string& text) const;
   /// The last line of a command, which did what it was asked for (`well`) or did not. Shown at every level.
   void last(bool well, const std::string& text) const;
+  /// The same of text of several lines.
+  void lines(LogLevel importance, const std::string& text) const;
 
  private:
   void print(std::span<const Message> messages, std::string_view kind) const;
@@ -42,8 +44,15 @@ class Console {
   bool color_;
 };
 
-/// Writes to stdout and throws Error(Fault::io) when that fails, as on a full disk.
-void printResult(const std::string& text);
+/// Thrown when nobody reads the results any more, as in `ray features | head -1`.
+struct ReaderGone {};
+
+/// What a result holds beside letters and line ends: nothing that a terminal obeys, or colours that the
+/// program put there, around names that are printable().
+enum class Paint { none, colors };
+
+/// Writes to stdout. Throws Error(Fault::io) when that fails, as on a full disk, or ReaderGone.
+void printResult(const std::string& text, Paint paint = Paint::none);
 
 /// "1 error", "3 errors".
 std::string counted(std::size_t n, std::string_view noun);

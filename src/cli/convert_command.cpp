@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/output.h"
 #include "app/remaining_time.h"
 #include "base/file.h"
 #include "base/match.h"
@@ -68,6 +69,7 @@ int convert(const Arguments& arguments, const Console& console) {
   const Conversion& conversion = arguments.conversion;
   const SceneFormat& format = writableFormatFor(out);
   checkDistinct(in, out);
+  checkWritable(out);
   const std::string bytes = readFile(in);
   Messages messages;
   Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
@@ -79,6 +81,10 @@ int convert(const Arguments& arguments, const Console& console) {
   console.warnings(messages.all());
 
   std::string names;
+  for (const NamedBytes& file : files) {
+    checkDistinct(in, file.file);
+    checkIsNoInput(file.file, scene.inputs);
+  }
   for (const NamedBytes& file : files) {
     writeFile(file.file, file.bytes);
     names += (names.empty() ? "" : " and ") + file.file;

@@ -9,6 +9,7 @@
 
 #include "app/difference.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/metric_text.h"
@@ -47,7 +48,7 @@ std::string colorText(const Color& c, bool levels) {
 }
 
 std::string diffText(const PictureDifference& d, const Arguments& arguments) {
-  const std::string &a = arguments.files[0], &b = arguments.files[1];
+  const std::string a = printable(arguments.files[0]), b = printable(arguments.files[1]);
   if (!d.numbers.sameSize)
     return a + " (" + sizeText(d.reference.picture) + ") and " + b + " (" + sizeText(d.test.picture) +
            ") differ in size\n";
@@ -109,6 +110,7 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   const bool json = chosenFormat(arguments, "diff", kFormats) == "json";
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
+  if (!arguments.output.empty()) checkWritable(arguments.output);
   const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
                                          {arguments.tolerance, arguments.pixelsPerDegree});
   printResult(json                        ? diffJson(d, arguments)

@@ -79,6 +79,7 @@ int explain(const Arguments& arguments, const Console& console) {
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
   choices.push_back({"time-limit", "0", {}});  // the one pixel is rendered whole
   session.open(arguments.files[0], choices, arguments.strict);
+  if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   console.warnings(session.messages().all());
   const Explanation explanation = session.explain(x, y, sample);
@@ -101,7 +102,7 @@ int explain(const Arguments& arguments, const Console& console) {
                                ? toSvg(drawing())
                                : explainText(facts, arguments.output.empty() && canColorResult());
   if (arguments.output.empty()) {
-    printResult(text);
+    printResult(text, format == "text" ? Paint::colors : Paint::none);
   } else {
     writeFile(arguments.output, text);
     console.line(LogLevel::info, "wrote " + arguments.output);

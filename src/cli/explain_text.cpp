@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "base/printable.h"
 #include "base/text.h"
 #include "cli/console.h"
 
@@ -67,7 +68,7 @@ class TreeText {
     std::string title = name;
     if (color_) title = std::string(kColors[static_cast<std::size_t>(node.kind)]) + name + "\033[0m";
     if (const Term* term = termOf(tree_, index); term && term->light)
-      title += " to " + lightName(scene_, term->light->light);
+      title += " to " + printable(lightName(scene_, term->light->light));
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
     if (node.hit) hit(*node.hit, node.materials);
@@ -84,7 +85,7 @@ class TreeText {
     }
   }
 
-  void line(const std::string& words) { text_ += margin_ + words + "\n"; }
+  void line(const std::string& words) { text_ += margin_ + printable(words, LineEnds::kept) + "\n"; }
 
   void hit(const Hit& hit, const std::vector<MaterialShare>& materials) {
     const Object& object = scene_.objects[hit.object];
@@ -171,7 +172,7 @@ bool PixelFacts::agrees() const {
 
 std::string explainText(const PixelFacts& facts, bool color) {
   const Explanation& e = facts.explanation;
-  std::string text = facts.scene.file + ", pixel " + std::to_string(e.tree.x) + "," +
+  std::string text = printable(facts.scene.file) + ", pixel " + std::to_string(e.tree.x) + "," +
                      std::to_string(e.tree.y) + " of " + std::to_string(facts.width) + " x " +
                      std::to_string(facts.height) + ", sample " + std::to_string(e.tree.sample) + " of " +
                      std::to_string(e.samples.size()) + "\n\n";

@@ -28,7 +28,15 @@ bool isThere(const Arguments& arguments, int frame, const std::string& picture) 
   const std::vector<Output> files = outputs(picture, session.settings());
   const Metadata metadata = session.metadata();
   return std::all_of(files.begin(), files.end(),
-                     [&](const Output& file) { return isRendered(file, metadata); });
+                     [&](const Output& file) { return isRendered(file, session.size(), metadata); });
+}
+
+/// Throws Error if a frame lies where the scene reads from: better told before the first one is rendered.
+void checkAllPlaces(const Session& session, const std::string& pattern, const std::vector<int>& frames) {
+  std::error_code ignored;
+  for (const int frame : frames)
+    for (const Output& file : outputs(frameName(pattern, frame), session.settings()))
+      if (std::filesystem::exists(file.path, ignored)) checkIsNoInput(file.path, session.scene().inputs);
 }
 
 /// "a.0000.png to a.0099.png".
@@ -77,23 +85,36 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
   for (; done < missing.size(); ++done) {
     const std::string picture = frameName(pattern, missing[done]);
     Session session;
-    open(session, arguments, missing[done]);
-    if (done == 0) checkOutputs(session, picture);
-    session.build();
+    try {
+      open(session, arguments, missing[done]);
+      if (done == 0) checkOutputs(session, picture);
+      if (done == 0) checkAllPlaces(session, pattern, missing);
+      checkPlaces(session, picture);
+      session.build();
+    } catch (const Error& error) {
+      if (done == 0) throw;  // then nothing is written, which is what the last line says
+      console.error(error);
+      code = static_cast<int>(error.fault());
+      stopped = "broke off: ";
+      break;
+    }
     if (done == 0) console.warnings(session.messages().all());
     signals.renderingBegins();
     const auto frameStart = elapsed();
     const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
-    const RenderResult result = renderWatched(session, signals, console, progress, picture, part);
+    PictureFiles files = session.filesFor(picture);
+    const RenderResult result = renderWatched(session, signals, console, progress, files, part);
     reportBadSamples(result, console);
     if (result.end != End::finished) {
       code = exitCode(result), stopped = whyStopped(result);
       break;
     }
-    const std::string written = save(session, picture, console);
-    reportStatistics(arguments, session, result, written, elapsed() - frameStart, console);
-    if (written != picture) {
-      code = kFailed, stopped = "could not write where it should, but " + written + ": ";
+    const SavedPicture saved = save(session, files, console);
+    if (!reportStatistics(arguments, session, result, saved.path, elapsed() - frameStart, console))
+      code = kFailed;
+    if (saved.elsewhere) {
+      code = kFailed;
+      stopped = "could not write where it should, but " + saved.path + ": ";
       ++done;
       break;
     }

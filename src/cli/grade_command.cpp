@@ -33,7 +33,8 @@ GradeTask taskOf(const Arguments& arguments) {
           .difference = {arguments.tolerance, arguments.pixelsPerDegree},
           .limits = arguments.limits,
           .magnify = arguments.magnify,
-          .keepsPictures = !arguments.output.empty()};
+          .keepsPictures = !arguments.output.empty(),
+          .page = arguments.output};
 }
 
 /// Of UTF-8 text, as far as each character is one column wide.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/scene_facts.h"
@@ -57,7 +58,7 @@ std::string optionsText(const std::vector<OptionFact>& facts) {
 std::string infoText(const Facts& facts) {
   const Scene& scene = facts.session.scene();
   const Camera& camera = scene.camera;
-  std::string text = scene.file + " (" + scene.format + ")\n";
+  std::string text = printable(scene.file) + " (" + scene.format + ")\n";
   text += countsText(countShapes(scene), "objects", scene.objects.size());
   if (const std::size_t n = countTriangles(scene); n > 0) text += line("triangles", std::to_string(n));
   text += countsText(countLights(scene), "lights", scene.lights.size());

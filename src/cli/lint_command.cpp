@@ -5,6 +5,7 @@
 #include "app/lint.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 
 namespace trace::cli {
@@ -17,7 +18,7 @@ std::string lintText(const std::string& scene, std::span<const LintFinding> find
     const std::size_t end = message.find('\n');  // of the first line
     text += message.insert(end, " [" + std::string(finding.check) + "]");
   }
-  return text + scene + ": " +
+  return text + printable(scene) + ": " +
          (findings.empty() ? "nothing to complain about" : counted(findings.size(), "finding")) + "\n";
 }
 
@@ -53,6 +54,7 @@ int lint(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkWritable(arguments.output);
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
+  if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   Messages messages = session.messages();
   const World world = compile(session.scene(), session.settings(), messages);
   const std::vector<LintFinding> findings = lint(session.scene(), session.settings(), world, messages.all());

@@ -1,4 +1,5 @@
 // ray: the command line of Trace. See commands.cpp for what it can do.
+#include "base/streams.h"
 #include "cli/commands.h"
 
 #if defined(__GLIBC__)
@@ -6,6 +7,7 @@
 #endif
 
 int main(int argc, char** argv) {
+  trace::guardStreams();
 #if defined(__GLIBC__)
   // What reading has freed serves to build, and so on: memory that is given back and asked for anew costs a
   // page fault every 4 KiB.

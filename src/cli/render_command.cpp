@@ -75,7 +75,7 @@ int render(const Arguments& arguments, const Console& console) {
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   const std::string output = outputFor(session.scene(), named);
-  for (const Output& file : outputs(output, session.settings())) checkWritable(file.path);
+  checkPlaces(session, output);
   session.build();  // a lack of memory is the better reason to refuse a huge picture
   checkOutputs(session, output);
   console.warnings(session.messages().all());
@@ -84,7 +84,8 @@ int render(const Arguments& arguments, const Console& console) {
 
   signals.renderingBegins();
   Progress progress = makeProgress(arguments.progress, console);
-  const RenderResult result = renderWatched(session, signals, console, progress, output, Part{});
+  PictureFiles files = session.filesFor(output);
+  const RenderResult result = renderWatched(session, signals, console, progress, files, Part{});
   reportBadSamples(result, console);
 
   const std::string stopped = whyStopped(result);
@@ -93,13 +94,16 @@ int render(const Arguments& arguments, const Console& console) {
     console.line(LogLevel::error, stopped + "nothing written, for nothing was finished");
     return code;
   }
-  const std::string written = save(session, output, console);
-  if (written != output) code = kFailed;
+  const SavedPicture saved = save(session, files, console);
+  if (saved.elsewhere) code = kFailed;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  reportStatistics(arguments, session, result, written, seconds, console);
-  console.last(code == kDone, stopped + "wrote " + written + andPasses(session.settings()) + " (" +
-                                  pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + (written == output ? "" : " instead of " + output));
+    if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
+    const std::string where = saved.elsewhere        ? " instead of " + output
+                              : saved.path != output ? "; " + keptText(output)
+                                                     : "";
+    console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
+                                    pictureText(session, session.job().fraction()) + ") in " +
+                                    durationText(seconds) + where);
   return code;
 }
 

@@ -10,21 +10,27 @@
 
 namespace trace::cli {
 
+void checkPlaces(const Session& session, const std::string& output) {
+  for (const Output& file : outputs(output, session.settings())) {
+    checkIsNoInput(file.path, session.scene().inputs);
+    checkWritable(file.path);
+  }
+}
+
 void checkOutputs(const Session& session, const std::string& output) {
   const Size size = session.size();
   const Region& region = session.settings().region;
   if (region.x0 >= size.width || region.y0 >= size.height)
     throw Error(Fault::usage, "the region is outside the picture of " + std::to_string(size.width) + " x " +
                                   std::to_string(size.height) + " pixels");
-  for (const Output& file : outputs(output, session.settings())) {
+  for (const Output& file : outputs(output, session.settings()))
     checkEncodable(pictureFormatFor(file.path), size.width, size.height);
-    checkWritable(file.path);
-  }
+  checkPlaces(session, output);
 }
 
 RenderResult renderWatched(Session& session, Signals& signals, const Console& console, Progress& progress,
-                           const std::string& output, const Part& part) {
-  const Watch watch(session, signals, console, progress, output, part);
+                           PictureFiles& files, const Part& part) {
+  const Watch watch(session, signals, console, progress, files, part);
   return session.render();
 }
 
@@ -38,27 +44,39 @@ void reportBadSamples(const RenderResult& result, const Console& console) {
   console.line(LogLevel::warning, "warning: " + text);
 }
 
-std::string save(Session& session, const std::string& output, const Console& console) {
+SavedPicture save(Session& session, PictureFiles& files, const Console& console) {
   try {
-    session.save(output);
-    return output;
+    return {session.save(files), false};
   } catch (const Error& error) {
     console.error(error);
   }
   namespace fs = std::filesystem;
-  std::string elsewhere = (fs::temp_directory_path() / fs::path(output).filename()).string();
-  session.save(elsewhere);
-  return elsewhere;
+  const fs::path folder = makeOwnFolder();
+  try {
+    return {session.save((folder / fs::path(files.path()).filename()).string()), true};
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(folder, ignored);  // if it is empty
+    throw;
+  }
 }
 
-void reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
+bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
                       const std::string& written, double seconds, const Console& console) {
-  if (arguments.stats == StatsStyle::none) return;
+  if (arguments.stats == StatsStyle::none) return true;
   const Run run{session, result, written, session.job().fraction(), seconds, peakMemory()};
-  if (arguments.stats == StatsStyle::json)
+  if (arguments.stats == StatsStyle::table) {
+    console.lines(LogLevel::error, statisticsTable(run));
+    return true;
+  }
+  try {
     printResult(statisticsJson(run) + "\n");
-  else
-    console.line(LogLevel::error, statisticsTable(run));
+  } catch (const ReaderGone&) {  // who wanted them does not any more
+  } catch (const Error& error) {
+    console.error(error);
+    return false;
+  }
+  return true;
 }
 
 std::string andPasses(const Settings& settings) {

@@ -13,23 +13,30 @@
 
 namespace trace::cli {
 
+/// Throws Error unless all files of the render can be written, without a loss of what the scene is made of.
+void checkPlaces(const Session& session, const std::string& output);
+
 /// Throws Error unless all files of the render can be written and hold a picture of its size, in which
 /// something is to be rendered.
 void checkOutputs(const Session& session, const std::string& output);
 
 /// Renders with an eye on progress and signals.
 RenderResult renderWatched(Session& session, Signals& signals, const Console& console, Progress& progress,
-                           const std::string& output, const Part& part);
+                           PictureFiles& files, const Part& part);
 
 /// Warns of samples that were left out.
 void reportBadSamples(const RenderResult& result, const Console& console);
 
-/// Writes the picture and its passes, to the folder for temporary files if their own place fails after all.
-/// Returns the picture's name.
-std::string save(Session& session, const std::string& output, const Console& console);
+struct SavedPicture {
+  std::string path;        ///< the picture's name
+  bool elsewhere = false;  ///< not where it should be, nor beside it
+};
+/// Writes the picture and its passes; if their own place fails after all, to a new folder among the system's
+/// temporary files.
+SavedPicture save(Session& session, PictureFiles& files, const Console& console);
 
-/// What --stats asked for, if it did.
-void reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
+/// What --stats asked for, if it did. False, after a message, if stdout does not take it.
+bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
                       const std::string& written, double seconds, const Console& console);
 
 /// " and the passes depth, id"; "" without passes.

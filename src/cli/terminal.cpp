@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -82,16 +83,19 @@ void becomeProgram(const std::vector<std::string>& words) {
   arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
   ::execv(arguments[0], arguments.data());
   throw Error(Fault::io, "cannot start " + words.front() + ": " + std::strerror(errno));
 }
 
 int columns() {
+  constexpr long kMost = 500;  // of a line that anyone can see
   if (const char* given = std::getenv("COLUMNS"))
-    if (const int n = std::atoi(given); n > 0) return n;
+    if (const long n = std::strtol(given, nullptr, 10); n > 0) return static_cast<int>(std::min(n, kMost));
   winsize size{};
   for (int file : {STDERR_FILENO, STDOUT_FILENO})
-    if (::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+    if (::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+      return static_cast<int>(std::min<long>(size.ws_col, kMost));
   return 80;
 }
 

@@ -28,12 +28,14 @@ std::string pictureText(const Session& session, double fraction) {
   return text;
 }
 
+std::string keptText(const std::string& path) { return path + " is kept as it is"; }
+
 Watch::Watch(Session& session, Signals& signals, const Console& console, Progress& progress,
-             std::string output, const Part& part)
+             PictureFiles& files, const Part& part)
     : session_(session),
       signals_(signals),
       console_(console),
-      output_(std::move(output)),
+      files_(files),
       progress_(progress),
       part_(part) {
   Signals::receive(false);
@@ -77,9 +79,9 @@ void Watch::save() {
   // Not Session::save(): that notes its duration, which belongs to the thread that renders.
   try {
     const std::string picture = pictureText(session_, session_.job().fraction());
-    for (const Output& file : outputs(output_, session_.settings()))
-      write(file, session_.film(), session_.settings(), session_.metadata());
-    console_.line(LogLevel::error, "wrote " + output_ + " (" + picture + "), going on");
+    const std::string written = files_.write(session_.film(), session_.settings(), session_.metadata());
+    console_.line(LogLevel::error, "wrote " + written + " (" + picture + "), going on" +
+                                       (written == files_.path() ? "" : "; " + keptText(files_.path())));
   } catch (const Error& error) {
     console_.error(error);
   } catch (const std::exception& error) {

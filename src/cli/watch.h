@@ -24,10 +24,10 @@ struct Part {
 Progress makeProgress(ProgressStyle style, const Console& console);
 
 /// Lives while Session::render() runs. Event::stop cancels the job; Event::save writes the finished tiles to
-/// the outputs() of `output`.
+/// `files`, which are the thread's own meanwhile.
 class Watch {
  public:
-  Watch(Session& session, Signals& signals, const Console& console, Progress& progress, std::string output,
+  Watch(Session& session, Signals& signals, const Console& console, Progress& progress, PictureFiles& files,
         const Part& part);
   ~Watch();
   Watch(const Watch&) = delete;
@@ -41,12 +41,15 @@ class Watch {
   Session& session_;
   Signals& signals_;
   const Console& console_;
-  const std::string output_;
+  PictureFiles& files_;
   Progress& progress_;
   const Part part_;
   std::atomic<bool> finished_{false};
   std::thread thread_;
 };
+
+/// What is said of a file that a fragment would have replaced.
+std::string keptText(const std::string& path);
 
 /// "400x300" or, of a part, "400x300, 37 % done".
 std::string pictureText(const Session& session, double fraction);

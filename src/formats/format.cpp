@@ -120,6 +120,19 @@ const SceneFormat& formatOf(const std::string& file, std::string_view bytes, con
               "formats Trace reads: " + known);
 }
 
+/// Calls use(text) for what stands between quotation marks, which may be the name of a file.
+template <class Use>
+void forEachQuoted(std::string_view text, Use&& use) {
+  constexpr std::size_t kLongestName = 4096;
+  for (std::size_t open = text.find('"'); open != std::string_view::npos;) {
+    const std::size_t close = text.find('"', open + 1);
+    if (close == std::string_view::npos) return;
+    const std::string_view inside = text.substr(open + 1, close - open - 1);
+    if (!inside.empty() && inside.size() <= kLongestName) use(inside);
+    open = text.find('"', close + 1);
+  }
+}
+
 }  // namespace
 
 std::span<const SceneFormat> sceneFormats() { return kTable; }
@@ -130,9 +143,20 @@ Scene readScene(const std::string& file, Messages& messages, Real time) {
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
-  if (format.readAt) return format.readAt(file, bytes, messages, time);
-  if (format.read) return format.read(file, bytes, messages);
-  return sceneOf(format.readModel(file, bytes, messages), file, format.name);
+  Scene scene = format.readAt ? format.readAt(file, bytes, messages, time)
+                : format.read ? format.read(file, bytes, messages)
+                              : sceneOf(format.readModel(file, bytes, messages), file, format.name);
+  InputFiles inputs;
+  inputs.noteRead(file, bytes);
+  inputs.note(scene.inputs);
+  const auto named = [&](std::string_view name) {
+    if (!name.starts_with("data:")) inputs.noteNamed(besideFile(file, std::string(name)));
+  };
+  for (const Material& material : scene.materials)
+    for (const FieldMap& map : material.maps) named(map.file);
+  for (const Unrendered& node : scene.unrendered) forEachQuoted(node.text, named);
+  scene.inputs = std::move(inputs);
+  return scene;
 }
 
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {

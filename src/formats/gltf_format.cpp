@@ -96,6 +96,7 @@ void checkContainer(const Place& place, std::string_view bytes) {
 /// Files that the scene names, each read once.
 struct Files {
   std::set<std::string> read;
+  InputFiles& inputs;
 
   static bool exists(const std::string& path, void*) {
     std::error_code ignored;
@@ -104,12 +105,14 @@ struct Files {
   static std::string expand(const std::string& path, void*) { return path; }
   static bool readWhole(std::vector<unsigned char>* to, std::string* error, const std::string& path,
                         void* self) {
-    if (!static_cast<Files*>(self)->read.insert(path).second) {
+    Files& files = *static_cast<Files*>(self);
+    if (!files.read.insert(path).second) {
       *error = "two buffers are the same file";
       return false;
     }
     try {
       const std::string bytes = readFile(path);
+      files.inputs.noteRead(path, bytes);
       to->assign(bytes.begin(), bytes.end());
       return true;
     } catch (const Error& failure) {
@@ -119,9 +122,10 @@ struct Files {
   }
 };
 
-tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place) {
+tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place,
+                      InputFiles& inputs) {
   checkContainer(place, bytes);
-  Files files;
+  Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
   parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
@@ -254,7 +258,11 @@ Affine transformOf(const tinygltf::Node& node) {
 class GltfReader {
  public:
   GltfReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : place_{file, 0, 0, {}}, messages_(messages), gltf_(parse(file, bytes, place_)) {}
+      : place_{file, 0, 0, {}}, messages_(messages), gltf_(parse(file, bytes, place_, model_.inputs)) {
+    for (const tinygltf::Image& image : gltf_.images)
+      if (!image.uri.empty() && !image.uri.starts_with("data:"))
+        model_.inputs.noteNamed(besideFile(file, image.uri));
+  }
 
   Model read() {
     for (const std::string& name : gltf_.extensionsRequired)
@@ -518,13 +526,13 @@ class GltfReader {
 
   Place place_;
   Messages& messages_;
+  Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;
   std::map<int, std::vector<Object>> parts_;  ///< of meshes
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
   std::size_t lines_ = 0;  ///< primitives that are no triangles
-  Model model_;
 };
 
 }  // namespace

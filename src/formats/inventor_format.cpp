@@ -340,13 +340,15 @@ class Reader {
     constexpr int kMostFiles = 20;
     if (nesting_ >= kMostFiles)
       throw Error(Fault::scene, "files that name files are read 20 deep, and no deeper");
-    const std::string bytes = readBeside(document_.file(), name);
+    const std::string bytes = readBeside(document_.file(), name, scene_.inputs);
     Scene part;
     if (hasHeader(bytes)) {
       const Document document(path, bytes, messages_);
       part = Reader(document, messages_, library_, nesting_ + 1).readPart();
+      scene_.inputs.note(part.inputs);
     } else {
       const Model model = readModel(path, bytes, messages_);
+      scene_.inputs.note(model.inputs);
       part.objects = placed(model, plainMaterial(), [&](const Material& material) {
         part.materials.push_back(material);
         return static_cast<std::uint32_t>(part.materials.size() - 1);
@@ -459,6 +461,7 @@ class Reader {
     repaint(v, s, [&](Paint& p) { p.texture = file; });
   }
   void keepTexture(const Node& node, std::string_view file) {
+    scene_.inputs.noteNamed(besideFile(document_.file(), std::string(file)));
     if (textures_.emplace(file).second)
       scene_.unrendered.push_back({"map", document_.place(node.token), "map(\"" + std::string(file) + "\")"});
     warn(node, "texture maps are not rendered yet", "map");

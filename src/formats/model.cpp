@@ -103,6 +103,7 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
         std::none_of(scene.materials.begin(), scene.materials.end(),
                      [&](const Material& used) { return used.name == material.name; }))
       scene.unusedMaterials.push_back({material.name, Place{.file = file}});
+  scene.inputs = std::move(model.inputs);
   scene.choices = std::move(model.choices);
   scene.camera = model.camera ? *model.camera : framing(bounds(scene));
   scene.lights = model.lights.empty() ? plainLights(scene.camera) : std::move(model.lights);

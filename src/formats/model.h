@@ -27,6 +27,7 @@ struct Model {
   /// Where the file colours its points: MeshData::materials are indices into these, which stand for the
   /// object's material with this colour as diffuse and ambient.
   std::vector<Color> colors;
+  InputFiles inputs;  ///< files that this one names
 };
 
 /// What every reader checks in its meshes, and how often it had to repair them.

@@ -128,7 +128,7 @@ class ObjReader : public tinyobj::MaterialReader {
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string*, std::string*) override {
     try {
-      const std::string text = readBeside(file_, name);
+      const std::string text = readBeside(file_, name, model_.inputs);
       ByteStream stream(text);
       std::string warnings, errors;
       tinyobj::LoadMtl(numbers, materials, &stream, &warnings, &errors);
@@ -136,6 +136,7 @@ class ObjReader : public tinyobj::MaterialReader {
       messages_.warn(place_, "materials: " + error.messages().front().what);
       return false;
     }
+    for (const tinyobj::material_t& material : *materials) notePictures(material, besideFile(file_, name));
     for (std::size_t i = model_.materials.size(); i < materials->size(); ++i) {
       model_.materials.push_back(toMaterial((*materials)[i]));
       if (isSound(model_.materials.back())) continue;
@@ -147,6 +148,18 @@ class ObjReader : public tinyobj::MaterialReader {
   }
 
  private:
+  /// Exporters name pictures as seen from the materials' file, or from the mesh's.
+  void notePictures(const tinyobj::material_t& m, const std::string& materialFile) {
+    for (const std::string& picture :
+         {m.ambient_texname, m.diffuse_texname, m.specular_texname, m.specular_highlight_texname,
+          m.bump_texname, m.displacement_texname, m.alpha_texname, m.reflection_texname, m.roughness_texname,
+          m.metallic_texname, m.sheen_texname, m.emissive_texname, m.normal_texname}) {
+      if (picture.empty()) continue;
+      model_.inputs.noteNamed(besideFile(materialFile, picture));
+      model_.inputs.noteNamed(besideFile(file_, picture));
+    }
+  }
+
   static ObjReader& of(void* self) { return *static_cast<ObjReader*>(self); }
 
   void useName(std::string name) {

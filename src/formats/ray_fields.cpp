@@ -103,7 +103,8 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
   if (!read(findings, name, value, file)) return false;
   if (file.empty()) return to = {}, true;
   try {
-    const Picture picture = decodePicture(readBeside(findings.syntax().file(), file), file);
+    const Picture picture =
+        decodePicture(readBeside(findings.syntax().file(), file, findings.scene().inputs), file);
     if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide)
       return findings.error(value, std::string(name) + ": expected a picture of 2 to " +
                                        std::to_string(kMostSide) + " pixels along each side"),

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "formats/ray_fields.h"
 
@@ -137,7 +138,10 @@ bool Materials::picture(Block& block, const Item& field) {
   const auto file = fileOf(value);
   const bool pattern = value.is(Kind::call) && value.key() != "map" && isRelative(value.key());
   if (!file && !pattern) return false;
-  if (file) block.material.maps.push_back({std::string(field.key()), std::string(*file)});
+  if (file) {
+    block.material.maps.push_back({std::string(field.key()), std::string(*file)});
+    findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(*file)));
+  }
   findings_.notRendered(file ? "map" : value.key(), value, {});
   if (isColor(field.key()).value_or(false)) setWhite(block.phong, field.key());
   if (file && value.is(Kind::call) && value.value().count() == 2)

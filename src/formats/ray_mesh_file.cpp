@@ -72,9 +72,10 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
   if (known != models_.end()) return &known->second;
   try {
     Messages messages;
-    Model& model =
-        models_.emplace(path, readModel(path, readBeside(findings_.syntax().file(), name), messages))
-            .first->second;
+    InputFiles& inputs = findings_.scene().inputs;
+    const std::string bytes = readBeside(findings_.syntax().file(), name, inputs);
+    Model& model = models_.emplace(path, readModel(path, bytes, messages)).first->second;
+    inputs.note(model.inputs);
     for (Material& material : model.materials)  // pictures lie beside the mesh, and are named from the scene
       for (FieldMap& map : material.maps) map.file = besideFile(name, map.file);
     for (const Message& warning : messages.all())

@@ -219,7 +219,9 @@ class Reader {
 
   void texture(const Parameter& p, Material& material) {
     if (!p.text) tokens_.fail(p.key, "texture: expected the name of a picture in quotes");
-    if (!p.text->empty()) material.maps.push_back({"diffuse", std::string(*p.text)});
+    if (p.text->empty()) return;
+    material.maps.push_back({"diffuse", std::string(*p.text)});
+    scene_.inputs.noteNamed(findFile(scene_.file, material.maps.back().file));
   }
 
   void ignored(const Parameter& p, std::string_view owner) {
@@ -283,7 +285,9 @@ class Reader {
     if (!fresh) return found->second;
     try {
       const std::string path = findFile(scene_.file, found->first);
-      found->second = readModel(path, readBeside({}, path), messages_).objects;
+      Model model = readModel(path, readBeside({}, path, scene_.inputs), messages_);
+      scene_.inputs.note(model.inputs);
+      found->second = std::move(model.objects);
     } catch (const Error& error) {
       if (error.fault() != Fault::io) throw;
       tokens_.fail(name, error.messages().front().what);

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "geometry/shape.h"
 #include "math/transform.h"
+#include "scene/input_files.h"
 #include "scene/options.h"
 #include "shading/background.h"
 #include "shading/camera.h"
@@ -61,6 +62,7 @@ struct Scene {
   std::vector<Choice> choices;  ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
   std::vector<UnusedMaterial> unusedMaterials;
+  InputFiles inputs;  ///< what it was read from
 
   bool operator==(const Scene&) const = default;
 };

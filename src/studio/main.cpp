@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/printable.h"
+#include "base/streams.h"
 #include "image/codec.h"
 #include "studio/actions.h"
 #include "studio/arguments.h"
@@ -108,6 +110,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace trace;
+  guardStreams();
   try {
     const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
     if (arguments.help) return std::fputs(studio::helpText().c_str(), stdout), 0;
@@ -116,7 +119,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.fault());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ray-studio: error: %s\n", error.what());
+    std::fprintf(stderr, "ray-studio: error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(Fault::io);
   }
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/session.h"
+#include "base/file.h"
 #include "image/codec.h"
 #include "support/folder.h"
 #include "support/paths.h"
@@ -76,6 +77,164 @@ TEST_F(OutputTest, ToneIsForLevelsOnly) {
   const Picture raw = readPicture(folder_ / "a.exr"), picture = session_.picture();
   for (std::size_t i = 0; i < raw.pixels.size(); ++i)
     EXPECT_EQ(raw.pixels[i].r, static_cast<float>(picture.pixels[i].r));
+}
+
+// --- fragments: films with tiles to come ---
+
+class Fragment : public testing::Test {
+ protected:
+  /// A film of two tiles.
+  static Film film(int done) {
+    Film film(2 * Film::kTileSize, Film::kTileSize);
+    for (int i = 0; i < done; ++i) film.markDone(i);
+    return film;
+  }
+  static inline const Metadata kWords{{"Software", "a test"}};
+
+  std::string path(const std::string& name) const { return folder_ / name; }
+  bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
+  std::string write(PictureFiles& files, int done) const {
+    return std::filesystem::path(files.write(film(done), settings_, kWords)).filename().string();
+  }
+  /// By a run of its own.
+  std::string write(const std::string& name, int done) const {
+    PictureFiles files(path(name), {});
+    return write(files, done);
+  }
+
+  const Folder folder_;
+  Settings settings_;
+};
+
+TEST_F(Fragment, NeverReplacesAWholePicture) {
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string suffix(format.suffixes[0]), name = "a" + suffix;
+    EXPECT_EQ(write(name, 2), name);
+    const std::string whole = readFile(path(name));
+    for (int again = 0; again < 3; ++again) EXPECT_EQ(write(name, 1), "a.partial" + suffix);
+    EXPECT_EQ(readFile(path(name)), whole) << suffix;
+    EXPECT_EQ(write(name, 2), name);
+  }
+}
+
+TEST_F(Fragment, LiesUnderTheNameItselfWhereNothingWas) {
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string name = "a" + std::string(format.suffixes[0]);
+    PictureFiles files(path(name), {});
+    EXPECT_EQ(write(files, 1), name);
+    EXPECT_EQ(write(files, 1), name);  // what this run wrote it may replace
+    EXPECT_EQ(write(files, 2), name);
+  }
+}
+
+TEST_F(Fragment, ReplacesAFragmentOfAnEarlierRun) {
+  EXPECT_EQ(write("a.png", 1), "a.png");
+  EXPECT_EQ(write("a.png", 1), "a.png");
+  // A BMP cannot say that it is one, and so is taken for whole.
+  EXPECT_EQ(write("a.bmp", 1), "a.bmp");
+  EXPECT_EQ(write("a.bmp", 1), "a.partial.bmp");
+  EXPECT_EQ(write("a.bmp", 1), "a.partial.bmp");
+}
+
+TEST_F(Fragment, SparesWhatIsNoPictureOrWholeBesideIt) {
+  writeFile(path("a.png"), "notes");
+  writeFile(path("b.png"), "");
+  write("c.png", 2), write("c.partial.png", 2);
+  EXPECT_EQ(write("a.png", 1), "a.partial.png");
+  EXPECT_EQ(readFile(path("a.png")), "notes");
+  EXPECT_EQ(write("b.png", 1), "b.png");
+  EXPECT_EQ(write("c.png", 1), "c.partial-2.png");
+}
+
+TEST_F(Fragment, SparesInputs) {
+  write("a.png", 1);  // a height map may be one
+  const std::string before = readFile(path("a.png"));
+  InputFiles inputs;
+  inputs.noteNamed(path("a.png"));
+  PictureFiles files(path("a.png"), inputs);
+  EXPECT_EQ(write(files, 1), "a.partial.png");
+  EXPECT_EQ(readFile(path("a.png")), before);
+}
+
+TEST_F(Fragment, StaysTogetherWithItsPasses) {
+  settings_.passes = {Pass::depth};
+  const auto makeBoth = [&](PictureFiles& files, int done) {
+    const Color blank[] = {Color(0)};
+    Film both(2 * Film::kTileSize, Film::kTileSize, blank);
+    for (int i = 0; i < done; ++i) both.markDone(i);
+    return files.write(both, settings_, kWords);
+  };
+  write("elsewhere.exr", 2);
+  std::filesystem::rename(path("elsewhere.exr"), path("a.depth.exr"));  // the pass alone is whole
+  PictureFiles files(path("a.png"), {});
+  EXPECT_EQ(makeBoth(files, 1), path("a.partial.png"));
+  EXPECT_TRUE(exists("a.partial.depth.exr"));
+  EXPECT_FALSE(exists("a.png"));
+  EXPECT_EQ(makeBoth(files, 2), path("a.png"));
+  EXPECT_FALSE(exists("a.partial.png") || exists("a.partial.depth.exr"));  // of no use any more
+}
+
+TEST_F(Fragment, SaysThatItIsOne) {
+  write("a.png", 1), write("b.png", 2);
+  const auto incomplete = [&](const char* name) {
+    for (const auto& [key, text] : readMetadata(path(name)))
+      if (key == "Incomplete") return true;
+    return false;
+  };
+  EXPECT_TRUE(incomplete("a.png"));
+  EXPECT_FALSE(incomplete("b.png"));
+}
+
+// --- what counts as rendered ---
+
+TEST_F(Fragment, OnlyAWholeFileCountsAsRendered) {
+  const Size size{2 * Film::kTileSize, Film::kTileSize};
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string name = "a" + std::string(format.suffixes[0]);
+    write(name, 2);
+    const Output output{path(name), -1, ""};
+    const bool hasWords = !readMetadata(output.path).empty();
+    EXPECT_EQ(isRendered(output, size, kWords), hasWords) << name;
+    EXPECT_FALSE(isRendered(output, {size.width, size.height + 1}, kWords)) << name;
+    const std::string bytes = readFile(output.path);
+    for (const double part : {0.99, 0.9, 0.5}) {
+      const auto length = static_cast<std::size_t>(part * static_cast<double>(bytes.size()));
+      writeFile(output.path, bytes.substr(0, length));
+      EXPECT_FALSE(isRendered(output, size, kWords)) << name << " " << part;
+    }
+  }
+  write("b.png", 2);
+  std::string bytes = readFile(path("b.png"));
+  bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 1);  // among the pixels
+  writeFile(path("b.png"), bytes);
+  EXPECT_FALSE(isRendered({path("b.png"), -1, ""}, size, kWords));
+}
+
+TEST_F(OutputTest, WhatDoesNotChangeThePictureStaysOut) {
+  for (const char* name : {"a.png", "a.exr"}) {
+    render({{"threads", "1", {}}}, "a" + std::string(name));
+    render(
+        {{"threads", "2", {}}, {"time-limit", "1000", {}}, {"max-memory", "4000", {}}, {"accel", "none", {}}},
+        "b" + std::string(name));
+    EXPECT_EQ(readFile(folder_ / ("a" + std::string(name))), readFile(folder_ / ("b" + std::string(name))));
+  }
+}
+
+TEST(CheckIsNoInput, NamesTheFileAndWhatToDo) {
+  const Folder folder;
+  writeFile(folder / "a.png", "x");
+  std::filesystem::create_symlink("a.png", folder / "link.png");
+  InputFiles inputs;
+  inputs.noteRead(folder / "a.png", "x");
+  inputs.noteNamed(folder / "none.png");
+  for (const char* name : {"a.png", "./a.png", "link.png", "none.png", "./none.png"}) try {
+      checkIsNoInput(folder / name, inputs);
+      FAIL() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::usage);
+      EXPECT_NE(std::string(error.what()).find("-o "), std::string::npos);
+    }
+  checkIsNoInput(folder / "b.png", inputs);
 }
 
 }  // namespace

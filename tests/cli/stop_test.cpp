@@ -115,9 +115,59 @@ TEST_F(Stop, PictureIsSavedElsewhereIfItsPlaceIsGone) {
   std::filesystem::remove_all(path("there"));
   program.kill(SIGINT);
   EXPECT_EQ(program.wait(), 1);
-  EXPECT_TRUE(contains(program.lastLine(), "wrote " + path("temporary") + "/out.png"));
+  EXPECT_TRUE(contains(program.lastLine(), "wrote " + path("temporary") + "/trace-"));
+  EXPECT_TRUE(contains(program.lastLine(), "/out.png (1000x800, "));
   EXPECT_TRUE(contains(program.lastLine(), "instead of there/out.png"));
-  EXPECT_TRUE(exists("temporary/out.png"));
+  const auto folder = std::filesystem::directory_iterator(path("temporary"))->path();  // nobody else's
+  EXPECT_EQ(readPicture((folder / "out.png").string()).width, 1000);
+}
+
+TEST_F(Stop, AFragmentGoesBesideAWholePicture) {
+  for (const char* suffix : {"png", "bmp"}) {
+    const std::string name = std::string("out.") + suffix, part = std::string("out.partial.") + suffix;
+    EXPECT_EQ(run({"white.ray", name, "-w", "40"}).code, 0);
+    const std::string whole = readFile(path(name));
+    std::vector<std::string> words = longRender();
+    words[1] = name;
+    Program program(folder(), words);
+    ASSERT_TRUE(hasBegun(program)) << program.err();
+    program.kill(SIGUSR1);
+    ASSERT_TRUE(program.says("going on")) << program.err();
+    EXPECT_TRUE(contains(program.err(), "wrote " + part + " (1000x800, "));
+    program.kill(SIGINT);
+    EXPECT_EQ(program.wait(), 4);
+    EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote " + part + " (1000x800, "));
+    EXPECT_TRUE(contains(program.lastLine(), "; " + name + " is kept as it is"));
+    EXPECT_EQ(readFile(path(name)), whole);
+    EXPECT_EQ(readPicture(path(part)).width, 1000);
+
+    words.insert(words.end(), {"--time-limit", "0.7"});
+    const Run limited = run(words);
+    EXPECT_EQ(limited.code, 5);
+    EXPECT_TRUE(contains(limited.last, "stopped by the time limit: wrote " + part));
+    EXPECT_EQ(readFile(path(name)), whole);
+  }
+  EXPECT_EQ(files(), 5u);
+}
+
+TEST_F(Stop, NothingIsLeftOfWhatWasBeingWritten) {
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::string> words = longRender();
+    words[1] = "out.exr";
+    Program program(folder(), words);
+    ASSERT_TRUE(hasBegun(program)) << program.err();
+    program.kill(SIGUSR1);  // takes a while
+    program.kill(SIGINT);
+    ASSERT_TRUE(program.says("Ctrl-C again")) << program.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 * round));
+    program.kill(SIGTERM);
+    program.wait();
+    for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(name == "white.ray" || name == ".stdout" || name == ".stderr" || name == "out.exr") << name;
+      if (name == "out.exr") EXPECT_EQ(readPicture(path(name)).width, 1000);
+    }
+  }
 }
 
 TEST_F(Stop, JsonProgress) {

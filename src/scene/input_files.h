@@ -1,0 +1,47 @@
+// The files that a scene is made of. Readers note each one that they open, and each one that the scene names
+// though nobody opens it yet, such as the picture of a texture. No output may replace one of them
+// (app/output.h), and what was read decides whether a picture is still that of its scene.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trace {
+
+struct InputFile {
+  std::string path;        ///< as the program opens it
+  bool read = false;       ///< false: the scene only names it
+  std::uint64_t hash = 0;  ///< of its bytes, if it was read
+  auto operator<=>(const InputFile&) const = default;
+};
+
+class InputFiles {
+ public:
+  void noteRead(const std::string& path, std::string_view bytes);
+  void noteNamed(const std::string& path);
+  /// What a part of the scene, which has a file of its own, is made of.
+  void note(const InputFiles& part);
+
+  const std::vector<InputFile>& all() const { return files_; }
+  /// Sixteen digits for everything that was read: the same for the same bytes. Of one file alone they follow
+  /// from its bytes; "" if nothing was read.
+  std::string fingerprint() const;
+
+  bool operator==(const InputFiles& other) const { return files_ == other.files_; }
+
+ private:
+  void add(InputFile file);
+
+  std::vector<InputFile> files_;  // in the order met
+  std::set<InputFile> known_;     // the same
+};
+
+/// The bytes of a file that the file `from` names, noted as read, or as named if it cannot be read. Throws as
+/// readBeside() of base/file.h.
+std::string readBeside(const std::string& from, const std::string& name, InputFiles& inputs);
+
+}  // namespace trace
