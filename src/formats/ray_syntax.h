@@ -66,6 +66,10 @@ class Syntax {
 
   /// With the whole line of text.
   Place place(std::size_t offset) const;
+  /// The offset of a place in this file, which place() made. Precondition: it is one.
+  std::size_t offsetOf(const Place& place) const {
+    return lineStarts_[static_cast<std::size_t>(place.line) - 1] + static_cast<std::size_t>(place.column) - 1;
+  }
   /// Without the text of a long line, to be kept in numbers.
   Place shortPlace(std::size_t offset) const;
 
