@@ -30,15 +30,19 @@ Document::Reading Document::read(const Source& source) {
   Reading reading;
   reading.source = source;
   reading.written = timeOf(source.file);
-  const std::string bytes = readFile(source.file);
+  SceneText text{source.file, std::make_shared<const std::string>(readFile(source.file)), 0, {}};
+  const std::string& bytes = *text.bytes;
   const auto readAt = [&](Real time) {
     reading.messages = {};
+    text.time = time;
     reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, time));
     reading.messages.throwIfFailed();
     return resolve({reading.scene->choices, source.commandLine, source.choices}).time;
   };
   const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
+  text.scene = reading.scene;
+  reading.text = std::make_shared<const SceneText>(text);
   reading.fingerprint = trace::fingerprint(bytes, *reading.scene);
   reading.changesWithTime = trace::changesWithTime(source.file, bytes);
   return reading;
@@ -57,7 +61,7 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
   const Reading reading = read({file, commandLine, {}});
   take(reading, true);
   file_ = file, commandLine_ = std::move(commandLine);
-  editions_ = {{"", reading.scene, {}}};
+  editions_ = {{"", reading.scene, reading.text, {}}};
   current_ = 0;
   settle();
 }
@@ -82,7 +86,8 @@ void Document::push(Edition edition, bool continues) {
 }
 
 void Document::edit(const std::string& what, Scene scene, bool continues) {
-  push({what, std::make_shared<const Scene>(std::move(scene)), editions_[current_].choices}, continues);
+  const Edition& now = editions_[current_];
+  push({what, std::make_shared<const Scene>(std::move(scene)), now.text, now.choices}, continues);
 }
 
 void Document::choose(const std::string& option, const std::string& value, bool continues) {
@@ -97,8 +102,8 @@ bool Document::readsFile(const std::string& option) { return findOption(option).
 
 Document::Edition Document::with(const Change& change) const {
   const Edition& now = editions_[current_];
-  if (change.option.empty()) return {"reload", now.scene, now.choices};
-  Edition next{(change.value ? "" : "reset ") + change.option, now.scene, now.choices};
+  if (change.option.empty()) return {"reload", now.scene, now.text, now.choices};
+  Edition next{(change.value ? "" : "reset ") + change.option, now.scene, now.text, now.choices};
   std::erase_if(next.choices, [&](const Choice& choice) {  // `like` sets every convention anew
     return choice.option == change.option ||
            (change.value && change.option == "like" && isConvention(findOption(choice.option)));
@@ -124,10 +129,10 @@ bool Document::apply(const Change& change, const Reading& reading) {
   const bool wasEdited = edited();
   if (change.anew) {
     take(reading, true);
-    next.scene = reading.scene;
+    next.scene = reading.scene, next.text = reading.text;
   } else if (*reading.scene != *onDisk_) {  // else what was edited is kept
     take(reading, false);
-    next.scene = reading.scene;
+    next.scene = reading.scene, next.text = reading.text;
     if (wasEdited)
       messages_.warn(Place{.file = file_},
                      change.option + " read the file again, without what was edited here",
@@ -191,26 +196,22 @@ std::vector<Message> Document::save(const std::string& file) {
 }
 
 Document::Saving Document::saving(const std::string& file) const {
-  Saving what{file, sharedScene(), changedOptions(settings_), {}};
+  Saving what{file, sharedScene(), editions_[current_].text, changedOptions(settings_), {}};
   std::erase_if(what.choices, [](const Choice& choice) {  // of this machine, not of the scene
     return findOption(choice.option).repeats == Repeats::nothing;
   });
-  if (changesWithTime_)
-    what.messages.warn(Place{.file = file},
-                       "the keys of " + std::filesystem::path(file_).filename().string() +
-                           " are not kept: the scene is written as it is at " + toText(settings_.time) + " s",
-                       "what changes with time is edited in the file itself");
   return what;
 }
 
 Document::Saved Document::write(Saving what) {
   Scene scene = *what.scene;
   scene.choices = what.choices;
-  for (const NamedBytes& part : writableFormatFor(what.file).write(scene, what.file, {}, what.messages))
-    writeFile(part.file, part.bytes);
-  Saved saved{std::move(what), {}, {}};
+  const std::vector<NamedBytes> parts = writeEdited(*what.text, scene, what.file, what.messages);
+  for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
+  Saved saved{std::move(what), {}, false, {}};
   saved.written = timeOf(saved.what.file);
-  saved.fingerprint = trace::fingerprint(readFile(saved.what.file), *saved.what.scene);
+  saved.fingerprint = trace::fingerprint(parts.front().bytes, *saved.what.scene);
+  saved.changesWithTime = trace::changesWithTime(parts.front().file, parts.front().bytes);
   return saved;
 }
 
@@ -221,7 +222,7 @@ void Document::noteSaved(const Saved& saved) {
   file_ = saved.what.file, written_ = saved.written, onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
   fingerprint_ = saved.fingerprint;
-  changesWithTime_ = false;
+  changesWithTime_ = saved.changesWithTime;
 }
 
 }  // namespace trace

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,8 @@ class Syntax {
 
   /// All items of the file, as one block.
   Item root() const;
+  /// The outermost item that begins there.
+  std::optional<Item> itemAt(std::size_t offset) const;
   std::span<const Node> nodes() const { return nodes_; }
   std::string_view source() const { return source_; }
   /// Is there a call of kKey?
