@@ -22,6 +22,12 @@ std::string placeText(const Place& place) {
   return text.empty() ? "scene file" : text;
 }
 
+/// Are scenes of the format saved as their text with the edits in it?
+bool keepsText(std::string_view format) {
+  return std::any_of(sceneFormats().begin(), sceneFormats().end(),
+                     [&](const SceneFormat& row) { return row.name == format && row.rewrite != nullptr; });
+}
+
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
 
 }  // namespace
@@ -30,8 +36,9 @@ Document::Reading Document::read(const Source& source) {
   Reading reading;
   reading.source = source;
   reading.written = timeOf(source.file);
-  SceneText text{source.file, std::make_shared<const std::string>(readFile(source.file)), 0, {}};
-  const std::string& bytes = *text.bytes;
+  const auto read = std::make_shared<const std::string>(readFile(source.file));
+  const std::string& bytes = *read;
+  SceneText text{source.file, read, 0, {}};
   const auto readAt = [&](Real time) {
     reading.messages = {};
     text.time = time;
@@ -42,6 +49,7 @@ Document::Reading Document::read(const Source& source) {
   const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
   text.scene = reading.scene;
+  if (!keepsText(reading.scene->format)) text.bytes.reset();
   reading.text = std::make_shared<const SceneText>(text);
   reading.fingerprint = trace::fingerprint(bytes, *reading.scene);
   reading.changesWithTime = trace::changesWithTime(source.file, bytes);

@@ -215,9 +215,18 @@ class Patch {
                       [](const LightSource& a, const LightSource& b) { return a.light == b.light; });
   }
 
+  static void addMaterials(const Shape& shape, std::uint32_t material, std::set<std::uint32_t>& used) {
+    used.insert(material);
+    match(shape, [&](const auto& whole) {
+      if constexpr (requires { whole.objects.list(); })
+        for (const Operand& operand : whole.objects.list())
+          addMaterials(operand.shape, operand.material, used);
+    });
+  }
+
   void noteUnused(const Scene& edited, std::size_t known) {
     std::set<std::uint32_t> used;
-    for (const Object& object : edited.objects) used.insert(object.material);
+    for (const Object& object : edited.objects) addMaterials(object.shape, object.material, used);
     for (std::size_t i = known; i < edited.materials.size(); ++i)
       if (!used.contains(static_cast<std::uint32_t>(i)))
         messages_.warn(Place{.file = read_.file},
@@ -267,8 +276,8 @@ std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, c
   std::optional<std::string> text;
   try {
     text = rayfile::Patch(read, found).text(edited);
-  } catch (const Error& error) {
-    if (error.fault() == Fault::limit) throw;
+  } catch (const Error&) {
+    text.reset();  // a file that it names is gone, or the reader does not take the text
   }
   if (text) {
     for (const Message& message : found.all()) messages.warn(message.place, message.what, message.hint);

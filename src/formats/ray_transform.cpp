@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include "formats/ray_fields.h"
@@ -351,7 +352,8 @@ Steps stepsOf(const Affine& m) {
   const auto good = [&](const Steps& inner) -> std::optional<Steps> {
     Steps all = move;
     all.insert(all.end(), inner.begin(), inner.end());
-    if (!(product(all) == m)) return {};
+    const Affine said = product(all);
+    if (std::memcmp(&said, &m, sizeof m) != 0) return {};  // also the signs of zeros
     return all;
   };
   if (const auto found = good({})) return *found;
