@@ -23,6 +23,12 @@ std::string placeText(const Place& place) {
   return text.empty() ? "scene file" : text;
 }
 
+/// Are scenes of the format saved as their text with the edits in it?
+bool keepsText(std::string_view format) {
+  return std::any_of(sceneFormats().begin(), sceneFormats().end(),
+                     [&](const SceneFormat& row) { return row.name == format && row.rewrite != nullptr; });
+}
+
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
 
 }  // namespace
@@ -31,15 +37,21 @@ Document::Reading Document::read(const Source& source) {
   Reading reading;
   reading.source = source;
   reading.written = timeOf(source.file);
-  const std::string bytes = readFile(source.file);
+  const auto read = std::make_shared<const std::string>(readFile(source.file));
+  const std::string& bytes = *read;
+  SceneText text{source.file, read, 0, {}};
   const auto readAt = [&](Real time) {
     reading.messages = {};
+    text.time = time;
     reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, time));
     reading.messages.throwIfFailed();
     return resolve({reading.scene->choices, source.commandLine, source.choices}).time;
   };
   const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
+  text.scene = reading.scene;
+  if (!keepsText(reading.scene->format)) text.bytes.reset();
+  reading.text = std::make_shared<const SceneText>(text);
   reading.fingerprint = reading.scene->inputs.fingerprint();
   reading.changesWithTime = trace::changesWithTime(source.file, bytes);
   return reading;
@@ -58,7 +70,7 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
   const Reading reading = read({file, commandLine, {}});
   take(reading, true);
   file_ = file, commandLine_ = std::move(commandLine);
-  editions_ = {{"", reading.scene, {}}};
+  editions_ = {{"", reading.scene, reading.text, {}}};
   current_ = 0;
   settle();
 }
@@ -83,7 +95,8 @@ void Document::push(Edition edition, bool continues) {
 }
 
 void Document::edit(const std::string& what, Scene scene, bool continues) {
-  push({what, std::make_shared<const Scene>(std::move(scene)), editions_[current_].choices}, continues);
+  const Edition& now = editions_[current_];
+  push({what, std::make_shared<const Scene>(std::move(scene)), now.text, now.choices}, continues);
 }
 
 void Document::choose(const std::string& option, const std::string& value, bool continues) {
@@ -98,8 +111,8 @@ bool Document::readsFile(const std::string& option) { return findOption(option).
 
 Document::Edition Document::with(const Change& change) const {
   const Edition& now = editions_[current_];
-  if (change.option.empty()) return {"reload", now.scene, now.choices};
-  Edition next{(change.value ? "" : "reset ") + change.option, now.scene, now.choices};
+  if (change.option.empty()) return {"reload", now.scene, now.text, now.choices};
+  Edition next{(change.value ? "" : "reset ") + change.option, now.scene, now.text, now.choices};
   std::erase_if(next.choices, [&](const Choice& choice) {  // `like` sets every convention anew
     return choice.option == change.option ||
            (change.value && change.option == "like" && isConvention(findOption(choice.option)));
@@ -125,10 +138,10 @@ bool Document::apply(const Change& change, const Reading& reading) {
   const bool wasEdited = edited();
   if (change.anew) {
     take(reading, true);
-    next.scene = reading.scene;
+    next.scene = reading.scene, next.text = reading.text;
   } else if (*reading.scene != *onDisk_) {  // else what was edited is kept
     take(reading, false);
-    next.scene = reading.scene;
+    next.scene = reading.scene, next.text = reading.text;
     if (wasEdited)
       messages_.warn(Place{.file = file_},
                      change.option + " read the file again, without what was edited here",
@@ -192,30 +205,25 @@ std::vector<Message> Document::save(const std::string& file) {
 }
 
 Document::Saving Document::saving(const std::string& file) const {
-  Saving what{file, sharedScene(), changedOptions(settings_), {}};
+  Saving what{file, sharedScene(), editions_[current_].text, changedOptions(settings_), {}};
   std::erase_if(what.choices, [](const Choice& choice) {  // of this machine, not of the scene
     return findOption(choice.option).repeats == Repeats::nothing;
   });
-  if (changesWithTime_)
-    what.messages.warn(Place{.file = file},
-                       "the keys of " + std::filesystem::path(file_).filename().string() +
-                           " are not kept: the scene is written as it is at " + toText(settings_.time) + " s",
-                       "what changes with time is edited in the file itself");
   return what;
 }
 
 Document::Saved Document::write(Saving what) {
   Scene scene = *what.scene;
   scene.choices = what.choices;
-  const std::vector<NamedBytes> parts =
-      writableFormatFor(what.file).write(scene, what.file, {}, what.messages);
+  const std::vector<NamedBytes> parts = writeEdited(*what.text, scene, what.file, what.messages);
   InputFiles others;  // the scene's own file may be replaced, and nothing else that it is made of
   for (const InputFile& input : scene.inputs.all())
     if (!sameFile(input.path, scene.file)) others.noteNamed(input.path);
   for (const NamedBytes& part : parts) checkIsNoInput(part.file, others);
   for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
-  Saved saved{std::move(what), {}, {}};
+  Saved saved{std::move(what), {}, false, {}};
   saved.written = timeOf(saved.what.file);
+  saved.changesWithTime = trace::changesWithTime(parts.front().file, parts.front().bytes);
   try {  // what the file is made of now, which a picture of it has to say
     Messages again;
     saved.fingerprint = readScene(saved.what.file, again).inputs.fingerprint();
@@ -232,7 +240,7 @@ void Document::noteSaved(const Saved& saved) {
   file_ = saved.what.file, written_ = saved.written, onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
   fingerprint_ = saved.fingerprint;
-  changesWithTime_ = false;
+  changesWithTime_ = saved.changesWithTime;
 }
 
 }  // namespace trace

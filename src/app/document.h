@@ -23,6 +23,8 @@
 
 namespace trace {
 
+struct SceneText;
+
 class Document {
  public:
   /// Reads the scene; `commandLine` lies over the file's own choices from now on. Forgets the earlier states.
@@ -69,11 +71,11 @@ class Document {
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
   /// changedOnDisk() is false until the file changes once more.
   void reload();
-  /// The file has values that change with time, which save() does not keep: it writes the scene as it is at
-  /// this moment.
+  /// The file has values that change with time.
   bool changesWithTime() const { return changesWithTime_; }
-  /// Writes the scene, with the options that differ from their defaults, as a .ray file, which is the
-  /// document's file from now on. Returns warnings of what was lost. Throws Error; the document then stays.
+  /// Writes the scene, with the options that differ from the file's, as a .ray file, which is the document's
+  /// file from now on: the text that was read, if that was a .ray file, with the edits (formats/ray_patch.h).
+  /// Returns warnings of what was lost. Throws Error; the document then stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---
@@ -93,6 +95,7 @@ class Document {
   struct Reading {
     Source source;
     std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const SceneText> text;
     Messages messages;
     std::string fingerprint;
     bool changesWithTime = false;
@@ -109,12 +112,14 @@ class Document {
   struct Saving {
     std::string file;
     std::shared_ptr<const Scene> scene;
-    std::vector<Choice> choices;  ///< that the file is to make
+    std::shared_ptr<const SceneText> text;  ///< of which the scene was made
+    std::vector<Choice> choices;            ///< that the file is to make
     Messages messages;
   };
   struct Saved {
     Saving what;
     std::string fingerprint;
+    bool changesWithTime = false;
     std::filesystem::file_time_type written{};
   };
   Saving saving(const std::string& file) const;
@@ -127,6 +132,7 @@ class Document {
   struct Edition {
     std::string what;  ///< that led here
     std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const SceneText> text;  ///< from which the scene was read, before it was edited
     std::vector<Choice> choices;
   };
   static constexpr std::size_t kMostEditions = 1000;

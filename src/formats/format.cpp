@@ -16,6 +16,7 @@
 #include "formats/off_format.h"
 #include "formats/ply_format.h"
 #include "formats/ray_format.h"
+#include "formats/ray_patch.h"
 #include "formats/ray_writer.h"
 #include "formats/stl_format.h"
 #include "formats/ubc_format.h"
@@ -33,7 +34,8 @@ constexpr std::array kTable{
                 .help = "scenes that begin with SBT-raytracer 1.0",
                 .recognises = recognisesRay,
                 .readAt = readRay,
-                .write = writeRay},
+                .write = writeRay,
+                .rewrite = rewriteRay},
     SceneFormat{.name = "composer",
                 .suffixes = kOut,
                 .help = "Composer format 2.1, text and binary",
@@ -176,6 +178,14 @@ const SceneFormat& writableFormatFor(const std::string& file) {
     }
   }
   throw Error(Fault::usage, "\"" + file + "\": expected a name that ends in one of " + known);
+}
+
+std::vector<NamedBytes> writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
+                                    Messages& messages) {
+  const SceneFormat& format = writableFormatFor(file);
+  if (format.rewrite && read.scene && read.scene->format == format.name)
+    return format.rewrite(read, edited, file, messages);
+  return format.write(edited, file, {}, messages);
 }
 
 }  // namespace trace

@@ -2,6 +2,7 @@
 // what is written follows from the file's name.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,14 @@ struct WriteOptions {
   bool ascii = false;  ///< text, where a format has both
 };
 
+/// A file that was read, and the scene that it says.
+struct SceneText {
+  std::string file;
+  std::shared_ptr<const std::string> bytes;
+  Real time = 0;
+  std::shared_ptr<const Scene> scene;
+};
+
 /// A row of the table. A format has `read` or `readAt`, or, if it holds meshes that other scenes may name,
 /// `readModel`.
 struct SceneFormat {
@@ -39,6 +48,10 @@ struct SceneFormat {
   /// Error(Fault::scene) if nothing is left.
   std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
                                    Messages& messages) = nullptr;
+  /// The scene, which was read as `read` of this format and edited, with as little of the text changed as
+  /// possible.
+  std::vector<NamedBytes> (*rewrite)(const SceneText& read, const Scene& edited, const std::string& file,
+                                     Messages& messages) = nullptr;
 };
 
 std::span<const SceneFormat> sceneFormats();
@@ -53,5 +66,10 @@ Model readModel(const std::string& file, std::string_view bytes, Messages& messa
 
 /// The row that writes files of that name, by its suffix in any case. Throws Error(Fault::usage).
 const SceneFormat& writableFormatFor(const std::string& file);
+
+/// The scene as `file`, by the row for its name: as the text that was read, if that is of the same format,
+/// with the edits.
+std::vector<NamedBytes> writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
+                                    Messages& messages);
 
 }  // namespace trace

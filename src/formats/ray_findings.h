@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/ray_notes.h"
 #include "formats/ray_syntax.h"
 #include "scene/scene.h"
 
@@ -17,11 +18,13 @@ namespace trace::rayfile {
 
 class Findings {
  public:
-  Findings(const Syntax& syntax, Scene& scene, Messages& messages)
-      : syntax_(syntax), scene_(scene), messages_(messages) {}
+  /// `notes`, if not null, are filled.
+  Findings(const Syntax& syntax, Scene& scene, Messages& messages, Notes* notes)
+      : syntax_(syntax), scene_(scene), messages_(messages), notes_(notes) {}
 
   Scene& scene() { return scene_; }
   const Syntax& syntax() const { return syntax_; }
+  Notes* notes() { return notes_; }
 
   /// Throws at the twentieth.
   void error(const Item& at, std::string what, std::string hint = {});
@@ -66,6 +69,7 @@ class Findings {
   const Syntax& syntax_;
   Scene& scene_;
   Messages& messages_;
+  Notes* notes_;
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t, std::less<>> kinds_;
 

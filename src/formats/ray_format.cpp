@@ -26,6 +26,7 @@
 #include "formats/ray_material.h"
 #include "formats/ray_mesh.h"
 #include "formats/ray_mesh_file.h"
+#include "formats/ray_notes.h"
 #include "formats/ray_syntax.h"
 #include "geometry/csg_tree.h"
 #include "scene/options.h"
@@ -162,12 +163,12 @@ std::string_view repair(Conic& conic, Affine&) {
 
 class Reader {
  public:
-  Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time)
+  Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time, Notes* notes)
       : syntax_(syntax),
         time_(time),
         scene_(scene),
         messages_(messages),
-        findings_(syntax, scene, messages),
+        findings_(syntax, scene, messages, notes),
         materials_(findings_),
         meshFiles_(findings_, materials_) {}
 
@@ -176,6 +177,7 @@ class Reader {
     auto item = root.begin();
     for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
     scene_.unusedMaterials = materials_.unused();
+    if (Notes* notes = findings_.notes()) notes->last = materials_.current;
     findings_.finish();
     warnOfDarkness();
     messages_.throwIfFailed();
@@ -258,7 +260,7 @@ class Reader {
 
   /// Materials set in a group hold up to its end.
   void group(const Item& block, const Affine& worldFromObject) {
-    const Material outside = materials_.current;
+    const NotedMaterial outside = materials_.current;
     for (const Item item : block) {
       if (!item.keyed() || item.key() != Phong::kKeyword)
         object(item, worldFromObject);
@@ -363,6 +365,7 @@ class Reader {
     &&call.value().is(Kind::tuple);
     const std::optional<Item> block = list ? call.value() : blockOf(call);
     if (!block) return;
+    if (Notes* notes = findings_.notes()) notes->inForce.try_emplace(call.offset(), materials_.current);
     if constexpr (std::is_same_v<S, Mesh>)
       mesh(call, *block, worldFromObject);
     else
@@ -384,7 +387,7 @@ class Reader {
   void analyticShape(const Item& call, const Item& block, Affine worldFromObject) {
     S shape;
     std::string name;
-    Material material = materials_.current;
+    NotedMaterial material = materials_.current;
     const std::size_t errors = findings_.errors();
     constexpr bool kOfObjects = requires { shape.objects; };
     for (const Item item : block) {
@@ -418,7 +421,7 @@ class Reader {
 
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
   template <class S>
-  bool readMaterials(S& shape, const Item& item, const Material& own) {
+  bool readMaterials(S& shape, const Item& item, const NotedMaterial& own) {
     if constexpr (requires { shape.materials.indices; }) {
       if (item.key() != "materials") return false;
       std::vector<std::uint32_t> list;
@@ -438,7 +441,7 @@ class Reader {
     const std::optional<Item> block = blockOf(call);
     if (!block) return;
     Particles system;
-    Material material = materials_.current;
+    NotedMaterial material = materials_.current;
     std::vector<Item> shown;
     for (const Item item : *block) {
       if (isObject(item)) {
@@ -462,12 +465,13 @@ class Reader {
     // The objects are read once for each shade, so that they take it as they take the material.
     constexpr int kShades = 32;
     std::array<std::vector<Object>, kShades + 1> shades;
-    const Material outside = materials_.current;
+    const NotedMaterial outside = materials_.current;
     for (const Particle& particle : alive) {
       const auto shade = static_cast<std::size_t>(std::lround(particle.age * kShades));
       std::vector<Object>& objects = shades[shade];
       if (objects.empty()) {
         materials_.current = material;
+        materials_.current.block = NotedMaterial::kNoBlock;
         tint(materials_.current, lerp(static_cast<Real>(shade) / kShades, system.color, system.endColor));
         std::vector<Object> found = std::exchange(scene_.objects, {});
         for (const Item& item : shown) object(item, {});
@@ -501,12 +505,12 @@ class Reader {
 
   /// The objects of a block, which may stand in objects = { } as well. They have the material of the whole if
   /// they do not say another.
-  Operands operands(const Item& call, const Item& block, const Material& material, bool clips) {
-    const Material outside = std::exchange(materials_.current, material);
+  Operands operands(const Item& call, const Item& block, const NotedMaterial& material, bool clips) {
+    const NotedMaterial outside = std::exchange(materials_.current, material);
     std::vector<Operand> operands;
     const auto readAll = [&](const Item& items) {
       for (const Item item : items)
-        if (isObject(item)) operand(item, clips && operands.empty(), operands);
+        if (isObject(item)) operand(call, item, clips && operands.empty(), operands);
     };
     readAll(block);
     for (const Item item : block)
@@ -517,10 +521,13 @@ class Reader {
   }
 
   /// A group is one operand: the union of its objects.
-  void operand(const Item& item, bool mayBeOpen, std::vector<Operand>& operands) {
+  void operand(const Item& whole, const Item& item, bool mayBeOpen, std::vector<Operand>& operands) {
     std::vector<Object> found = std::exchange(scene_.objects, {});
     object(item, {});
     found.swap(scene_.objects);
+    if (Notes* notes = findings_.notes(); notes && !found.empty())
+      notes->operands[whole.offset()].push_back(
+          found.size() > 1 ? Notes::kSeveral : syntax_.offsetOf(found.front().place));
     std::vector<Operand> parts;
     for (Object& o : found) {
       if (!mayBeOpen && !Placed(o.shape, {}).solid())
@@ -534,7 +541,7 @@ class Reader {
   }
 
   void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
-           const Material& material) {
+           const NotedMaterial& material) {
     add(call, std::move(name), std::move(shape), worldFromObject, materials_.index(material));
   }
 
@@ -549,7 +556,7 @@ class Reader {
 
   void namedMaterial(const Item& call) {
     findings_.sureSignOf2001(call);
-    const Material material = materials_.read(call.value(), materials_.current);
+    const NotedMaterial material = materials_.read(call.value(), materials_.current);
     if (material.name.empty()) findings_.warn(call, "a material without a name is never used");
   }
 
@@ -647,6 +654,16 @@ class Reader {
 };
 
 }  // namespace
+
+Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
+  Scene scene;
+  scene.file = syntax.file();
+  scene.format = "ray";
+  settleKeys(syntax, time);
+  Reader(syntax, scene, messages, time, &notes).read();
+  return scene;
+}
+
 }  // namespace rayfile
 
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
@@ -662,7 +679,7 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
   scene.format = "ray";
   rayfile::Syntax syntax(file, bytes);
   rayfile::settleKeys(syntax, time);
-  rayfile::Reader(syntax, scene, messages, time).read();
+  rayfile::Reader(syntax, scene, messages, time, nullptr).read();
   return scene;
 }
 

@@ -78,11 +78,13 @@ struct Materials::Block {
   std::optional<Item> shininess;
 };
 
-Material Materials::read(const Item& value, const Material& inherited) {
+NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited) {
   if (value.is(Kind::word)) {
     const auto found = named_.find(value.text());
     if (found != named_.end()) {
       found->second.used = true;
+      if (Notes* notes = findings_.notes())
+        notes->uses.push_back({value.offset(), found->second.material.block});
       return found->second.material;
     }
     std::vector<std::string_view> names;
@@ -104,9 +106,20 @@ Material Materials::read(const Item& value, const Material& inherited) {
   if (block.shininess && !isBlack(block.phong.specular))
     findings_.noteShininess(*block.shininess, block.phong.shininess);
   markUsed(inherited.name);
-  if (const std::string& name = block.material.name; !name.empty())
-    named_.insert_or_assign(name, Named{block.material, findings_.syntax().shortPlace(value.offset())});
-  return block.material;
+  NotedMaterial result = noted(std::move(block.material), value, inherited);
+  if (!result.name.empty())
+    named_.insert_or_assign(result.name, Named{result, findings_.syntax().shortPlace(value.offset())});
+  return result;
+}
+
+NotedMaterial Materials::noted(Material material, const Item& block, const NotedMaterial& inherited) {
+  NotedMaterial result(std::move(material));
+  if (Notes* notes = findings_.notes()) {
+    result.block = static_cast<std::uint32_t>(notes->blocks.size());
+    notes->blocks.push_back({inherited.block, inherited, result});
+    notes->uses.push_back({block.offset(), result.block});
+  }
+  return result;
 }
 
 void Materials::field(Block& block, const Item& field) {
@@ -159,6 +172,13 @@ std::vector<UnusedMaterial> Materials::unused() const {
     if (!named.used) all.push_back({name, named.place});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.place.line < b.place.line; });
   return all;
+}
+
+std::uint32_t Materials::index(const NotedMaterial& material) {
+  const std::uint32_t index = this->index(static_cast<const Material&>(material));
+  if (Notes* notes = findings_.notes(); notes && material.block != NotedMaterial::kNoBlock)
+    notes->blocks[material.block].index = index;
+  return index;
 }
 
 std::uint32_t Materials::index(const Material& material) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/ray_findings.h"
+#include "formats/ray_notes.h"
 #include "formats/ray_syntax.h"
 #include "shading/material.h"
 
@@ -19,14 +20,15 @@ class Materials {
   explicit Materials(Findings& findings) : findings_(findings) {}
 
   /// What primitives without a material get, and material blocks start from.
-  Material current;
+  NotedMaterial current;
 
   /// The material that a block `{ ... }` describes, starting as a copy of `inherited`, or that a name
   /// stands for. Reports what is wrong, and returns what could be read.
-  Material read(const Item& value, const Material& inherited);
+  NotedMaterial read(const Item& value, const NotedMaterial& inherited);
 
   /// Its index in Scene::materials; equal materials share one.
   std::uint32_t index(const Material& material);
+  std::uint32_t index(const NotedMaterial& material);
 
   /// Named materials that nothing uses, in the order of the file.
   std::vector<UnusedMaterial> unused() const;
@@ -35,10 +37,11 @@ class Materials {
   struct Block;
   void field(Block& block, const Item& field);
   bool picture(Block& block, const Item& field);
+  NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
 
   Findings& findings_;
   struct Named {
-    Material material;
+    NotedMaterial material;
     Place place;
     bool used = false;
   };

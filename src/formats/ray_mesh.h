@@ -16,7 +16,7 @@ namespace trace::rayfile {
 /// A mesh and what its block says beside its shape.
 struct MeshNode {
   Mesh mesh;
-  Material material;
+  NotedMaterial material;
   std::string name;
 };
 

@@ -29,7 +29,8 @@ std::vector<Object> MeshFiles::read(const Item& block) {
   std::optional<Item> file;
   std::string fileName, name;
   // Black, which shapes without a material are, would only hide the mesh.
-  Material material = materials_.current == Material{} ? plainMaterial() : materials_.current;
+  NotedMaterial material =
+      materials_.current == Material{} ? NotedMaterial(plainMaterial()) : materials_.current;
   bool generate = false;
   MeshOperations operations;
   for (const Item item : block) {

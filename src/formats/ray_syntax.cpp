@@ -275,6 +275,13 @@ Syntax::Syntax(std::string file, std::string_view source) : file_(std::move(file
 
 Item Syntax::root() const { return {*this, 0}; }
 
+std::optional<Item> Syntax::itemAt(std::size_t offset) const {
+  const auto found = std::lower_bound(nodes_.begin() + 1, nodes_.end(), offset,
+                                      [](const Node& node, std::size_t at) { return node.offset < at; });
+  if (found == nodes_.end() || found->offset != offset) return {};
+  return Item(*this, static_cast<std::uint32_t>(found - nodes_.begin()));
+}
+
 Syntax::Line Syntax::line(std::size_t offset) const {
   const auto after = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
   std::size_t end = after == lineStarts_.end() ? source_.size() : *after - 1;

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,6 +57,8 @@ class Syntax {
 
   /// All items of the file, as one block.
   Item root() const;
+  /// The outermost item that begins there.
+  std::optional<Item> itemAt(std::size_t offset) const;
   std::span<const Node> nodes() const { return nodes_; }
   std::string_view source() const { return source_; }
   /// Is there a call of kKey?
@@ -66,6 +69,10 @@ class Syntax {
 
   /// With the whole line of text.
   Place place(std::size_t offset) const;
+  /// The offset of a place in this file, which place() made. Precondition: it is one.
+  std::size_t offsetOf(const Place& place) const {
+    return lineStarts_[static_cast<std::size_t>(place.line) - 1] + static_cast<std::size_t>(place.column) - 1;
+  }
   /// Without the text of a long line, to be kept in numbers.
   Place shortPlace(std::size_t offset) const;
 

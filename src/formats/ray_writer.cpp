@@ -1,19 +1,21 @@
 // Loops over the lists of shapes, lights and fields, as the reader does: a new one needs nothing here.
 //
-// Every material stands where it is used, as a whole, since a block inherits from what is in force around it;
-// a named one is written once and then named. Meshes from files are written in full, but those of several
-// objects only once.
+// Every material stands where it is first used, as a whole, since a block inherits from what is in force
+// around it; one that is used again has a name, which then stands for it. Meshes from files are written in
+// full, but those of several objects only once.
 #include "formats/ray_writer.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <type_traits>
 #include <utility>
 
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray_fields.h"
+#include "formats/ray_transform.h"
 #include "geometry/csg_tree.h"
 
 namespace trace {
@@ -23,7 +25,13 @@ namespace {
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
-    for (const Object& object : scene.objects) count(object.shape);
+    for (const Object& object : scene.objects) count(object.shape, object.material);
+    nameMaterials();
+  }
+  /// For one object of the scene.
+  Writer(const Scene& scene, const Object& object, MaterialText text)
+      : scene_(scene), digits_(0), materialText_(std::move(text)) {
+    count(object.shape, object.material);
   }
 
   std::string write() {
@@ -34,6 +42,14 @@ class Writer {
     for (const LightSource& light : scene_.lights) writeLight(light.light);
     for (const Object& object : scene_.objects) writeObject(object);
     writeUnrendered();
+    return std::move(out_);
+  }
+  std::string write(const Object& object) {
+    writeObject(object);
+    return std::move(out_);
+  }
+  std::string write(const Light& light) {
+    writeLight(light);
     return std::move(out_);
   }
 
@@ -68,9 +84,32 @@ class Writer {
     });
   }
 
-  void count(const Shape& shape) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape)) ++uses_[mesh->data.get()];
-    forEachOperand(shape, [&](const Operand& operand) { count(operand.shape); });
+  void count(const Shape& shape, std::uint32_t material) {
+    ++materialUses_[material];
+    match(shape, Overloaded{[&](const Mesh& mesh) {
+                              if (++uses_[mesh.data.get()] == 1) count(mesh.data->materials);
+                            },
+                            [&](const auto& other) {
+                              if constexpr (requires { other.materials.indices; })
+                                count(other.materials.indices);
+                            }});
+    forEachOperand(shape, [&](const Operand& operand) { count(operand.shape, operand.material); });
+  }
+  void count(const std::vector<std::uint32_t>& materials) {
+    for (std::uint32_t material : materials) ++materialUses_[material];
+  }
+
+  /// Those that are used again get the names that a person sees for them.
+  void nameMaterials() {
+    std::set<std::string> taken;
+    for (const Material& material : scene_.materials) taken.insert(material.name);
+    for (const auto& [index, uses] : materialUses_) {
+      const Material& material = scene_.materials.at(index);
+      if (uses < 2 || !material.name.empty()) continue;
+      std::string name = nameOf(material, index);
+      while (!taken.insert(name).second) name += "'";
+      newNames_[index] = name;
+    }
   }
 
   // --- what is not an object ---
@@ -124,17 +163,23 @@ class Writer {
   // --- materials ---
 
   void writeMaterial(std::uint32_t index) {
+    if (materialText_) {
+      out_ += materialText_(index, inWhole_);
+      return;
+    }
     const Material& material = scene_.materials.at(index);
-    if (!material.name.empty()) {
-      const auto [named, fresh] = named_.try_emplace(material.name, index);
+    const auto given = newNames_.find(index);
+    const std::string& name = given == newNames_.end() ? material.name : given->second;
+    if (!name.empty()) {
+      const auto [named, fresh] = named_.try_emplace(name, index);
       if (!fresh && named->second == index) {
-        out_ += written(material.name, digits_);
+        out_ += written(name, digits_);
         return;
       }
       named->second = index;
     }
     out_ += "{ ";
-    if (!material.name.empty()) item("name", written(material.name, digits_));
+    if (!name.empty()) item("name", written(name, digits_));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
     out_ += "}";
   }
@@ -179,12 +224,10 @@ class Writer {
   // --- objects ---
 
   void writeObject(const Object& object) {
-    const Affine& m = object.worldFromObject;
-    const bool moved = m != Affine{};
-    if (moved) {
-      out_ += "transform(";
-      for (int i = 0; i < 3; ++i) writeRow(m.row[i], m.offset[i]);
-      out_ += "(0, 0, 0, 1),\n";
+    const std::vector<TransformStep> steps = stepsOf(object.worldFromObject);
+    for (const TransformStep& step : steps) {
+      out_ += head(step, digits_);
+      if (step.kind == TransformStep::Kind::matrix) out_.back() = '\n';
     }
     match(object.shape, Overloaded{[&](const Mesh& mesh) { writeMesh(object, *mesh.data); },
                                    [&](const auto& shape) {
@@ -202,12 +245,7 @@ class Writer {
                    .place = {}});
     });
     inWhole_ = outside;
-    out_ += moved ? "})\n\n" : "}\n\n";
-  }
-
-  void writeRow(const Vec3& row, Real last) {
-    out_ += "(" + written(row.x, digits_) + ", " + written(row.y, digits_) + ", " + written(row.z, digits_) +
-            ", " + written(last, digits_) + "), ";
+    out_ += "}" + std::string(steps.size(), ')') + "\n\n";
   }
 
   void writeName(const Object& object) {
@@ -272,14 +310,27 @@ class Writer {
 
   const Scene& scene_;
   int digits_;
-  bool inWhole_ = false;  ///< what is written is an operand
+  MaterialText materialText_;  ///< says materials in another way, if there is one
+  bool inWhole_ = false;       ///< what is written is an operand
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
-      shared_;                                  ///< how many objects have a mesh; its number in the file
-  std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
+      shared_;  ///< how many objects have a mesh; its number in the file
+  std::map<std::uint32_t, std::size_t> materialUses_;
+  std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
+  std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
 };
 
 }  // namespace
+
+std::string writtenObject(const Scene& scene, const Object& object, const MaterialText& material) {
+  return Writer(scene, object, material).write(object);
+}
+
+std::string writtenLight(const Light& light) {
+  const Scene none;
+  return Writer(none, 0).write(light);
+}
+
 }  // namespace rayfile
 
 std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,

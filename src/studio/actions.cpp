@@ -53,10 +53,7 @@ void savePicture(Studio& studio) {
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
 }
 void saveScene(Studio& studio) {
-  const Document& document = studio.workspace.document;
-  const std::string title =
-      document.changesWithTime() ? "Save the scene of this moment: its keys are not kept" : "Save the scene";
-  studio.dialog.open(title, FileDialog::Purpose::write, document.file(), {".ray"},
+  studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.document.file(), {".ray"},
                      [&studio](const std::string& file) { studio.workspace.saveScene(file); });
 }
 void zoomText(Studio& studio, float factor) {

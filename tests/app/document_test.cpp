@@ -202,20 +202,79 @@ TEST_F(DocumentTest, TheOptionTimeKeepsEditsOfASceneThatDoesNotChange) {
   EXPECT_TRUE(document.messages().all().empty());
 }
 
-TEST_F(DocumentTest, SavingAnAnimatedSceneWarnsThatItsKeysAreNotKept) {
+TEST_F(DocumentTest, SavingKeepsTheKeysOfAnAnimatedScene) {
   write("animated.ray", kAnimated);
   Document document;
-  document.open(path("scene.ray"));
-  EXPECT_FALSE(document.changesWithTime());
-  EXPECT_TRUE(document.save(path("plain.ray")).empty());
   document.open(path("animated.ray"));
   document.choose("time", "1");
+  document.edit("name", renamed(document.scene(), "moon"));
+  EXPECT_TRUE(document.save(path("animated.ray")).empty());
   EXPECT_TRUE(document.changesWithTime());
-  const std::vector<Message> warnings = document.save(path("moment.ray"));
+  const std::string text = readFile(path("animated.ray"));
+  EXPECT_NE(text.find("translate(key((0, 0), (2, 1)), 0, 0, sphere { name = \"moon\"; })"), text.npos)
+      << text;
+}
+
+TEST_F(DocumentTest, SavingAValueThatHadKeysWarns) {
+  write("animated.ray", kAnimated);
+  Document document;
+  document.open(path("animated.ray"));
+  Scene scene = document.scene();
+  scene.objects[0].worldFromObject.offset.x = 7;
+  document.edit("move", scene);
+  const std::vector<Message> warnings = document.save(path("animated.ray"));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].what.find("keys of animated.ray"), std::string::npos);
+  EXPECT_EQ(warnings[0].place.line, 4);
   EXPECT_FALSE(document.changesWithTime());
-  EXPECT_TRUE(document.save(path("moment.ray")).empty());
+  EXPECT_NE(readFile(path("animated.ray")).find("translate(7, 0, 0, sphere"), std::string::npos);
+}
+
+TEST_F(DocumentTest, SavingWithoutAnEditOrAfterUndoWritesTheBytesThatWereRead) {
+  const std::string text = std::string("// a comment\r\n") + kScene + "// no line break";
+  write("own.ray", text);
+  Document document;
+  document.open(path("own.ray"), {{"threads", "2", {}}});
+  EXPECT_TRUE(document.save(path("own.ray")).empty());
+  EXPECT_EQ(readFile(path("own.ray")), text);
+  document.edit("name", renamed(document.scene(), "moon"));
+  document.choose("depth", "9");
+  EXPECT_TRUE(document.save(path("own.ray")).empty());
+  std::string changed = text;
+  changed.replace(changed.find("\"ball\""), 6, "\"moon\"");
+  changed.replace(changed.find("depth = 3"), 9, "depth = 9");
+  EXPECT_EQ(readFile(path("own.ray")), changed);
+  document.undo();
+  document.undo();
+  EXPECT_TRUE(document.save(path("own.ray")).empty());
+  EXPECT_EQ(readFile(path("own.ray")), text);
+}
+
+TEST_F(DocumentTest, SavingAfterTheFileWasReadAgainChangesTheNewText) {
+  Document document;
+  document.open(path("scene.ray"));
+  rewrite("scene.ray", std::string(kScene) + "// written elsewhere\n");
+  document.reload();
+  document.edit("name", renamed(document.scene(), "moon"));
+  EXPECT_TRUE(document.save(path("scene.ray")).empty());
+  std::string expected = std::string(kScene) + "// written elsewhere\n";
+  expected.replace(expected.find("\"ball\""), 6, "\"moon\"");
+  EXPECT_EQ(readFile(path("scene.ray")), expected);
+}
+
+TEST_F(DocumentTest, SavingInAnotherFolderStillFindsTheFilesThatAreNamed) {
+  fs::create_directories(path("meshes"));
+  fs::create_directories(path("other/deep"));
+  write("meshes/tri.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  write("mesh.ray", std::string(kScene) + "mesh { file = \"meshes/tri.off\"; name = m; } // a file\n");
+  Document document;
+  document.open(path("mesh.ray"));
+  document.edit("name", renamed(document.scene(), "moon"));
+  EXPECT_TRUE(document.save(path("other/deep/copy.ray")).empty());
+  const std::string text = readFile(path("other/deep/copy.ray"));
+  EXPECT_NE(text.find("mesh { file = \"../../meshes/tri.off\"; name = m; } // a file\n"), text.npos) << text;
+  Document again;
+  again.open(path("other/deep/copy.ray"));
+  EXPECT_EQ(again.scene().objects.at(1).shape, document.scene().objects.at(1).shape);
 }
 
 // --- small things -------------------------------------------------------------------------------------

@@ -1,8 +1,11 @@
 // A scene that is written and read again gives the same picture, bit for bit.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
+#include "base/file.h"
+#include "base/match.h"
 #include "formats/format.h"
 #include "support/paths.h"
 #include "support/scenes.h"
@@ -44,6 +47,26 @@ TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
   for (const char* suffix : kSuffixes)
     for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes", suffix))
       expectSamePicture(file);
+}
+
+TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
+  for (const std::string& file : test::filesUnder(test::sourceFolder() + "/scenes", ".ray")) {
+    Messages messages;
+    SceneText read{file, std::make_shared<const std::string>(readFile(file)), 0, {}};
+    read.scene = std::make_shared<const Scene>(readScene(file, *read.bytes, messages));
+    if (read.scene->format != "ray" || read.scene->objects.empty()) continue;
+    Scene edited = *read.scene;
+    edited.camera.fov *= 0.9;
+    for (LightSource& source : edited.lights)
+      match(source.light, [](auto& light) { light.color = light.color * 0.7; });
+    for (Material& material : edited.materials) {
+      Phong& phong = *std::get_if<Phong>(&material.model);
+      phong.diffuse = phong.diffuse * 0.8, phong.shininess += 3;
+    }
+    edited.choices = changedOptions(resolve({edited.choices}));
+    const auto files = writeEdited(read, edited, file, messages);
+    EXPECT_EQ(small(readScene(file, files.at(0).bytes, messages)), small(edited)) << file;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// A scene as the text that it was read from, with as little of that changed as says what was edited:
+// comments, layout, names, nested transforms, keys in time and files named by path stay.
+//
+// The text is read again after each round of changes and compared with the scene that it is to say. What
+// still differs then, such as a radius that the reader repairs, is changed in the next round; then the object
+// alone is written anew; and only if that does not help either, the whole file (ray_writer.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/format.h"
+
+namespace trace {
+
+/// The scene as `file`. Warns of what was written anew or is lost. Throws Error(Fault::scene) as writeRay().
+std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
+                                   Messages& messages);
+
+}  // namespace trace

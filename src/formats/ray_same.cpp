@@ -1,0 +1,65 @@
+#include "formats/ray_same.h"
+
+#include <algorithm>
+
+#include "base/match.h"
+#include "formats/ray_transform.h"
+#include "geometry/csg_tree.h"
+
+namespace trace::rayfile {
+namespace {
+
+bool sameMaterials(const Scene& a, const std::vector<std::uint32_t>& x, const Scene& b,
+                   const std::vector<std::uint32_t>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [&](std::uint32_t i, std::uint32_t j) { return a.materials.at(i) == b.materials.at(j); });
+}
+
+bool sameOperands(const Scene& a, const std::vector<Operand>& x, const Scene& b,
+                  const std::vector<Operand>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [&](const Operand& p, const Operand& q) {
+    return p.name == q.name && a.materials.at(p.material) == b.materials.at(q.material) &&
+           nearlyEqual(p.wholeFromOperand, q.wholeFromOperand) && sameShape(a, p.shape, b, q.shape);
+  });
+}
+
+bool sameMesh(const Scene& a, const MeshData& x, const Scene& b, const MeshData& y) {
+  if (&x == &y) return true;
+  return x.points == y.points && x.triangles == y.triangles && x.normals == y.normals && x.uvs == y.uvs &&
+         x.generateNormals == y.generateNormals && x.twoSided == y.twoSided &&
+         sameMaterials(a, x.materials, b, y.materials);
+}
+
+}  // namespace
+
+bool sameShape(const Scene& a, const Shape& x, const Scene& b, const Shape& y) {
+  if (x.index() != y.index()) return false;
+  return match(x, [&]<class S>(const S& shape) {
+    const S& other = *std::get_if<S>(&y);
+    if constexpr (std::is_same_v<S, Mesh>) {
+      return sameMesh(a, *shape.data, b, *other.data);
+    } else if constexpr (requires { shape.objects.list(); }) {
+      return sameOperands(a, shape.objects.list(), b, other.objects.list());
+    } else if constexpr (requires { shape.materials.indices; }) {
+      S p = shape, q = other;
+      p.materials = {}, q.materials = {};
+      return p == q && sameMaterials(a, shape.materials.indices, b, other.materials.indices);
+    } else {
+      return shape == other;
+    }
+  });
+}
+
+bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y) {
+  return x.name == y.name && a.materials.at(x.material) == b.materials.at(y.material) &&
+         nearlyEqual(x.worldFromObject, y.worldFromObject) && sameShape(a, x.shape, b, y.shape);
+}
+
+bool sameSettings(const Scene& a, const Scene& b) {
+  const Settings x = resolve({a.choices}), y = resolve({b.choices});
+  return std::all_of(options().begin(), options().end(), [&](const Option& option) {
+    return option.repeats == Repeats::nothing || option.get(x) == option.get(y);
+  });
+}
+
+}  // namespace trace::rayfile
