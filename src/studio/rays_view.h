@@ -31,6 +31,7 @@ struct RaysView {
   int box = 0;                    ///< how many are shown
 
   // The view in space.
+  std::uint64_t drawn = 0;  ///< how often
   std::unique_ptr<SceneDrawer> drawer;
   SceneModel model;                                                          ///< that is drawn
   std::shared_ptr<const Scene> modelScene;                                   ///< whose model was asked for
