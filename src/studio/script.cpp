@@ -59,7 +59,8 @@ Picture part(const Picture& all, const std::string& name) {
 std::string state(const Studio& studio) {
   std::ostringstream text;
   const Workspace& workspace = studio.workspace;
-  text << "frames " << studio.frames << "\nspace-drawn " << studio.rays.drawn << "\npopup "
+  text << "frames " << studio.frames << "\nspace-drawn "
+       << (studio.rays.drawer ? studio.rays.drawer->drawn() : 0) << "\npopup "
        << (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ? "open"
                                                                                               : "none")
        << "\nlog " << workspace.log().size() << "\n";
