@@ -39,6 +39,11 @@ void PixelInspector::pin(bool on) {
   if (session_) ask();
 }
 
+void PixelInspector::forget() {
+  shown_ = {}, pinned_.reset(), session_.reset();
+  ask();
+}
+
 void PixelInspector::ask() {
   task_.start([session = session_, x = x_, y = y_, sample = sample_, pinned = pinned_,
                before = shown_.traced](const Cancelled& cancelled) {
@@ -56,6 +61,7 @@ void PixelInspector::ask() {
 bool PixelInspector::update() {
   std::optional<Shown> answer = task_.take();
   if (!answer) return false;
+  if (answer->pinned != pinned_) answer->pinned.reset(), answer->pairs.clear();  // asked for before forget()
   shown_ = std::move(*answer);
   return true;
 }

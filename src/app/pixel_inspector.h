@@ -38,6 +38,8 @@ class PixelInspector {
   void want(const std::shared_ptr<const Session>& session, int x, int y, int sample);
   /// Keeps the rays that are there, to compare others with; or keeps them no longer.
   void pin(bool on);
+  /// Keeps nothing and wants nothing: another scene was opened.
+  void forget();
   /// Takes what has come in the meantime; true if there is something new.
   bool update();
 

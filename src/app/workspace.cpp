@@ -89,7 +89,10 @@ void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
 }
 
 void Workspace::adopt(Document opened) {
-  document = std::move(opened), reading_ = 0;
+  const bool another = !document.isOpen() || document.scene().file != opened.scene().file;
+  document = std::move(opened);
+  reading_ = 0;
+  if (another) inspector.forget();
   giveUpWanted();
   const std::string path = document.file();
   std::erase(recent_, path);
@@ -257,6 +260,21 @@ void Workspace::update() {
   }
   report(render.takeMessages());
   noteEnd();
+}
+
+Workspace::Pulse Workspace::pulse() {
+  const BackgroundRender::State state = render.state();
+  return {document.isOpen() ? document.sharedScene() : nullptr,
+          document.revision(),
+          render.version(),
+          referenceVersion_,
+          failures_,
+          log_.size(),
+          state.phase,
+          state.working() ? static_cast<int>(10 * state.elapsed) : 0,
+          reading(),
+          saving(),
+          inspector.busy()};
 }
 
 void Workspace::reportReading() {

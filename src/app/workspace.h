@@ -68,6 +68,17 @@ class Workspace {
   /// Until update() has taken what came of it.
   bool reading() const { return opening_.pending() || rereading_.pending() || loading_.pending(); }
   bool saving() const { return saving_.pending(); }
+  /// All that may change without a person doing something. A window need not draw while it stays the same.
+  struct Pulse {
+    std::shared_ptr<const Scene> scene;
+    std::uint64_t revision, picture, reference, failures;
+    std::size_t log;
+    BackgroundRender::Phase phase;
+    int tenths;                     ///< of seconds, that a render takes already
+    bool reading, saving, tracing;  ///< tracing: the rays of a pixel
+    bool operator==(const Pulse&) const = default;
+  };
+  Pulse pulse();
   /// Files that could not be read or written so far. The log says which.
   std::uint64_t failures() const { return failures_; }
 

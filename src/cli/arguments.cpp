@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "cli/flags.h"
+#include "scene/option_words.h"
 
 namespace trace::cli {
 namespace {
@@ -146,6 +147,13 @@ class Parser {
     const std::string name = word.substr(0, word.find('='));
     const std::vector<std::string_view> candidates(names_.begin(), names_.end());
     std::string hint = name.size() > 2 ? didYouMean(name, candidates) : "";
+    if (name.starts_with("--"))
+      for (std::string_view meant : optionsMeant(name.substr(2))) {
+        const std::string flag = "--" + std::string(meant);
+        if (std::find(names_.begin(), names_.end(), flag) == names_.end()) continue;
+        hint = "did you mean \"" + flag + "\"?";
+        break;
+      }
     for (const Flag& flag : flags())
       if (name == "--" + std::string(flag.name)) hint = "it belongs to: " + std::string(flag.commands);
     if (hint.empty()) hint = "ray --help all lists the flags";

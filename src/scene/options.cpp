@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "geometry/shape.h"
 #include "scene/conventions.h"
+#include "scene/option_words.h"
 
 namespace trace {
 namespace {
@@ -524,10 +525,15 @@ std::span<const Option> options() { return kTable; }
 const Option& findOption(std::string_view name) {
   for (const Option& option : kTable)
     if (option.name == name) return option;
+  std::string hint;
+  for (std::string_view meant : optionsMeant(name))
+    hint += (hint.empty() ? "did you mean \"" : "\" or \"") + std::string(meant);
+  if (!hint.empty()) hint += "\"?";
   std::vector<std::string_view> names;
   names.reserve(kTable.size());
   for (const Option& option : kTable) names.push_back(option.name);
-  throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", didYouMean(name, names));
+  if (hint.empty()) hint = didYouMean(name, names);
+  throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", std::move(hint));
 }
 
 Settings resolve(std::initializer_list<std::span<const Choice>> layers) {

@@ -6,8 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "app/typed_region.h"
 #include "base/text.h"
 #include "scene/conventions.h"
+#include "scene/option_words.h"
+#include "studio/landmarks.h"
+#include "studio/number_field.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -20,7 +24,8 @@ std::string rangeText(const Option& option) {
   const std::string unit = option.unit.empty() ? "" : " " + std::string(option.unit);
   switch (option.kind) {
     case Option::Kind::boolean: return "on or off";
-    case Option::Kind::region: return "x0,y0,x1,y1 in pixels from the top left; empty for the whole picture";
+    case Option::Kind::region:
+      return "x0,y0,x1,y1 in pixels from the top left; nothing for the whole picture";
     case Option::Kind::choice:
     case Option::Kind::choices: {
       std::string text = option.kind == Option::Kind::choices ? "none or any of: " : "";
@@ -59,34 +64,24 @@ std::string unitSuffix(const Option& option) {
 
 std::optional<std::string> editInteger(const Option& option, const std::string& value) {
   int number = std::stoi(value);
-  const int least = static_cast<int>(option.least);
-  const int most = static_cast<int>(std::min(option.most, 2147483647.0));
-  const std::string format = "%d" + unitSuffix(option);
-  const bool changed =
-      most <= kMostSlider
-          ? ImGui::SliderInt("##value", &number, least, most, format.c_str(),
-                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)
-          : ImGui::DragInt("##value", &number, std::max(1.0f, static_cast<float>(number) / 200), least, most,
-                           format.c_str(), ImGuiSliderFlags_AlwaysClamp);
-  if (!changed) return {};
+  NumberLook look{option.least, option.most, "%d" + unitSuffix(option)};
+  if (option.most <= kMostSlider)
+    look.logarithmic = true;
+  else
+    look.speed = std::max(1.0f, static_cast<float>(number) / 200);
+  if (!editNumber("##value", number, look)) return {};
   return std::to_string(number);
 }
 
 std::optional<std::string> editReal(const Option& option, const std::string& value) {
   double number = parseNumber(value)->value;
-  const double least = option.least, most = option.most;
-  const std::string format = "%.6g" + unitSuffix(option);
-  bool changed;
-  if (most - least <= kMostSlider) {
-    const ImGuiSliderFlags scale = most - least > 10 ? ImGuiSliderFlags_Logarithmic : 0;
-    changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &number, &least, &most, format.c_str(),
-                                  scale | ImGuiSliderFlags_AlwaysClamp);
-  } else {
-    const float speed = static_cast<float>(std::max(0.01, std::abs(number) / 100));
-    changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number, speed, &least, &most,
-                                format.c_str(), ImGuiSliderFlags_AlwaysClamp);
-  }
-  if (!changed) return {};
+  const double range = option.most - option.least;
+  NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option)};
+  if (range <= kMostSlider)
+    look.logarithmic = range > 10;
+  else
+    look.speed = static_cast<float>(std::max(0.01, std::abs(number) / 100));
+  if (!editNumber("##value", number, look)) return {};
   return toText(number);
 }
 
@@ -116,12 +111,9 @@ std::optional<std::string> editChoices(const Option& option, const std::string& 
 }
 
 std::optional<std::string> editRegion(const std::string& value) {
-  int corners[4] = {};
-  std::sscanf(value.c_str(), "%d,%d,%d,%d", &corners[0], &corners[1], &corners[2], &corners[3]);
-  if (!ImGui::InputInt4("##value", corners, ImGuiInputTextFlags_EnterReturnsTrue)) return {};
-  std::string text;
-  for (int corner : corners) text += (text.empty() ? "" : ",") + std::to_string(corner);
-  return text;
+  std::string text = shownRegion(value);
+  if (!editText("##value", text, "the whole picture")) return {};
+  return typedRegion(text);
 }
 
 std::optional<std::string> edit(const Option& option, const std::string& value) {
@@ -157,12 +149,15 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   const float resetWidth = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-resetWidth - ImGui::GetStyle().ItemInnerSpacing.x);
   const std::optional<std::string> given = edit(option, value);
+  landmark("option " + name);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(studio, option);
   const unsigned id = ImGui::GetID("edit");
   bool reset = false;
   if (here) {
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - resetWidth);
+    ImGui::SameLine(0, 0);  // at the right edge, after whatever is as wide as it likes
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - resetWidth);
     reset = ImGui::Button("x", {resetWidth, 0});
+    landmark("reset " + name);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file and the command line say");
   }
   ImGui::PopID();
@@ -174,6 +169,7 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
     studio.workspace.choose(name, *given, continues);
   } catch (const Error& error) {
     studio.workspace.report(error.messages());
+    studio.show("Log");
   }
 }
 
@@ -185,6 +181,7 @@ void drawControls(Studio& studio) {
   static bool onlyChanged = false;
   ImGui::SetNextItemWidth(-characters(20));
   ImGui::InputTextWithHint("##filter", "find an option", filter, sizeof filter);
+  landmark("find an option");
   ImGui::SameLine();
   ImGui::Checkbox("changed", &onlyChanged);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("only options that differ from their defaults");
@@ -192,9 +189,7 @@ void drawControls(Studio& studio) {
   const Settings defaults, now = studio.workspace.chosenSettings();
   const auto wanted = [&](const Option& option) {
     const bool changed = option.get(now) != option.get(defaults);
-    const bool found = option.name.find(filter) != std::string_view::npos ||
-                       option.help.find(filter) != std::string_view::npos;
-    return found && (changed || !onlyChanged);
+    return isAbout(option, filter) && (changed || !onlyChanged);
   };
   ImGui::BeginChild("options");
   std::string_view group;

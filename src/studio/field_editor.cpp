@@ -1,9 +1,9 @@
 #include "studio/field_editor.h"
 
-#include <imgui_stdlib.h>
-
 #include <cstdio>
 
+#include "studio/landmarks.h"
+#include "studio/number_field.h"
 #include "studio/theme.h"
 
 namespace trace::studio {
@@ -18,12 +18,8 @@ bool drag(const FieldFacts& facts, double* values, int count) {
     if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
-  // Dear ImGui takes no infinite bounds.
-  const double least = std::max(facts.least, -1e300), most = std::min(facts.most, 1e300);
   const std::string format = kFormat + (facts.unit.empty() ? "" : " " + std::string(facts.unit));
-  ImGui::SetNextItemWidth(-1);
-  return ImGui::DragScalarN("##value", ImGuiDataType_Double, values, count, speed, &least, &most,
-                            format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed});
 }
 
 }  // namespace
@@ -47,11 +43,22 @@ bool editValue(const FieldFacts& facts, Vec3& value) {
 }
 
 bool editValue(const FieldFacts& facts, Color& value) {
-  float numbers[3] = {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b)};
-  ImGui::SetNextItemWidth(-1);
-  if (!ImGui::ColorEdit3("##value", numbers, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
-    return false;
-  const auto within = [&](float x) { return std::clamp(static_cast<double>(x), facts.least, facts.most); };
+  constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
+  float picked[3] = {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b)};
+  const float side = ImGui::GetFrameHeight();
+  if (ImGui::ColorButton("##colour", {picked[0], picked[1], picked[2], 1}, kFlags, {side, side}))
+    ImGui::OpenPopup("pick");
+  bool changed = false;
+  if (ImGui::BeginPopup("pick")) {
+    changed = ImGui::ColorPicker3("##picker", picked, kFlags | ImGuiColorEditFlags_NoInputs);
+    ImGui::EndPopup();
+  }
+  double numbers[3] = {value.r, value.g, value.b};
+  if (changed) std::copy(std::begin(picked), std::end(picked), std::begin(numbers));
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  changed = editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3f", 0.005f}) || changed;
+  if (!changed) return false;
+  const auto within = [&](double x) { return std::clamp(x, facts.least, facts.most); };
   value = {within(numbers[0]), within(numbers[1]), within(numbers[2])};
   return true;
 }
@@ -63,7 +70,9 @@ bool editValue(const FieldFacts&, Heights& value) {
 
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);
-  return ImGui::InputText("##value", &value);
+  const bool changed = editText("##value", value);
+  landmark("text");
+  return changed;
 }
 
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count) {
@@ -115,13 +124,17 @@ bool beginFields(const char* id) {
   return true;
 }
 
-void endFields() { ImGui::EndTable(); }
+void endFields() {
+  landmarksOf("");
+  ImGui::EndTable();
+}
 
 void fieldName(std::string_view name, std::string_view help, const std::string& range) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  landmarksOf("field " + std::string(name));
   if (ImGui::IsItemHovered()) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(characters(60));

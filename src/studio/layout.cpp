@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "studio/actions.h"
+#include "studio/landmarks.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -51,6 +52,7 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       const bool asked = studio.layout.ask == panel.name;
       const bool open =
           ImGui::BeginTabItem(panel.name.data(), nullptr, asked ? ImGuiTabItemFlags_SetSelected : 0);
+      landmark("panel " + std::string(panel.name));
       if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s (Alt+%c); right click to move", panel.help.data(), panel.key);
       tabMenu(studio, panel);
@@ -95,6 +97,8 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, floa
 }  // namespace
 
 void drawStudio(Studio& studio) {
+  forgetLandmarks();
+  followScene(studio);
   if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
   drawMenu(studio);
   Layout& layout = studio.layout;

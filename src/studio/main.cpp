@@ -11,6 +11,7 @@
 #include "image/codec.h"
 #include "studio/actions.h"
 #include "studio/arguments.h"
+#include "studio/landmarks.h"
 #include "studio/script.h"
 #include "studio/studio.h"
 
@@ -18,7 +19,7 @@ namespace trace::studio {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;   // of the window, at first, on a plain monitor
-constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between frames when nothing, or a render, goes on
+constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what goes on in the background
 
 const char* variable(const char* name) { return std::getenv(name); }
 
@@ -38,6 +39,30 @@ void openDropped(Studio& studio, const std::string& file) {
     studio.leave([&studio, file] { studio.workspace.open(file); });
 }
 
+/// What runs in the background, or a script, brings news without an event.
+bool isBusy(Studio& studio) {
+  Workspace& workspace = studio.workspace;
+  return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
+         workspace.inspector.busy() || studio.rays.modelTask.busy();
+}
+
+/// True if there is something new to see. Waits for it, but not long.
+bool update(Studio& studio, bool hurry) {
+  Workspace& workspace = studio.workspace;
+  bool due = studio.window.wait(hurry || isBusy(studio) ? kBusy : kIdle);
+  for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
+  const std::uint64_t failures = workspace.failures();
+  workspace.update();
+  if (workspace.failures() > failures) studio.show("Log"), studio.quit = false;
+  const Workspace::Pulse pulse = workspace.pulse();
+  const bool modelling = studio.rays.modelTask.busy();
+  due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
+        ImGui::GetIO().WantTextInput;  // its cursor blinks
+  studio.pulse = pulse;
+  studio.modelling = modelling;
+  return due;
+}
+
 void frame(Studio& studio) {
   if (studio.themeChanged) {
     studio.theme.scale = studio.window.contentScale() * studio.userScale;
@@ -45,17 +70,11 @@ void frame(Studio& studio) {
     studio.window.fontsChanged();
     studio.themeChanged = false;
   }
-  Workspace& workspace = studio.workspace;
-  const bool busy = workspace.render.state().working() || workspace.reading() || workspace.saving() ||
-                    workspace.inspector.busy() || studio.rays.modelTask.busy();
-  studio.window.beginFrame(busy ? kBusy : kIdle);
-  for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
-  studio.keys = studio.window.takeKeys();
-  const std::uint64_t failures = workspace.failures();
-  workspace.update();
-  if (workspace.failures() > failures) studio.show("Log"), studio.quit = false;
+  studio.window.beginFrame();
+  studio.keys = studio.window.keys();
   drawStudio(studio);
   studio.window.endFrame();
+  ++studio.frames;
 }
 
 /// As asked, or as it was last; at first as suits the monitor.
@@ -73,6 +92,7 @@ void sizeWindow(Studio& studio, const Arguments& arguments) {
 int run(const Arguments& arguments) {
   std::optional<Script> script;
   if (!arguments.script.empty()) script.emplace(arguments.script);
+  if (script) keepLandmarks();
   const std::string folder = script ? "" : configFolder(variable);
   const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
   Window window("Trace", kWidth, kHeight);
@@ -86,7 +106,8 @@ int run(const Arguments& arguments) {
 
   std::string title;
   while (!studio.quit || studio.workspace.saving()) {
-    frame(studio);
+    const bool scripted = script && !script->waits();
+    if (update(studio, script.has_value()) || scripted) frame(studio);
     if (window.closing()) {
       window.keepOpen();
       studio.leave([&] { studio.quit = true; });

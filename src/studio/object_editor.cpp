@@ -2,9 +2,11 @@
 
 #include <imgui.h>
 
+#include "app/placing.h"
 #include "base/match.h"
 #include "geometry/csg_tree.h"
 #include "studio/field_editor.h"
+#include "studio/number_field.h"
 #include "studio/studio.h"
 
 namespace trace::studio {
@@ -12,58 +14,45 @@ namespace {
 
 using Changed = std::function<void(const std::string& what)>;
 
-bool dragThree(const char* name, const char* help, double (&values)[3], float speed, const char* format) {
+constexpr double kAny = 1e300;
+
+bool editThree(const char* name, const char* help, Vec3& value, const NumberLook& look) {
   fieldName(name, help);
-  ImGui::SetNextItemWidth(-1);
-  return ImGui::DragScalarN("##three", ImGuiDataType_Double, values, 3, speed, nullptr, nullptr, format);
+  double values[3] = {value.x, value.y, value.z};
+  ImGui::PushID(name);
+  const bool changed = editNumbersInRow(values, 3, look);
+  ImGui::PopID();
+  if (changed) value = {values[0], values[1], values[2]};
+  return changed;
 }
 
-/// Moves, turns and scales; each drag multiplies what is there. The twelve numbers are below.
+/// Moves, turns and scales; what is dragged or typed multiplies what is there. The twelve numbers are below.
 void editTransform(Affine& m, const std::string& name, const Changed& changed) {
-  const Vec3 at = m.offset;
-  double place[3] = {at.x, at.y, at.z};
-  ImGui::PushID("move");
   const double size = std::max({length(m.row[0]), length(m.row[1]), length(m.row[2]), 1e-9});
-  if (dragThree("move", "where the object's origin lies in what it belongs to", place,
-                static_cast<float>(size / 50), "%.4g")) {
-    m.offset = {place[0], place[1], place[2]};
+  if (editThree("move", "where the object's origin lies in what it belongs to", m.offset,
+                {-kAny, kAny, "%.4g", static_cast<float>(size / 50)}))
     changed("move " + name);
-  }
-  ImGui::PopID();
-
-  ImGui::PushID("turn");
-  double angle[3] = {};
-  if (dragThree("turn", "drag to turn about the axes x, y, z through the object's origin; degrees", angle,
-                0.5f, "%.3g")) {
-    m.offset = {};
-    const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int i = 0; i < 3; ++i)
-      if (angle[i] != 0) m = Affine::rotation(axes[i], angle[i] * kPi / 180) * m;
-    m.offset = at;
+  Vec3 degrees;
+  if (editThree("turn",
+                "drag, or type degrees, to turn about the axes x, y, z through the object's origin; then it "
+                "shows 0 again",
+                degrees, {-kAny, kAny, "%.3g", 0.5f})) {
+    m = turned(m, degrees);
     changed("turn " + name);
   }
-  ImGui::PopID();
-
-  ImGui::PushID("scale");
-  double factor[3] = {1, 1, 1};
-  if (dragThree("scale", "drag to stretch along the object's own axes", factor, 0.005f, "x %.3g")) {
-    const auto sane = [](double f) { return std::isfinite(f) ? std::clamp(f, 0.01, 100.0) : 1; };
-    m = m * Affine::scaling({sane(factor[0]), sane(factor[1]), sane(factor[2])});
+  Vec3 factors(1, 1, 1);
+  const NumberLook factor{.least = 0.01, .most = 100, .format = "x %.3g", .speed = 0.005f, .clamped = false};
+  if (editThree("scale",
+                "drag, or type a factor, to stretch along the object's own axes; then it shows 1 again",
+                factors, factor)) {
+    m = stretched(m, factors);
     changed("scale " + name);
   }
-  ImGui::PopID();
-
-  for (int i = 0; i < 3; ++i) {
-    ImGui::PushID(i);
-    double row[3] = {m.row[i].x, m.row[i].y, m.row[i].z};
-    const char* names[] = {"matrix x", "matrix y", "matrix z"};
-    if (dragThree(names[i], "row of the 3 x 3 part of the transform out of the object's space", row, 0.01f,
-                  "%.4g")) {
-      m.row[i] = {row[0], row[1], row[2]};
+  const char* const kRows[] = {"matrix x", "matrix y", "matrix z"};
+  for (int i = 0; i < 3; ++i)
+    if (editThree(kRows[i], "row of the 3 x 3 part of the transform out of the object's space", m.row[i],
+                  {-kAny, kAny, "%.4g", 0.01f}))
       changed("transform " + name);
-    }
-    ImGui::PopID();
-  }
 }
 
 void editMaterialOf(Studio& studio, const std::string& name, std::uint32_t& material,

@@ -7,6 +7,7 @@
 
 #include "app/picture_views.h"
 #include "studio/actions.h"
+#include "studio/landmarks.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -26,10 +27,6 @@ void refresh(Studio& studio) {
   const bool toneChanged =
       view.exposed != view.exposure || view.tone != settings.tone || view.rounding != settings.rounding;
   bool pictureChanged = false;
-  if (const auto session = workspace.render.session(); session && session->scene().file != view.file) {
-    view.file = session->scene().file;
-    view.fit = true, view.hasPixel = false;
-  }
   const double now = ImGui::GetTime(), interval = std::max(kLeastInterval, view.refreshCost / kMostShare);
   const bool due = !workspace.render.state().working() || now - view.refreshed > interval;
   if (const std::uint64_t version = workspace.render.version(); version != view.shownVersion && due) {
@@ -285,9 +282,10 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   y = static_cast<int>(std::floor((mouse.y - under.low.y) / under.size.y * static_cast<float>(height)));
   const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
-  if (view.hasPixel && view.pixelX < width && view.pixelY < height) {
+  const PixelPlace pixel = view.pixel ? view.pixel.in({width, height}) : PixelPlace{};
+  if (view.pixel && pixel.x < width && pixel.y < height) {
     const float side = std::max(view.zoom, 1.0f), ring = std::max(side, 9.0f * studio.theme.scale);
-    const ImVec2 middle = frame.at((view.pixelX + 0.5) / width, (view.pixelY + 0.5) / height);
+    const ImVec2 middle = frame.at((pixel.x + 0.5) / width, (pixel.y + 0.5) / height);
     list.PushClipRect(canvas, end, true);
     const ImVec2 low{middle.x - ring / 2, middle.y - ring / 2},
         high{middle.x + ring / 2, middle.y + ring / 2};
@@ -317,11 +315,12 @@ void drawPicture(Studio& studio) {
   ImGui::InvisibleButton("canvas", area,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
+  landmark("picture");
   int x = 0, y = 0;
   const bool inside = drawCanvas(studio, canvas, area, x, y);
   const bool swiping = studio.workspace.reference() && view.view == View::swipe;
   if (inside && (swiping ? ImGui::IsItemClicked(0) : ImGui::IsItemActive() && ImGui::IsMouseDown(0)))
-    view.hasPixel = true, view.pixelX = x, view.pixelY = y;
+    view.pixel.choose(x, y, {view.shown.width, view.shown.height});
   drawStatus(studio, inside, x, y);
 }
 

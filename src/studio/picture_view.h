@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "app/pixel_choice.h"
 #include "image/picture.h"
 #include "studio/texture.h"
 
@@ -21,9 +22,7 @@ struct PictureView {
   float exposure = 0;                   ///< stops
   float swipe = 0.5f;                   ///< share that shows the picture
   float magnify = 8;                    ///< of the difference
-  bool hasPixel = false;                ///< a pixel was clicked
-  int pixelX = 0, pixelY = 0;
-  std::string file;  ///< the scene that is looked at
+  PixelChoice pixel;                    ///< that was clicked
 
   // What the textures show.
   Texture pictureTexture, referenceTexture, differenceTexture;
@@ -40,7 +39,7 @@ struct PictureView {
 
   /// Takes the pixel as if it were clicked, and brings it into view.
   void goTo(int x, int y) {
-    hasPixel = true, pixelX = x, pixelY = y;
+    pixel.choose(x, y, {shown.width, shown.height});
     if (!fit) centreX = (x + 0.5) / shown.width, centreY = (y + 0.5) / shown.height;
   }
   void nextView() { view = static_cast<View>((static_cast<int>(view) + 1) % 6); }

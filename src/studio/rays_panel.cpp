@@ -287,10 +287,12 @@ void updatePixel(Studio& studio) {
   const PictureView& picture = studio.picture;
   PixelInspector& inspector = studio.workspace.inspector;
   const auto session = studio.workspace.render.session();
-  if (session && picture.hasPixel)
-    inspector.want(session, picture.pixelX, picture.pixelY, view.sample);
-  else
+  if (session && picture.pixel) {
+    const PixelPlace pixel = picture.pixel.in(session->size());
+    inspector.want(session, pixel.x, pixel.y, view.sample);
+  } else {
     inspector.want(nullptr, 0, 0, 0);
+  }
   if (!inspector.update() || !inspector.traced()) return;
   const TracedPixel& pixel = *inspector.traced();
   const std::size_t count = pixel.tree().nodes.size();

@@ -41,7 +41,7 @@ struct RaysView {
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
   Surfaces surfaces = Surfaces::shaded;
-  float opacity = 0.85f;
+  float opacity = 1;  ///< of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
   std::array<bool, kRayLooks.size()> lookShown{true, true, true, true, true};

@@ -6,8 +6,10 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
-#include "base/error.h"
+#include "studio/see_through.h"
+#include "studio/shader.h"
 
 namespace trace::studio {
 namespace {
@@ -26,12 +28,13 @@ void main() {
 })";
 
 // Lit from the eye and a little from above, on both sides.
-constexpr const char* kSurfaceFragment = R"(#version 330 core
+const std::string kSurfaceFragment = std::string("#version 330 core") + SeeThrough::kDeclarations + R"(
 in vec3 place, facing;
 uniform vec3 eye;
 uniform vec4 colour;
 out vec4 result;
 void main() {
+  peel();
   vec3 n = normalize(facing), v = normalize(eye - place);
   if (dot(n, v) < 0) n = -n;
   float light = 0.3 + 0.6 * dot(n, v) + 0.1 * n.y;
@@ -95,28 +98,6 @@ uniform float opacity;
 out vec4 result;
 void main() { result = vec4(texture(picture, at).rgb, opacity); })";
 
-unsigned compileShader(unsigned kind, const char* text) {
-  const unsigned shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  int good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (good) return shader;
-  char reason[1000] = "";
-  glGetShaderInfoLog(shader, sizeof reason, nullptr, reason);
-  throw Error(Fault::io, std::string("the graphics driver refuses a shader: ") + reason);
-}
-
-unsigned link(const char* vertex, const char* fragment) {
-  const unsigned program = glCreateProgram();
-  const unsigned parts[] = {compileShader(GL_VERTEX_SHADER, vertex),
-                            compileShader(GL_FRAGMENT_SHADER, fragment)};
-  for (unsigned part : parts) glAttachShader(program, part);
-  glLinkProgram(program);
-  for (unsigned part : parts) glDeleteShader(part);
-  return program;
-}
-
 void attribute(unsigned index, int count, std::size_t stride, std::size_t offset) {
   glEnableVertexAttribArray(index);
   glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<int>(stride),
@@ -145,6 +126,9 @@ struct SceneDrawer::State {
   int width = 0, height = 0;
   std::array<float, 16> matrix{};
   Vec3 eye;
+  SeeThrough seeThrough;
+  std::optional<SpaceDrawing> shown;
+  std::uint64_t drawn = 0;
 
   void resize(int w, int h) {
     if (w == width && h == height) return;
@@ -164,6 +148,11 @@ struct SceneDrawer::State {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   }
 
+  void draw(const SpaceDrawing& drawing);
+  void surfaces(const std::vector<DrawSurface>& parts);
+  void picture(const DrawPicture& picture);
+  void lines(const std::vector<DrawLine>& lines, float hidden);
+
   void use(unsigned program) const {
     glUseProgram(program);
     glUniformMatrix4fv(glGetUniformLocation(program, "matrix"), 1, GL_TRUE, matrix.data());
@@ -172,9 +161,9 @@ struct SceneDrawer::State {
 
 SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
   State& s = *state_;
-  s.surface = link(kSurfaceVertex, kSurfaceFragment);
-  s.line = link(kLineVertex, kLineFragment);
-  s.pictures = link(kPictureVertex, kPictureFragment);
+  s.surface = linkProgram(kSurfaceVertex, kSurfaceFragment.c_str());
+  s.line = linkProgram(kLineVertex, kLineFragment);
+  s.pictures = linkProgram(kPictureVertex, kPictureFragment);
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray}) glGenVertexArrays(1, array);
   for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glGenBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glGenFramebuffers(1, frame);
@@ -212,15 +201,26 @@ void SceneDrawer::setCorners(const std::vector<float>& corners) {
   glBindBuffer(GL_ARRAY_BUFFER, state_->surfaceBuffer);
   glBufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(corners.size() * sizeof(float)), corners.data(),
                GL_STATIC_DRAW);
+  state_->shown.reset();
 }
 
-void SceneDrawer::begin(int width, int height, const ImVec4& background, const Matrix4& matrix,
-                        const Vec3& eye) {
+std::uint64_t SceneDrawer::drawn() const { return state_->drawn; }
+
+ImTextureID SceneDrawer::show(SpaceDrawing drawing) {
   State& s = *state_;
-  s.resize(width, height);
-  for (std::size_t i = 0; i < 16; ++i) s.matrix[i] = static_cast<float>(matrix[i / 4][i % 4]);
-  s.eye = eye;
-  glBindFramebuffer(GL_FRAMEBUFFER, s.smooth);
+  if (s.shown != drawing) {
+    s.draw(drawing);
+    s.shown = std::move(drawing);
+    ++s.drawn;
+  }
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(s.texture));
+}
+
+void SceneDrawer::State::draw(const SpaceDrawing& d) {
+  resize(d.width, d.height);
+  for (std::size_t i = 0; i < 16; ++i) matrix[i] = static_cast<float>(d.matrix[i / 4][i % 4]);
+  eye = d.eye;
+  glBindFramebuffer(GL_FRAMEBUFFER, smooth);
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
@@ -229,47 +229,67 @@ void SceneDrawer::begin(int width, int height, const ImVec4& background, const M
   glDepthMask(GL_TRUE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glClearColor(background.x, background.y, background.z, 1);
+  glClearColor(d.background[0], d.background[1], d.background[2], 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
 
-void SceneDrawer::triangles(std::size_t first, std::size_t count, const Color& colour, float opacity,
-                            bool wire) {
-  State& s = *state_;
-  s.use(s.surface);
-  glUniform3f(glGetUniformLocation(s.surface, "eye"), static_cast<float>(s.eye.x),
-              static_cast<float>(s.eye.y), static_cast<float>(s.eye.z));
-  glUniform4f(glGetUniformLocation(s.surface, "colour"), static_cast<float>(colour.r),
-              static_cast<float>(colour.g), static_cast<float>(colour.b), opacity);
-  glDepthMask(opacity < 1 ? GL_FALSE : GL_TRUE);
-  glPolygonMode(GL_FRONT_AND_BACK, wire ? GL_LINE : GL_FILL);
-  glBindVertexArray(s.surfaceArray);
-  glDrawArrays(GL_TRIANGLES, static_cast<int>(first), static_cast<int>(count));
+  surfaces(d.solid);
+  if (d.picture) picture(*d.picture);
+  if (!d.clear.empty()) {
+    seeThrough.begin(width, height);
+    surfaces(d.solid);
+    if (d.picture) picture(*d.picture);
+    while (seeThrough.nextLayer()) surfaces(d.clear);
+    seeThrough.layOver(smooth);
+  }
+  glDepthMask(GL_FALSE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  surfaces(d.wires);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  lines(d.lines, d.hidden);
   glDepthMask(GL_TRUE);
+
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, smooth);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain);
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDisable(GL_DEPTH_TEST);
 }
 
-void SceneDrawer::lines(const std::vector<DrawLine>& lines, float hidden) {
-  if (lines.empty()) return;
-  State& s = *state_;
+void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
+  if (parts.empty()) return;
+  use(surface);
+  seeThrough.useIn(surface);
+  glUniform3f(glGetUniformLocation(surface, "eye"), static_cast<float>(eye.x), static_cast<float>(eye.y),
+              static_cast<float>(eye.z));
+  glBindVertexArray(surfaceArray);
+  const int colour = glGetUniformLocation(surface, "colour");
+  for (const DrawSurface& part : parts) {
+    glUniform4f(colour, static_cast<float>(part.colour.r), static_cast<float>(part.colour.g),
+                static_cast<float>(part.colour.b), part.opacity);
+    glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
+  }
+}
+
+void SceneDrawer::State::lines(const std::vector<DrawLine>& all, float hidden) {
+  if (all.empty()) return;
   std::vector<LineCorner> corners;
-  corners.reserve(lines.size() * 6);
-  for (const DrawLine& line : lines) {
+  corners.reserve(all.size() * 6);
+  for (const DrawLine& each : all) {
     const auto corner = [&](float end, float side) {
-      return LineCorner{line.from, line.to, line.colour, end, side, line.width, line.dash};
+      return LineCorner{each.from, each.to, each.colour, end, side, each.width, each.dash};
     };
     const LineCorner a = corner(0, -1), b = corner(0, 1), c = corner(1, 1), d = corner(1, -1);
     corners.insert(corners.end(), {a, b, c, a, c, d});
   }
-  glBindVertexArray(s.lineArray);
-  glBindBuffer(GL_ARRAY_BUFFER, s.lineBuffer);
+  glBindVertexArray(lineArray);
+  glBindBuffer(GL_ARRAY_BUFFER, lineBuffer);
   glBufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(corners.size() * sizeof(LineCorner)),
                corners.data(), GL_STREAM_DRAW);
-  s.use(s.line);
-  glUniform2f(glGetUniformLocation(s.line, "size"), static_cast<float>(s.width),
-              static_cast<float>(s.height));
-  glDepthMask(GL_FALSE);
-  const int opacity = glGetUniformLocation(s.line, "opacity");
+  use(line);
+  glUniform2f(glGetUniformLocation(line, "size"), static_cast<float>(width), static_cast<float>(height));
+  const int opacity = glGetUniformLocation(line, "opacity");
   if (hidden > 0) {
     glDepthFunc(GL_GREATER);
     glUniform1f(opacity, hidden);
@@ -279,34 +299,21 @@ void SceneDrawer::lines(const std::vector<DrawLine>& lines, float hidden) {
   glUniform1f(opacity, 1);
   glDrawArrays(GL_TRIANGLES, 0, static_cast<int>(corners.size()));
   glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
 }
 
-void SceneDrawer::picture(const std::array<Point3, 4>& corners, unsigned texture, float opacity) {
-  State& s = *state_;
-  const PictureCorner a{corners[0], 0, 0}, b{corners[1], 1, 0}, c{corners[2], 1, 1}, d{corners[3], 0, 1};
+void SceneDrawer::State::picture(const DrawPicture& p) {
+  const PictureCorner a{p.corners[0], 0, 0}, b{p.corners[1], 1, 0}, c{p.corners[2], 1, 1},
+      d{p.corners[3], 0, 1};
   const PictureCorner quad[] = {a, b, c, a, c, d};
-  glBindVertexArray(s.pictureArray);
-  glBindBuffer(GL_ARRAY_BUFFER, s.pictureBuffer);
+  glBindVertexArray(pictureArray);
+  glBindBuffer(GL_ARRAY_BUFFER, pictureBuffer);
   glBufferData(GL_ARRAY_BUFFER, sizeof quad, quad, GL_STREAM_DRAW);
-  s.use(s.pictures);
+  use(pictures);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glUniform1i(glGetUniformLocation(s.pictures, "picture"), 0);
-  glUniform1f(glGetUniformLocation(s.pictures, "opacity"), opacity);
+  glBindTexture(GL_TEXTURE_2D, p.texture);
+  glUniform1i(glGetUniformLocation(pictures, "picture"), 0);
+  glUniform1f(glGetUniformLocation(pictures, "opacity"), p.opacity);
   glDrawArrays(GL_TRIANGLES, 0, 6);
-}
-
-ImTextureID SceneDrawer::end() {
-  State& s = *state_;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, s.smooth);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, s.plain);
-  glBlitFramebuffer(0, 0, s.width, s.height, 0, 0, s.width, s.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glDisable(GL_DEPTH_TEST);
-  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(s.texture));
 }
 
 }  // namespace trace::studio

@@ -5,7 +5,9 @@
 #include <imgui.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/orbit_camera.h"
@@ -20,6 +22,37 @@ struct DrawLine {
   std::array<float, 4> colour;  ///< with opacity
   float width;                  ///< pixels
   float dash;                   ///< pixels on and as many off; 0: not dashed
+  bool operator==(const DrawLine&) const = default;
+};
+
+/// Triangles, by the corners of SceneDrawer::setCorners().
+struct DrawSurface {
+  std::size_t first, count;
+  Color colour;
+  float opacity;
+  bool operator==(const DrawSurface&) const = default;
+};
+
+/// A picture on a quad: its corners from the top left, clockwise.
+struct DrawPicture {
+  std::array<Point3, 4> corners;
+  unsigned texture;
+  std::uint64_t version;  ///< of what the texture shows
+  float opacity;
+  bool operator==(const DrawPicture&) const = default;
+};
+
+/// All that there is to see.
+struct SpaceDrawing {
+  int width = 0, height = 0;
+  std::array<float, 4> background{};
+  Matrix4 matrix{};
+  Vec3 eye{};
+  std::vector<DrawSurface> solid{}, clear{}, wires{};  ///< clear: others show through
+  std::optional<DrawPicture> picture{};
+  std::vector<DrawLine> lines{};
+  float hidden = 0;  ///< lines behind surfaces are drawn fainter, with so much of their opacity
+  bool operator==(const SpaceDrawing&) const = default;
 };
 
 class SceneDrawer {
@@ -31,15 +64,10 @@ class SceneDrawer {
 
   /// Six floats for each corner: position and normal.
   void setCorners(const std::vector<float>& corners);
-
-  void begin(int width, int height, const ImVec4& background, const Matrix4& matrix, const Vec3& eye);
-  void triangles(std::size_t first, std::size_t count, const Color& colour, float opacity, bool wire);
-  /// Lines behind surfaces are drawn fainter, with `hidden` times their opacity.
-  void lines(const std::vector<DrawLine>& lines, float hidden);
-  /// A picture on a quad: its corners from the top left, clockwise.
-  void picture(const std::array<Point3, 4>& corners, unsigned texture, float opacity);
-  /// What was drawn since begin(); its row 0 is at the bottom.
-  ImTextureID end();
+  /// Draws it, unless it is what was drawn last. Row 0 of the texture is at the bottom.
+  ImTextureID show(SpaceDrawing drawing);
+  /// How often something was drawn.
+  std::uint64_t drawn() const;
 
  private:
   struct State;

@@ -1,13 +1,18 @@
 #include "studio/script.h"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "base/file.h"
 #include "base/text.h"
 #include "image/codec.h"
 #include "studio/actions.h"
+#include "studio/landmarks.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -28,6 +33,54 @@ int whole(const std::string& word) {
   for (const Workspace::LogEntry& entry : workspace.log())
     if (entry.level == Workspace::LogEntry::Level::error) what = entry.text;
   throw Error(Fault::io, what);
+}
+
+/// The words from this one on.
+std::string joined(const std::vector<std::string>& words, std::size_t first = 0) {
+  std::string text;
+  for (std::size_t i = first; i < words.size(); ++i) text += (text.empty() ? "" : " ") + words[i];
+  return text;
+}
+
+/// What a landmark covers.
+Picture part(const Picture& all, const std::string& name) {
+  const auto found = landmarks().find(name);
+  if (found == landmarks().end()) throw Error(Fault::usage, "the window shows no \"" + name + "\"");
+  const auto bound = [](float x, int most) { return std::clamp(static_cast<int>(std::lround(x)), 0, most); };
+  const Landmark& at = found->second;
+  const int left = bound(at[0], all.width), top = bound(at[1], all.height);
+  Picture result(bound(at[2], all.width) - left, bound(at[3], all.height) - top);
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x) result.at(x, y) = all.at(left + x, top + y);
+  return result;
+}
+
+/// Lines of a name and what it is.
+std::string state(const Studio& studio) {
+  std::ostringstream text;
+  const Workspace& workspace = studio.workspace;
+  text << "frames " << studio.frames << "\nspace-drawn "
+       << (studio.rays.drawer ? studio.rays.drawer->drawn() : 0) << "\npopup "
+       << (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ? "open"
+                                                                                              : "none")
+       << "\nlog " << workspace.log().size() << "\n";
+  if (const auto session = workspace.render.session(); session && studio.picture.pixel) {
+    const PixelPlace pixel = studio.picture.pixel.in(session->size());
+    text << "pixel " << pixel.x << " " << pixel.y << "\n";
+  }
+  if (const TracedPixel* traced = workspace.inspector.traced())
+    text << "traced " << traced->x << " " << traced->y << "\n";
+  text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
+  text << "selected " << Studio::kSelectedNames[static_cast<int>(studio.selected)] << " "
+       << studio.selectedIndex << "\n";
+  if (workspace.document.isOpen())
+    for (const Option& option : options())
+      text << "chosen " << option.name << " " << option.get(workspace.document.settings()) << "\n";
+  text << "undo " << workspace.undoName() << "\n";
+  for (const auto& [name, at] : landmarks())
+    text << "at " << std::lround((at[0] + at[2]) / 2) << " " << std::lround((at[1] + at[3]) / 2) << " "
+         << name << "\n";
+  return text.str();
 }
 
 /// `run` returns false to be called again after the next frame.
@@ -58,16 +111,14 @@ constexpr std::array kTable{
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
             [](Studio& s, const std::vector<std::string>& a) {
-              std::string name;
-              for (const std::string& word : a) name += (name.empty() ? "" : " ") + word;
+              const std::string name = joined(a);
               for (const Action& action : actions())
                 if (name == action.name) return action.run(s), true;
               throw Error(Fault::usage, "no menu has an entry \"" + name + "\"");
             }},
     Command{"panel", "NAME...", 1, 3, "bring a panel to the front",
             [](Studio& s, const std::vector<std::string>& a) {
-              std::string name;
-              for (const std::string& word : a) name += (name.empty() ? "" : " ") + word;
+              const std::string name = joined(a);
               for (const Panel& panel : panels())
                 if (name == panel.name) return s.show(name), true;
               throw Error(Fault::usage, "no panel is called \"" + name + "\"");
@@ -124,10 +175,15 @@ constexpr std::array kTable{
             [](Studio& s, const std::vector<std::string>& a) { return s.workspace.savePicture(a[0]), true; }},
     Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
             [](Studio& s, const std::vector<std::string>& a) { return s.workspace.saveScene(a[0]), true; }},
-    Command{"screenshot", "FILE", 1, 1, "write what the window shows",
+    Command{"screenshot", "FILE [PART...]", 1, 9, "write what the window shows, or a part that `state` names",
             [](Studio& s, const std::vector<std::string>& a) {
-              return writePicture(a[0], fromBytes(s.window.screenshot())), true;
+              const Picture all = fromBytes(s.window.screenshot());
+              return writePicture(a[0], a.size() > 1 ? part(all, joined(a, 1)) : all), true;
             }},
+    Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
+            [](Studio& s, const std::vector<std::string>& a) { return writeFile(a[0], state(s)), true; }},
+    Command{"await", "FILE", 1, 1, "until somebody has made the file",
+            [](Studio&, const std::vector<std::string>& a) { return std::filesystem::exists(a[0]); }},
 };
 
 }  // namespace
@@ -144,9 +200,11 @@ Script::Script(const std::string& file) {
 }
 
 bool Script::step(Studio& studio) {
+  waits_ = false;
   if (framesToWait_ > 0) return --framesToWait_, true;
   const Workspace& workspace = studio.workspace;
-  if (workspace.reading() || workspace.saving()) return true;
+  waits_ = workspace.reading() || workspace.saving();
+  if (waits_) return true;
   const bool failed = workspace.failures() > 0;  // in what the last command began
   if (next_ == lines_.size() && !failed) return false;
   const Line& line = lines_[failed && next_ > 0 ? next_ - 1 : next_];
@@ -157,7 +215,8 @@ bool Script::step(Studio& studio) {
       const std::vector<std::string> rest(line.words.begin() + 1, line.words.end());
       if (rest.size() < command.least || rest.size() > command.most)
         throw Error(Fault::usage, std::string("expected ") + command.name + " " + command.arguments);
-      if (command.run(studio, rest)) ++next_, framesToWait_ = kSettle;
+      waits_ = !command.run(studio, rest);
+      if (!waits_) ++next_, framesToWait_ = kSettle;
       return true;
     }
     throw Error(Fault::usage, "unknown command \"" + line.words[0] + "\"");

@@ -16,6 +16,8 @@ class Script {
   /// Called after each frame: does the next command, or waits for what the last one began. False at the end.
   /// Throws Error with file and line if a command fails.
   bool step(Studio& studio);
+  /// What the script waits for needs no frame.
+  bool waits() const { return waits_; }
 
  private:
   struct Line {
@@ -25,6 +27,7 @@ class Script {
   std::vector<Line> lines_;
   std::size_t next_ = 0;
   int framesToWait_ = 0;
+  bool waits_ = false;
 };
 
 std::string scriptHelp();

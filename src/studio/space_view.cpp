@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "studio/landmarks.h"
 #include "studio/rays_view.h"
 #include "studio/studio.h"
 
@@ -187,6 +188,21 @@ Lines collect(Studio& studio, const Frustum& frustum) {
   return std::move(pen.lines);
 }
 
+void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
+  constexpr float kGlass = 0.35f, kWire = 0.5f;
+  if (view.surfaces == Surfaces::none) return;
+  for (const ScenePart& part : view.model.parts) {
+    DrawSurface surface{part.first, part.count, part.color, view.opacity};
+    if (part.clear) surface.opacity = std::min(surface.opacity, kGlass);
+    if (view.surfaces == Surfaces::wireframe) {
+      surface.opacity = kWire;
+      drawing.wires.push_back(surface);
+    } else {
+      (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
+    }
+  }
+}
+
 // --- the cursor ---------------------------------------------------------------------------------------
 
 /// Distance in pixels of the cursor from the ray's line on the screen.
@@ -263,6 +279,7 @@ void drawSwitches(Studio& studio) {
   if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
   ImGui::SameLine();
   ImGui::Checkbox("from camera", &view.fromCamera);
+  landmark("from camera");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
   ImGui::SameLine();
   if (ImGui::Button("Reset")) view.orbitFile.clear(), view.modelScene.reset(), view.fromCamera = false;
@@ -339,6 +356,7 @@ void drawSpace(Studio& studio) {
   ImGui::InvisibleButton("space", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
+  landmark("space");
   ImGui::SetItemAllowOverlap();  // the legend
   const bool hovered = ImGui::IsItemHovered();
   const bool clicked = hovered && ImGui::IsMouseReleased(0) && ImGui::GetMouseDragDelta(0).x == 0 &&
@@ -357,27 +375,23 @@ void drawSpace(Studio& studio) {
 
   const ImGuiIO& io = ImGui::GetIO();
   const auto pixels = [](float length, float scale) { return std::max(1, static_cast<int>(length * scale)); };
-  SceneDrawer& drawer = *view.drawer;
-  drawer.begin(pixels(size.x, io.DisplayFramebufferScale.x), pixels(size.y, io.DisplayFramebufferScale.y),
-               ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg), matrix, local.eye);
-  const bool wire = view.surfaces == Surfaces::wireframe;
-  if (view.surfaces != Surfaces::none)
-    for (const bool clear : {false, true})
-      for (const ScenePart& part : view.model.parts)
-        if (part.clear == clear)
-          drawer.triangles(part.first, part.count, part.color,
-                           wire    ? 0.5f
-                           : clear ? std::min(view.opacity, 0.35f)
-                                   : view.opacity,
-                           wire);
+  const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
+  SpaceDrawing drawing{.width = pixels(size.x, io.DisplayFramebufferScale.x),
+                       .height = pixels(size.y, io.DisplayFramebufferScale.y),
+                       .background = {background.x, background.y, background.z, 1},
+                       .matrix = matrix,
+                       .eye = local.eye,
+                       .hidden = kHidden};
+  addSurfaces(view, drawing);
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
-  if (view.cameraShown && view.pictureShown && !view.fromCamera && !studio.picture.pictureTexture.empty()) {
-    std::array<Point3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = view.model.local(frustum.corners[i]);
-    drawer.picture(corners, studio.picture.pictureTexture.name(), 0.7f);
+  const Texture& picture = studio.picture.pictureTexture;
+  if (view.cameraShown && view.pictureShown && !view.fromCamera && !picture.empty()) {
+    drawing.picture = DrawPicture{{}, picture.name(), picture.version(), 0.7f};
+    for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
   }
-  drawer.lines(collect(studio, frustum), kHidden);
-  ImGui::GetWindowDrawList()->AddImage(drawer.end(), low, {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
+  drawing.lines = collect(studio, frustum);
+  ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing)), low,
+                                       {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
 
   if (hovered && !ImGui::IsMouseDown(0)) {
     const int under = rayUnderCursor(studio, matrix, low, size);

@@ -12,6 +12,18 @@ std::string preferencesFile(const Studio& studio) { return studio.configFolder +
 
 }  // namespace
 
+void followScene(Studio& studio) {
+  const Document& document = studio.workspace.document;
+  if (!document.isOpen() || document.scene().file == studio.sceneFile) return;
+  studio.sceneFile = document.scene().file;
+  studio.picture.fit = true;
+  studio.picture.pixel.clear();
+  studio.selected = Studio::Selected::camera;
+  studio.selectedIndex = 0;
+  studio.rays.sample = 0;
+  studio.rays.step = -1;
+}
+
 void restore(Studio& studio) {
   try {
     studio.preferences = Preferences::parse(readFile(preferencesFile(studio)));

@@ -43,6 +43,10 @@ struct Studio {
   std::string raysTab;  ///< a tab of the panel Rays to bring to the front
   FileDialog dialog;
   std::vector<KeyPress> keys;  ///< of this frame
+  std::uint64_t frames = 0;    ///< drawn so far
+  Workspace::Pulse pulse{};    ///< as the last frame showed it
+  bool modelling = false;      ///< the view in space gets new triangles
+  std::string sceneFile;       ///< that the selection and the views belong to
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.
@@ -67,6 +71,9 @@ struct Studio {
   std::function<void()> leaving;  ///< waits for an answer
   void show(const std::string& panel) { layout.ask = panel; }
 };
+
+/// What belonged to the scene before is forgotten when another is opened: the chosen pixel, the selection.
+void followScene(Studio& studio);
 
 /// One frame: menu, panels, dialogs.
 void drawStudio(Studio& studio);

@@ -13,6 +13,7 @@ Texture::~Texture() {
 void Texture::set(const Bytes& bytes) {
   if (!name_) glGenTextures(1, &name_);
   width_ = bytes.width, height_ = bytes.height;
+  ++version_;
   glBindTexture(GL_TEXTURE_2D, name_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, bytes.rgb.data());

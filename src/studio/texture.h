@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <cstdint>
+
 #include "image/tone.h"
 
 namespace trace::studio {
@@ -20,10 +22,13 @@ class Texture {
   int height() const { return height_; }
   ImTextureID id() const { return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name_)); }
   unsigned name() const { return name_; }
+  /// Changes with what it shows.
+  std::uint64_t version() const { return version_; }
 
  private:
   unsigned name_ = 0;
   int width_ = 0, height_ = 0;
+  std::uint64_t version_ = 0;
 };
 
 }  // namespace trace::studio

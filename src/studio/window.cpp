@@ -9,7 +9,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cfloat>
 #include <cmath>
 #include <utility>
 
@@ -20,19 +22,28 @@ namespace trace::studio {
 struct Window::State {
   GLFWwindow* window = nullptr;
   std::vector<std::string> dropped;
-  std::vector<KeyPress> keys;
-  struct Release {
-    int key, scancode, held;
-  };
-  std::vector<int> wentDown;      // since the last frame
-  std::vector<Release> releases;  // of such keys: Dear ImGui 1.86 must not hear of them before the next frame
-  int width = 0, height = 0;      // of the frame buffer
-  int framesDue = 3;              // what happens in a frame may show only in the next
+  std::vector<KeyPress> keys;   // of this frame
+  InputQueue queue;             // what Dear ImGui, which sees one state in each frame, has not heard of yet
+  bool happened = false;        // anything, since the last look
+  double heard = 0, slack = 0;  // when events were asked for last, and how long they were not
+  double clock = 0;             // of Dear ImGui
+  ImVec2 pointer{-FLT_MAX, -FLT_MAX};
+  std::array<bool, 5> buttons{};
+  int width = 0, height = 0;  // of the frame buffer
+  int framesDue = 3;          // what happens in a frame may show only in the next
+
+  void add(InputEvent event) {
+    event.time = glfwGetTime(), event.slack = slack;
+    queue.add(event);
+    happened = true;
+  }
 };
 
 namespace {
 
 constexpr int kSettlingFrames = 3;
+constexpr double kDoubleClick = 0.3;  // seconds between its clicks, at most
+constexpr double kLeastFrame = 1e-4;  // seconds: Dear ImGui's clock must not stand still
 
 [[noreturn]] void fail(const std::string& what) {
   const char* reason = nullptr;
@@ -62,32 +73,56 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   if (!state_->window) fail("cannot open a window");
   glfwMakeContextCurrent(state_->window);
   glfwSwapInterval(1);
-  glfwSetWindowUserPointer(state_->window, state_.get());
-  glfwSetDropCallback(state_->window, [](GLFWwindow* window, int count, const char** paths) {
-    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-    state.dropped.insert(state.dropped.end(), paths, paths + count);
+  listen();
+  ImGui::CreateContext();
+  ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+void Window::listen() {
+  GLFWwindow* window = state_->window;
+  static constexpr auto stateOf = [](GLFWwindow* w) -> State& {
+    return *static_cast<State*>(glfwGetWindowUserPointer(w));
+  };
+  using Kind = InputEvent::Kind;
+  glfwSetWindowUserPointer(window, state_.get());
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    stateOf(w).dropped.insert(stateOf(w).dropped.end(), paths, paths + count);
+    stateOf(w).happened = true;
   });
-  // Set before those of Dear ImGui, which call it.
-  glfwSetKeyCallback(state_->window, [](GLFWwindow* window, int key, int scancode, int action, int held) {
-    if (action != GLFW_PRESS && action != GLFW_REPEAT) return;
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { stateOf(w).happened = true; });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { stateOf(w).happened = true; });
+  glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { stateOf(w).happened = true; });
+  glfwSetWindowFocusCallback(
+      window, [](GLFWwindow* w, int came) { stateOf(w).add({.kind = Kind::focus, .down = came != 0}); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    stateOf(w).add({.kind = Kind::pointer, .x = x, .y = y});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    if (!entered) stateOf(w).add({.kind = Kind::leave});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    stateOf(w).add({.kind = Kind::button, .code = button, .down = action == GLFW_PRESS});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    stateOf(w).add({.kind = Kind::wheel, .x = x, .y = y});
+  });
+  glfwSetCharCallback(
+      window, [](GLFWwindow* w, unsigned c) { stateOf(w).add({.kind = Kind::character, .character = c}); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int held) {
+    InputEvent event{.kind = Kind::key, .code = key, .writes = key};
     const char* name = glfwGetKeyName(key, scancode);  // of the user's keyboard
     if (name && name[0] && !name[1])
-      key = *name == '+' ? '=' : std::toupper(static_cast<unsigned char>(*name));
-    static_cast<State*>(glfwGetWindowUserPointer(window))
-        ->keys.push_back(
-            {key, (held & GLFW_MOD_CONTROL) != 0, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_ALT) != 0});
+      event.writes = *name == '+' ? '=' : std::toupper(static_cast<unsigned char>(*name));
+    event.down = action != GLFW_RELEASE;
+    event.repeat = action == GLFW_REPEAT;
+    event.modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+    event.control = (held & GLFW_MOD_CONTROL) != 0;
+    event.shift = (held & GLFW_MOD_SHIFT) != 0;
+    event.alt = (held & GLFW_MOD_ALT) != 0;
+    stateOf(w).add(event);
   });
-  ImGui::CreateContext();
-  ImGui_ImplGlfw_InitForOpenGL(state_->window, true);
-  glfwSetKeyCallback(state_->window, [](GLFWwindow* window, int key, int scancode, int action, int held) {
-    auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-    const auto begin = state.wentDown.begin(), end = state.wentDown.end();
-    if (action == GLFW_RELEASE && std::find(begin, end, key) != end)
-      return state.releases.push_back({key, scancode, held});
-    if (action == GLFW_PRESS) state.wentDown.push_back(key);
-    ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, held);
-  });
-  ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
 Window::~Window() {
@@ -98,21 +133,69 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::beginFrame(double mostSeconds) {
-  state_->wentDown.clear();
-  for (const State::Release& release : std::exchange(state_->releases, {}))
-    ImGui_ImplGlfw_KeyCallback(state_->window, release.key, release.scancode, GLFW_RELEASE, release.held);
-  if (state_->framesDue > 0) {
-    --state_->framesDue;
+bool Window::wait(double mostSeconds) {
+  State& state = *state_;
+  const double before = glfwGetTime();
+  state.slack = before - state.heard;
+  state.happened = false;
+  if (state.framesDue > 0 || !state.queue.empty()) {
     glfwPollEvents();
   } else {
-    const double before = glfwGetTime();
     glfwWaitEventsTimeout(mostSeconds);
-    if (glfwGetTime() - before < mostSeconds) state_->framesDue = kSettlingFrames;
+    if (glfwGetTime() - before < mostSeconds) state.happened = true;
   }
-  glfwGetFramebufferSize(state_->window, &state_->width, &state_->height);
+  state.heard = glfwGetTime();
+  if (state.happened) state.framesDue = kSettlingFrames;
+  return state.framesDue > 0 || !state.queue.empty();
+}
+
+void Window::hand(const InputEvent& event) {
+  using Kind = InputEvent::Kind;
+  State& state = *state_;
+  ImGuiIO& io = ImGui::GetIO();
+  const bool dragging = std::find(state.buttons.begin(), state.buttons.end(), true) != state.buttons.end();
+  switch (event.kind) {
+    case Kind::pointer: state.pointer = {static_cast<float>(event.x), static_cast<float>(event.y)}; break;
+    case Kind::leave:
+      if (!dragging) state.pointer = {-FLT_MAX, -FLT_MAX};
+      break;
+    case Kind::button:
+      if (event.code < 0 || event.code >= static_cast<int>(state.buttons.size())) break;
+      state.buttons[static_cast<std::size_t>(event.code)] = event.down;
+      // Two clicks may be that much nearer to each other than the frames that see them.
+      io.MouseDoubleClickTime = static_cast<float>(kDoubleClick + event.slack);
+      break;
+    case Kind::wheel: ImGui_ImplGlfw_ScrollCallback(state.window, event.x, event.y); break;
+    case Kind::focus: ImGui_ImplGlfw_WindowFocusCallback(state.window, event.down); break;
+    case Kind::character: io.AddInputCharacter(event.character); break;
+    case Kind::key:
+      if (event.character) io.AddInputCharacter(event.character);
+      // Dear ImGui needs no key that only writes.
+      if (!event.down || event.modifier || event.isCommand())
+        ImGui_ImplGlfw_KeyCallback(state.window, event.code, 0, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
+      if (event.down && !event.modifier)
+        state.keys.push_back({event.writes, event.control, event.shift, event.alt});
+      break;
+  }
+}
+
+void Window::beginFrame() {
+  State& state = *state_;
+  if (state.framesDue > 0) --state.framesDue;
+  state.keys.clear();
+  glfwGetFramebufferSize(state.window, &state.width, &state.height);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  const std::vector<InputEvent> events = state.queue.takeFrame();
+  for (const InputEvent& event : events) hand(event);
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = state.pointer;
+  std::copy(state.buttons.begin(), state.buttons.end(), io.MouseDown);
+  // The clock follows what happened, not how long it takes to see it.
+  const double now = state.queue.empty() || events.empty() ? glfwGetTime() : events.back().time;
+  const double clock = std::max(now, state.clock + kLeastFrame);
+  io.DeltaTime = static_cast<float>(clock - state.clock);
+  state.clock = clock;
   ImGui::NewFrame();
 }
 
@@ -152,7 +235,7 @@ float Window::contentScale() const {
 void Window::drop(const std::string& file) { state_->dropped.push_back(file); }
 std::vector<std::string> Window::takeDropped() { return std::exchange(state_->dropped, {}); }
 
-std::vector<KeyPress> Window::takeKeys() { return std::exchange(state_->keys, {}); }
+const std::vector<KeyPress>& Window::keys() const { return state_->keys; }
 
 Bytes Window::screenshot() const {
   const int width = state_->width, height = state_->height;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/input_queue.h"
 #include "image/tone.h"
 
 namespace trace::studio {
@@ -26,8 +27,10 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Waits for something to happen, at most this long, and begins a frame.
-  void beginFrame(double mostSeconds);
+  /// Waits for something to happen, at most this long. True if a frame is to be drawn for it.
+  bool wait(double mostSeconds);
+  /// Hands the frame its share of what happened: the rest is for the next frames.
+  void beginFrame();
   void endFrame();
   bool closing() const;
   void keepOpen();  ///< takes back the wish to close
@@ -42,9 +45,8 @@ class Window {
   std::vector<std::string> takeDropped();
   /// As if the file were dropped onto the window.
   void drop(const std::string& file);
-  /// Keys that went down since the last call, however short: Dear ImGui 1.86 misses what is up again by the
-  /// frame.
-  std::vector<KeyPress> takeKeys();
+  /// Keys that went down in this frame.
+  const std::vector<KeyPress>& keys() const;
   /// What the last frame looked like.
   Bytes screenshot() const;
   /// To be called after the fonts have changed, between frames.
@@ -52,6 +54,8 @@ class Window {
 
  private:
   void draw() const;
+  void listen();
+  void hand(const InputEvent& event);
 
   struct State;
   std::unique_ptr<State> state_;

@@ -129,5 +129,26 @@ TEST(PixelInspector, AnExplanationThatNobodyWantsIsGivenUp) {
   EXPECT_EQ(cut.samples.size(), 3u);
 }
 
+TEST(PixelInspector, ForgetsPinnedRaysWithTheScene) {
+  const auto session = sessionOf({.width = 40});
+  PixelInspector inspector;
+  inspector.want(session, 20, 20, 0);
+  waitFor(inspector);
+  inspector.pin(true);
+  waitFor(inspector);
+  ASSERT_NE(inspector.pinned(), nullptr);
+  inspector.want(session, 21, 20, 0);  // an answer with the pinned rays is on its way
+  inspector.forget();
+  EXPECT_EQ(inspector.pinned(), nullptr);
+  EXPECT_EQ(inspector.traced(), nullptr);
+  waitFor(inspector);
+  EXPECT_EQ(inspector.pinned(), nullptr);
+  EXPECT_TRUE(inspector.pairs().empty());
+  inspector.want(session, 22, 20, 0);
+  waitFor(inspector);
+  EXPECT_NE(inspector.traced(), nullptr);
+  EXPECT_EQ(inspector.pinned(), nullptr);
+}
+
 }  // namespace
 }  // namespace trace::test

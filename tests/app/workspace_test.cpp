@@ -457,5 +457,64 @@ TEST(BackgroundTask, DoesAllJobsInTurnOrOnlyTheNewest) {
   EXPECT_FALSE(newest.pending());
 }
 
+TEST_F(WorkspaceTest, PinnedRaysGoWithTheirScene) {
+  std::filesystem::copy_file(path("scene.ray"), path("other.ray"));
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  PixelInspector& inspector = workspace.inspector;
+  const auto raysOf = [&](const std::shared_ptr<const Session>& session) {
+    inspector.want(session, 5, 5, 0);
+    while (inspector.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    inspector.update();
+  };
+  raysOf(workspace.render.session());
+  inspector.pin(true);
+  raysOf(workspace.render.session());
+  ASSERT_NE(inspector.pinned(), nullptr);
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));  // the same once more
+  EXPECT_NE(inspector.pinned(), nullptr);
+  ASSERT_TRUE(opened(workspace, path("other.ray")));
+  EXPECT_EQ(inspector.pinned(), nullptr);
+  waitFor(workspace.render);
+  raysOf(workspace.render.session());
+  EXPECT_EQ(inspector.pinned(), nullptr);
+}
+
+TEST_F(WorkspaceTest, ThePulseTellsWhetherThereIsSomethingNewToSee) {
+  Workspace workspace;
+  Workspace::Pulse before = workspace.pulse();
+  const auto changed = [&] { return std::exchange(before, workspace.pulse()) != before; };
+  EXPECT_FALSE(changed());
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  EXPECT_TRUE(changed());
+  waitFor(workspace.render);
+  workspace.update();
+  EXPECT_TRUE(changed());
+  for (int i = 0; i < 50; ++i) {  // nothing happens, however long one looks
+    workspace.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_FALSE(changed());
+  }
+  workspace.document.choose("rounding", "nearest");
+  EXPECT_TRUE(changed());
+  workspace.note("something");
+  EXPECT_TRUE(changed());
+  Settings slow = workspace.document.settings();
+  slow.spp = 4000000;
+  workspace.render.start(workspace.document.sharedScene(), slow);
+  while (workspace.render.state().phase < BackgroundRender::Phase::tracing)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  workspace.inspector.want(workspace.render.session(), 1, 1, 0);
+  EXPECT_TRUE(changed());
+  EXPECT_TRUE(before.tracing);
+  workspace.inspector.forget();
+  while (workspace.inspector.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(changed());
+  EXPECT_FALSE(before.tracing);
+  workspace.startRender();
+  EXPECT_TRUE(changed());
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -1,0 +1,25 @@
+#include "app/placing.h"
+
+#include <cmath>
+
+namespace trace {
+
+Affine turned(const Affine& placed, const Vec3& degrees) {
+  Affine result = placed;
+  result.offset = {};
+  const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i)
+    if (degrees[i] != 0) result = Affine::rotation(axes[i], degrees[i] * kPi / 180) * result;
+  result.offset = placed.offset;
+  return result;
+}
+
+Affine stretched(const Affine& placed, const Vec3& factors) {
+  constexpr Real kMost = 1e6;
+  const auto sane = [](Real f) {
+    return std::isfinite(f) && std::abs(f) <= kMost && std::abs(f) >= 1 / kMost ? f : 1;
+  };
+  return placed * Affine::scaling({sane(factors.x), sane(factors.y), sane(factors.z)});
+}
+
+}  // namespace trace

@@ -1,0 +1,92 @@
+#include "scene/option_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+namespace trace {
+namespace {
+
+struct Row {
+  std::string_view option, words;
+};
+
+/// In small letters, each once.
+constexpr std::array kTable{
+    Row{"width", "size resolution"},
+    Row{"height", "size resolution"},
+    Row{"region", "crop part window rectangle"},
+    Row{"spp", "antialias antialiasing aliasing samples sampling supersampling jaggies smooth quality"},
+    Row{"time", "animation frame"},
+    Row{"depth", "bounce recursion reflections levels"},
+    Row{"threshold", "adaptive cutoff speed"},
+    Row{"omit", "hide exclude"},
+    Row{"like", "course university dialect compatibility year"},
+    Row{"highlight", "specular shiny"},
+    Row{"shininess-scale", "exponent"},
+    Row{"mirror-default", "reflection"},
+    Row{"limit-attenuation", "falloff"},
+    Row{"glass", "transparency beer"},
+    Row{"air-index", "ior vacuum"},
+    Row{"glass-shadows", "shadow shadows transparency"},
+    Row{"back-faces", "backface culling"},
+    Row{"vertex-normals", "smooth interpolation"},
+    Row{"pixel-position", "centre jitter offset"},
+    Row{"tone", "exposure brightness"},
+    Row{"rounding", "quantize"},
+    Row{"passes", "aov layers buffers"},
+    Row{"threads", "cores processors parallel speed"},
+    Row{"accel", "acceleration speed"},
+    Row{"time-limit", "timeout seconds"},
+    Row{"max-memory", "ram"},
+};
+
+/// In small letters, with spaces for hyphens.
+std::string plain(std::string_view text) {
+  std::string all(text);
+  for (char& c : all) c = c == '-' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return all;
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    if (end > 0) words.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string_view wordsFor(const Option& option) {
+  for (const Row& row : kTable)
+    if (row.option == option.name) return row.words;
+  return "";
+}
+
+bool isAbout(const Option& option, std::string_view text) {
+  std::string all;
+  for (const std::string_view part : {option.name, option.group, option.help, wordsFor(option)})
+    all += std::string(part) + " ";
+  for (const std::string_view choice : option.choices) all += std::string(choice) + " ";
+  all = plain(all);
+  const std::string wanted = plain(text);
+  const std::vector<std::string_view> words = split(wanted);
+  return std::all_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return all.find(word) != std::string::npos; });
+}
+
+std::vector<std::string_view> optionsMeant(std::string_view word) {
+  std::vector<std::string_view> names;
+  const std::string wanted = plain(word);
+  for (const Option& option : options()) {
+    const std::vector<std::string_view> words = split(wordsFor(option));
+    if (std::find(words.begin(), words.end(), wanted) != words.end()) names.push_back(option.name);
+  }
+  return names;
+}
+
+}  // namespace trace

@@ -1,0 +1,21 @@
+// What else people call the options: for looking one up in the studio, and for hints on unknown names.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "scene/options.h"
+
+namespace trace {
+
+/// Other words for the option, with spaces between; "" if it has none.
+std::string_view wordsFor(const Option& option);
+
+/// Every word of `text` is part of the option's name, group, help, choices or other words; letters may be
+/// small or capital.
+bool isAbout(const Option& option, std::string_view text);
+
+/// The names of the options that have the word among theirs.
+std::vector<std::string_view> optionsMeant(std::string_view word);
+
+}  // namespace trace

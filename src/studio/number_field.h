@@ -1,0 +1,26 @@
+// Numbers and text that a person drags or types. What is dragged shows at once; what is typed counts on
+// Enter, or when the field is left, and Esc takes it back (app/typed_value.h).
+#pragma once
+
+#include <string>
+
+namespace trace::studio {
+
+struct NumberLook {
+  double least, most;        ///< of what is dragged; of what is typed too, if it is `clamped`
+  std::string format;        ///< of printf: "%d" and so on for int, "%g" and so on for double
+  float speed = 0;           ///< for each pixel that it is dragged; 0: a slider
+  bool logarithmic = false;  ///< the slider
+  bool clamped = true;
+};
+
+// Each draws the widget, as wide as ImGui::SetNextItemWidth() says, and returns true when the value has
+// changed.
+bool editNumber(const char* id, double& value, const NumberLook& look);
+bool editNumber(const char* id, int& value, const NumberLook& look);
+/// Several in a row, over the rest of the line.
+bool editNumbersInRow(double* values, int count, const NumberLook& look);
+/// `hint` is shown where there is no text.
+bool editText(const char* id, std::string& value, const char* hint = "");
+
+}  // namespace trace::studio

@@ -1,0 +1,59 @@
+// Options are found by what people call them.
+#include "scene/option_words.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace trace {
+namespace {
+
+std::set<std::string_view> found(std::string_view text) {
+  std::set<std::string_view> names;
+  for (const Option& option : options())
+    if (isAbout(option, text)) names.insert(option.name);
+  return names;
+}
+
+TEST(OptionWords, FindWhatPeopleLookFor) {
+  EXPECT_TRUE(found("antialias").contains("spp"));
+  EXPECT_TRUE(found("bounce").contains("depth"));
+  EXPECT_TRUE(found("shadow").contains("glass-shadows"));
+  EXPECT_TRUE(found("speed").contains("threads"));
+  EXPECT_TRUE(found("speed").contains("accel"));
+  EXPECT_TRUE(found("size").contains("width"));
+  EXPECT_TRUE(found("crop").contains("region"));
+  EXPECT_EQ(found("banana"), std::set<std::string_view>{});
+}
+
+TEST(OptionWords, CapitalLettersHyphensAndSpacesMakeNoDifference) {
+  EXPECT_EQ(found("Antialias"), found("antialias"));
+  EXPECT_EQ(found("DEPTH"), found("depth"));
+  EXPECT_TRUE(found("glass shadows").contains("glass-shadows"));
+  EXPECT_TRUE(found("Shadows glass").contains("glass-shadows"));
+  EXPECT_EQ(found("").size(), options().size());
+  EXPECT_EQ(found("  ").size(), options().size());
+}
+
+TEST(OptionWords, EveryOptionIsFoundByItsNameAndItsChoices) {
+  for (const Option& option : options()) {
+    EXPECT_TRUE(isAbout(option, option.name)) << option.name;
+    for (const std::string_view choice : option.choices) EXPECT_TRUE(isAbout(option, choice)) << choice;
+  }
+}
+
+TEST(OptionWords, AreHints) {
+  using Names = std::vector<std::string_view>;
+  EXPECT_EQ(optionsMeant("antialias"), Names{"spp"});
+  EXPECT_EQ(optionsMeant("Resolution"), (Names{"width", "height"}));
+  EXPECT_EQ(optionsMeant("widht"), Names{});
+  try {
+    findOption("samples");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"spp\"?"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace trace
