@@ -75,7 +75,8 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
                                                found.triangle);
                        },
                        [&](const auto& shape) {
-                         return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
+                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
+                         return surfaceOf(shape, instance.approach, ray, crossing);
                        }});
   return placement.moved() ? placement.outOf(s) : s;
 }
@@ -292,6 +293,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      },
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
+                       instance.approach = Approach(box);
                        if constexpr (requires { formOf(shape).convex(); })
                          instance.convex = formOf(shape).convex();
                        if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {

@@ -12,6 +12,7 @@
 
 #include "accel/bvh.h"
 #include "base/match.h"
+#include "geometry/approach.h"
 #include "geometry/csg_tree.h"
 #include "geometry/materials.h"
 #include "geometry/mesh_tree.h"
@@ -114,6 +115,7 @@ class World {
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
     Placement placement;
+    Approach approach;
     Box3 bounds;
   };
 
@@ -180,7 +182,7 @@ void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Rea
   ++statistics.tests[instance.shape.index()];
   match(instance.shape, Overloaded{[](const Mesh&) {},
                                    [&](const auto& form) {
-                                     visitCrossings(formOf(form), ray, Range{0, tMost}, visit);
+                                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
                                    }});
 }
 
