@@ -40,13 +40,13 @@ struct Found {
   bool before(const Found& other) const { return other.after(t, object, part); }
 };
 
-/// Which mesh triangles a query sees: all; those whose face turns to the ray; those whose normal for shading,
-/// interpolated at the hit, turns to it.
+/// Which mesh triangles a query sees: all; those whose face turns to the ray; those of which both the face
+/// and the normal for shading, interpolated at the hit, turn to it.
 enum class Faces { both, front, shadedFront };
 
 inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHit& met) {
   if (faces == Faces::both) return true;
-  if (faces == Faces::front || mesh.normals.empty()) return met.hit.front;
+  if (faces == Faces::front || mesh.normals.empty() || !met.hit.front) return met.hit.front;
   return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
 
