@@ -230,7 +230,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const auto add = [&](const Light& light) {
       world.lights_.push_back(light), world.lightSources_.push_back(i);
     };
-    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
+    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
+                                              world.ambient_ += light.color * settings.ambientScale;
+                                            },
                                             [&](auto light) {
                                               if constexpr (requires { light.atMostOne; })
                                                 light.atMostOne = settings.limitAttenuation;

@@ -469,6 +469,17 @@ TEST(Whitted, BackFacesOfMeshesAreThoseOfWhichTheFaceOrTheMixedNormalLooksAway) 
     }
 }
 
+TEST(Whitted, AmbientLightIsScaled) {
+  Scene scene;
+  Phong white;
+  white.ambient = {0.5, 0.25, 1};
+  addObject(scene, Square{}, {}, white);
+  scene.lights = {{AmbientLight{.color = {0.5, 1, 0.25}}, {}}, {AmbientLight{.color = Color(0.5)}, {}}};
+  EXPECT_EQ(trace(scene, kDown), (Color{0.5, 0.375, 0.75}));
+  EXPECT_EQ(trace(scene, kDown, {.ambientScale = 0.5}), (Color{0.25, 0.1875, 0.375}));
+  EXPECT_EQ(trace(scene, kDown, {.ambientScale = 0}), Color(0));
+}
+
 TEST(Whitted, VertexMaterialsAreMixed) {
   Scene scene;
   auto mesh = std::make_shared<MeshData>();
