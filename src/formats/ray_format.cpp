@@ -416,6 +416,8 @@ class Reader {
     if (!reason.empty()) return findings_.warn(call, std::string(reason));
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
+    if constexpr (requires { shape.excess(); })
+      if (const std::string excess = shape.excess(); !excess.empty()) findings_.warn(call, excess);
     add(call, std::move(name), shape, worldFromObject, material);
   }
 

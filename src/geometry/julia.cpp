@@ -69,12 +69,21 @@ Number functionSlope(const Polar& q, Real fb, Real ga, Real gb, const Number& ch
 
 }  // namespace
 
+std::string Julia::excess() const {
+  const int most = mostIterations();
+  if (iterations <= most || iterations > JuliaSet::kMostIterations) return {};
+  const std::string bound = std::to_string(most);
+  return "iterations of julia: numbers can follow a " +
+         std::string(names(iteration)[static_cast<std::size_t>(iteration)]) + " " + bound + " times, found " +
+         std::to_string(iterations) + "; " + bound + " are used";
+}
+
 std::shared_ptr<const TracedJulia> Julia::prepared() const {
   return std::make_shared<const TracedJulia>(*this);
 }
 
 TracedJulia::TracedJulia(const Julia& shape, const JuliaKernel& kernel) : shape_(shape) {
-  shape_.iterations = std::clamp(shape.iterations, 1, JuliaSet::kMostIterations);
+  shape_.iterations = std::clamp(shape.iterations, 1, shape.mostIterations());
   Number n = shape.normal;
   const Real l = size(n);
   n = l > 0 && std::isfinite(1 / l) ? n * (1 / l) : Number{0, 0, 0, 1};

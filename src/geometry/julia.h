@@ -12,6 +12,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "base/field.h"
@@ -51,6 +52,12 @@ struct Julia {
               "that follow each other as the trap's least distance grows"}};
   }
   bool operator==(const Julia&) const = default;
+
+  /// Repetitions that a number can follow. The last number goes with the power 2^n or 3^n of the first, which
+  /// is off by a unit in its last place or so: 3^36 makes e^17 of that, 3^38 more than any number holds.
+  int mostIterations() const { return iteration == Iteration::cube ? 36 : JuliaSet::kMostIterations; }
+  /// Of values that are each in their range, but too much together: what is used in their place.
+  std::string excess() const;
 
   std::shared_ptr<const TracedJulia> prepared() const;
 };

@@ -57,6 +57,7 @@ Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& mad
                                               return trace::bounds(mesh_->data());
                                             },
                                             [](const auto& form) { return formOf(form).bounds(); }});
+  approach_ = Approach(box);
   constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
   bounds_ = box.unbounded() ? kEverywhere : outFromIn * box;
 }
@@ -83,7 +84,7 @@ void Placed::crossings(const Ray& ray, VisitCrossing visit) const {
   match(shape_, Overloaded{[&](const Mesh&) { meshCrossings(*mesh_, in, visit); },
                            [&](const auto& form) {
                              const Real everywhere = kInfinity;
-                             visitCrossings(formOf(form), in, Range{-kInfinity, everywhere}, visit);
+                             visitCrossings(form, approach_, in, Range{-kInfinity, everywhere}, visit);
                            }});
 }
 
@@ -91,7 +92,7 @@ SurfacePoint Placed::surface(const Ray& ray, const Crossing& crossing) const {
   const Ray in = inner(ray);
   const SurfacePoint s =
       match(shape_, Overloaded{[&](const Mesh&) { return meshSurface(*mesh_, in, crossing); },
-                               [&](const auto& form) { return formOf(form).surface(in, crossing); }});
+                               [&](const auto& form) { return surfaceOf(form, approach_, in, crossing); }});
   return placement_.outOf(s);
 }
 

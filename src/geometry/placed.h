@@ -31,6 +31,7 @@ class Placed {
 
   TracedShape shape_;
   Placement placement_;
+  Approach approach_;
   Box3 bounds_;
   std::shared_ptr<const MeshTree> mesh_;
 };

@@ -75,7 +75,8 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
                                                found.triangle);
                        },
                        [&](const auto& shape) {
-                         return formOf(shape).surface(ray, {found.t, static_cast<std::int64_t>(found.part)});
+                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
+                         return surfaceOf(shape, instance.approach, ray, crossing);
                        }});
   return placement.moved() ? placement.outOf(s) : s;
 }
@@ -229,7 +230,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const auto add = [&](const Light& light) {
       world.lights_.push_back(light), world.lightSources_.push_back(i);
     };
-    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) { world.ambient_ += light.color; },
+    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
+                                              world.ambient_ += light.color * settings.ambientScale;
+                                            },
                                             [&](auto light) {
                                               if constexpr (requires { light.atMostOne; })
                                                 light.atMostOne = settings.limitAttenuation;
@@ -292,6 +295,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                      },
                      [&](const auto& shape) {
                        box = formOf(shape).bounds();
+                       instance.approach = Approach(box);
                        if constexpr (requires { formOf(shape).convex(); })
                          instance.convex = formOf(shape).convex();
                        if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {

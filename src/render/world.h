@@ -12,6 +12,7 @@
 
 #include "accel/bvh.h"
 #include "base/match.h"
+#include "geometry/approach.h"
 #include "geometry/csg_tree.h"
 #include "geometry/materials.h"
 #include "geometry/mesh_tree.h"
@@ -39,13 +40,13 @@ struct Found {
   bool before(const Found& other) const { return other.after(t, object, part); }
 };
 
-/// Which mesh triangles a query sees: all; those whose face turns to the ray; those whose normal for shading,
-/// interpolated at the hit, turns to it.
+/// Which mesh triangles a query sees: all; those whose face turns to the ray; those of which both the face
+/// and the normal for shading, interpolated at the hit, turn to it.
 enum class Faces { both, front, shadedFront };
 
 inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHit& met) {
   if (faces == Faces::both) return true;
-  if (faces == Faces::front || mesh.normals.empty()) return met.hit.front;
+  if (faces == Faces::front || mesh.normals.empty() || !met.hit.front) return met.hit.front;
   return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
 
@@ -114,6 +115,7 @@ class World {
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
     Placement placement;
+    Approach approach;
     Box3 bounds;
   };
 
@@ -180,7 +182,7 @@ void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Rea
   ++statistics.tests[instance.shape.index()];
   match(instance.shape, Overloaded{[](const Mesh&) {},
                                    [&](const auto& form) {
-                                     visitCrossings(formOf(form), ray, Range{0, tMost}, visit);
+                                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
                                    }});
 }
 

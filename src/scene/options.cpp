@@ -342,6 +342,15 @@ constexpr std::array kTable{
                                     .repeats = Repeats::world,
                                     .least = 0,
                                     .most = 1e6}),
+    row<&Settings::ambientScale>({.name = "ambient-scale",
+                                  .group = "Conventions",
+                                  .help =
+                                      "factor on all ambient light; 0.5 where a course lit the composer's "
+                                      "files by half",
+                                  .source = "the pictures of Texas A&M",
+                                  .repeats = Repeats::world,
+                                  .least = 0,
+                                  .most = 1e6}),
     row<&Settings::mirrorDefault>({.name = "mirror-default",
                                    .group = "Conventions",
                                    .help = "what reflects when a material gives specular but not reflective",
@@ -385,7 +394,7 @@ constexpr std::array kTable{
         {.name = "back-faces",
          .group = "Conventions",
          .help = "mesh triangles seen from behind: shown; hidden from camera and mirror rays, "
-                 "judged by the interpolated normal; hidden from all rays, by the face",
+                 "judged by the face and the interpolated normal; hidden from all rays, by the face",
          .source = "cull-all in 2001, cull-seen in Austin"}),
     row<&Settings::vertexNormals>(
         {.name = "vertex-normals",

@@ -61,6 +61,7 @@ struct Settings {
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;
   Real shininessScale = 1;
+  Real ambientScale = 1;
   MirrorDefault mirrorDefault = MirrorDefault::specular;
   DiffuseSides diffuseSides = DiffuseSides::front;
   bool limitAttenuation = true;

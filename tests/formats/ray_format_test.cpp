@@ -561,6 +561,8 @@ TEST(RayFormat, WarnsOfValuesOutOfRange) {
             "2:23: diffuse of material: expected 0 to 1, found 1.5 (4 times, first here)\n"
             "2:46: index of material: expected at least 0, found -1");
   EXPECT_EQ(phongOf(load(text).scene, 0).diffuse, Color(0, 1.5, 0));
+  EXPECT_EQ(warningsOf("julia { iteration = cube; iterations = 40; }"),
+            "2:1: iterations of julia: numbers can follow a cube 36 times, found 40; 36 are used");
 }
 
 // --- settings and dialects ----------------------------------------------------------------------------

@@ -73,6 +73,56 @@ TEST(Mandelbox, HasTheSymmetryOfACube) {
   }
 }
 
+/// Where the ball of radius 1 that it is to be is met, how it looks there, and whether it is met again.
+void expectABall(const Shape& plain, Random& random) {
+  const TracedShape shape = prepare(plain);
+  for (int i = 0; i < 50; ++i) {
+    const Ray ray = toCentre(random, 3);
+    const auto c = crossingsOf(shape, ray);
+    ASSERT_EQ(c.size(), 2u);
+    const SurfacePoint s = surfaceOf(shape, ray, c[0]);
+    EXPECT_NEAR(length(s.point), 1, 1e-8);
+    EXPECT_GT(dot(s.normal, s.point), 0.999999);
+    EXPECT_LT(maxComponent(s.error), 1e-11);
+    const Ray back = spawnRay(s, s.normal);
+    const Real room = length(back.origin - s.point);
+    int met = 0;
+    for (const Crossing& again : crossingsOf(shape, {back.origin, -s.normal}))
+      met += again.t > 0 && again.t <= 2.5 * room;
+    EXPECT_EQ(met, 1);
+  }
+}
+
+TEST(Julia, OfAConstantOfZeroIsABallHoweverOftenItIsRepeated) {
+  Random random(5);
+  for (const Iteration iteration : {Iteration::square, Iteration::cube})
+    for (int n = 30; n <= 50; ++n) {
+      SCOPED_TRACE(std::string(names(iteration)[static_cast<std::size_t>(iteration)]) + std::to_string(n));
+      Julia julia;
+      julia.constant = {}, julia.iteration = iteration, julia.iterations = n;
+      expectABall(julia, random);
+    }
+}
+
+TEST(Julia, SaysHowOftenACubeIsFollowed) {
+  Julia julia;
+  julia.iteration = Iteration::cube, julia.iterations = 36;
+  EXPECT_EQ(julia.excess(), "");
+  julia.iterations = 40;
+  EXPECT_EQ(julia.excess(), "iterations of julia: numbers can follow a cube 36 times, found 40; 36 are used");
+  julia.iteration = Iteration::square, julia.iterations = 50;
+  EXPECT_EQ(julia.excess(), "");
+}
+
+TEST(Mandelbulb, OfAConstantOfZeroIsABallHoweverOftenItIsRepeated) {
+  Random random(6);
+  for (const int power : {2, 8, 16}) {
+    SCOPED_TRACE(power);
+    expectABall(Mandelbulb{.power = power, .iterations = 30, .julia = true, .constant = {}, .materials = {}},
+                random);
+  }
+}
+
 TEST(Julia, FunctionsAreThoseOfComplexNumbers) {
   // In the plane of 1 and i quaternions are complex numbers. One step of the exponential: Re(exp(q)) < 4.
   Julia julia;

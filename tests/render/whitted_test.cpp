@@ -451,6 +451,35 @@ TEST(Whitted, BackFacesOfMeshes) {
   EXPECT_NEAR(trace(scene, under, {.backFaces = BackFaces::cullAll}).r, 1, 1e-15);
 }
 
+TEST(Whitted, BackFacesOfMeshesAreThoseOfWhichTheFaceOrTheMixedNormalLooksAway) {
+  Phong glow;
+  glow.emissive = Color(1);
+  for (const bool faceUp : {false, true})
+    for (const bool normalUp : {false, true}) {
+      Scene scene;
+      auto mesh = std::make_shared<MeshData>();
+      mesh->points = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+      mesh->triangles = {faceUp ? Triangle{0, 1, 2} : Triangle{0, 2, 1}};
+      const Vec3f normal{0.25f, 0, normalUp ? 1.0f : -1.0f};
+      mesh->normals = {normal, normal, normal};
+      addObject(scene, Mesh{mesh}, {}, glow);
+      EXPECT_EQ(trace(scene, kDown, {.backFaces = BackFaces::both}).r, 1);
+      EXPECT_EQ(trace(scene, kDown, {.backFaces = BackFaces::cullSeen}).r, faceUp && normalUp);
+      EXPECT_EQ(trace(scene, kDown, {.backFaces = BackFaces::cullAll}).r, faceUp);
+    }
+}
+
+TEST(Whitted, AmbientLightIsScaled) {
+  Scene scene;
+  Phong white;
+  white.ambient = {0.5, 0.25, 1};
+  addObject(scene, Square{}, {}, white);
+  scene.lights = {{AmbientLight{.color = {0.5, 1, 0.25}}, {}}, {AmbientLight{.color = Color(0.5)}, {}}};
+  EXPECT_EQ(trace(scene, kDown), (Color{0.5, 0.375, 0.75}));
+  EXPECT_EQ(trace(scene, kDown, {.ambientScale = 0.5}), (Color{0.25, 0.1875, 0.375}));
+  EXPECT_EQ(trace(scene, kDown, {.ambientScale = 0}), Color(0));
+}
+
 TEST(Whitted, VertexMaterialsAreMixed) {
   Scene scene;
   auto mesh = std::make_shared<MeshData>();

@@ -138,6 +138,71 @@ TEST(World, StretchedSpheresAreBallsOfTheMeanRadiusIfAsked) {
   EXPECT_EQ(world.bounds(), (Box3{{-2, -1, -3}, {4, 5, 6}}));  // the box is as it was
 }
 
+TEST(World, AFractalSeenFromTenThousandUnitsDoesNotShadowItself) {
+  // Whose constant is zero is a ball: a light behind the eye reaches all that is seen.
+  Random random(1);
+  Julia ball;
+  ball.constant = {}, ball.iterations = 30;
+  Scene scene;
+  addObject(scene, ball, {}, {});
+  const World world = build(scene);
+  int met = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 d = random.direction();
+    const Ray ray{random.inCube(0.7) - d * 1e4, d};
+    Statistics statistics;
+    const auto found = world.closest(ray, Faces::both, statistics);
+    if (!found) continue;
+    const SurfacePoint s = world.surface(ray, *found);
+    EXPECT_NEAR(length(s.point), 1, 1e-8);
+    EXPECT_GT(dot(s.normal, s.point), 0.999);
+    EXPECT_FALSE(world.closest(spawnRay(s, -d), Faces::both, statistics));
+    ++met;
+  }
+  EXPECT_GT(met, 500);
+}
+
+TEST(World, ASmallPartOfAWideSolidIsFoundAsIfItStoodAlone) {
+  Random random(1);
+  const Affine small = Affine::translation({1, 2, 3}) * Affine::scaling({1e-5, 1e-5, 1e-5});
+  Scene alone, wide;
+  addObject(alone, Supertoroid{}, small, {});
+  addObject(
+      wide,
+      Union{Operands({{"", Supertoroid{}, small, 0}, {"", Sphere{}, Affine::translation({9, 9, 9}), 0}})}, {},
+      {});
+  const World one = build(alone), all = build(wide);
+  const auto places = [](const World& world, const Ray& ray) {
+    std::vector<SurfacePoint> found;
+    Statistics statistics;
+    world.crossings(ray, 8, Faces::both, statistics,
+                    [&](const Found& f) { return found.push_back(world.surface(ray, f)), false; });
+    std::sort(found.begin(), found.end(), [&](const SurfacePoint& a, const SurfacePoint& b) {
+      return dot(a.point - b.point, ray.direction) < 0;
+    });
+    return found;
+  };
+  int met = 0, differ = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 d = random.direction();
+    const Ray ray{small * random.inCube(1.2) - d * 3, d};
+    const std::vector<SurfacePoint> a = places(one, ray), b = places(all, ray);
+    EXPECT_EQ(b.size() % 2, 0u);
+    if (a.size() != b.size()) {  // a ray that grazes it
+      ++differ;
+      continue;
+    }
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if (std::abs(dot(a[k].normal, d)) < 1e-3) continue;
+      EXPECT_LT(length(a[k].point - b[k].point), 1e-12);
+      EXPECT_LT(maxComponent(b[k].error), 1e-14);
+    }
+    met += !a.empty();
+  }
+  EXPECT_GT(met, 5000);
+  EXPECT_LE(differ, 2);
+}
+
 TEST(World, ObjectsWithoutEndAreMetBesideTheOthers) {
   Scene scene;
   addObject(scene, Sphere{}, {}, {});
