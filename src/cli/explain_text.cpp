@@ -76,7 +76,7 @@ class TreeText {
       shadow(node);
     else
       terms(node);
-    line("-> " + sentence(node, scene_));
+    line(printable("-> " + sentence(node, scene_)));
     line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
 
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -85,7 +85,7 @@ class TreeText {
     }
   }
 
-  void line(const std::string& words) { text_ += margin_ + printable(words, LineEnds::kept) + "\n"; }
+  void line(const std::string& words) { text_ += margin_ + words + "\n"; }
 
   void hit(const Hit& hit, const std::vector<MaterialShare>& materials) {
     const Object& object = scene_.objects[hit.object];
@@ -95,8 +95,8 @@ class TreeText {
     what += shape;
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     const bool mesh = std::holds_alternative<Mesh>(object.shape);
-    line(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
-         materialNames(scene_, materials) + ", at distance " + text(hit.t));
+    line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
+                   materialNames(scene_, materials) + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;
     std::string side = hit.leaving ? "leaving it" : "entering it";
     if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);
@@ -129,7 +129,7 @@ class TreeText {
   void light(const Term& term, const RayNode& node) {
     const LightTerm& light = *term.light;
     const bool away = isBlack(term.factor), always = term.ray < 0;
-    line("+ " + lightName(scene_, light.light) + " " + text(term.factor * term.value) +
+    line("+ " + printable(lightName(scene_, light.light)) + " " + text(term.factor * term.value) +
          (away     ? "; faces away, no shadow ray"
           : always ? "; the part that no shadow takes away"
                    : ""));
@@ -150,8 +150,8 @@ class TreeText {
   void shadow(const RayNode& node) {
     if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
     for (const Filter& filter : node.filters)
-      line("* " + text(filter.factor) + " through " + objectName(scene_, filter.object) + " at distance " +
-           text(filter.t));
+      line("* " + text(filter.factor) + " through " + printable(objectName(scene_, filter.object)) +
+           " at distance " + text(filter.t));
     line("= " + text(node.radiance) + " passes");
   }
 

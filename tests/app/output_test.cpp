@@ -157,6 +157,8 @@ TEST_F(Fragment, SparesInputs) {
 }
 
 TEST_F(Fragment, StaysTogetherWithItsPasses) {
+  write("elsewhere.exr", 2);
+  std::filesystem::rename(path("elsewhere.exr"), path("a.depth.exr"));  // the pass alone is whole
   settings_.passes = {Pass::depth};
   const auto makeBoth = [&](PictureFiles& files, int done) {
     const Color blank[] = {Color(0)};
@@ -164,8 +166,6 @@ TEST_F(Fragment, StaysTogetherWithItsPasses) {
     for (int i = 0; i < done; ++i) both.markDone(i);
     return files.write(both, settings_, kWords);
   };
-  write("elsewhere.exr", 2);
-  std::filesystem::rename(path("elsewhere.exr"), path("a.depth.exr"));  // the pass alone is whole
   PictureFiles files(path("a.png"), {});
   EXPECT_EQ(makeBoth(files, 1), path("a.partial.png"));
   EXPECT_TRUE(exists("a.partial.depth.exr"));

@@ -407,6 +407,40 @@ TEST_F(WorkspaceTest, WhatIsBeingSavedIsSavedWhenTheWindowCloses) {
   EXPECT_NE(readFile(path("saved.ray")).find("moon"), std::string::npos);
 }
 
+TEST_F(WorkspaceTest, WhatTheSceneIsMadeOfIsNotWrittenOver) {
+  writePicture(path("land.png"), Picture(4, 4));
+  const std::string land = readFile(path("land.png"));
+  write("land.ray", std::string(kScene) + "height_field { file = \"land.png\"; }");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("land.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  workspace.savePicture(path("land.png"));
+  EXPECT_FALSE(settled(workspace));
+  workspace.saveScene(path("land.ray"));  // its own file may be
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(readFile(path("land.png")), land);
+  EXPECT_FALSE(workspace.document.edited());
+}
+
+TEST_F(WorkspaceTest, AFragmentTakesNoWholePicturesPlace) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  waitFor(workspace.render);
+  workspace.savePicture(path("out.png"));
+  ASSERT_TRUE(settled(workspace));
+  const std::string whole = readFile(path("out.png"));
+  workspace.document.choose("width", "3000");
+  workspace.document.choose("spp", "100");
+  workspace.update();
+  workspace.render.stop();
+  waitFor(workspace.render);
+  workspace.savePicture(path("out.png"));
+  ASSERT_TRUE(settled(workspace));
+  if (workspace.render.session()->film().complete()) return;  // the render was quicker than this test
+  EXPECT_EQ(readFile(path("out.png")), whole);
+  EXPECT_TRUE(std::filesystem::exists(path("out.partial.png")));
+}
+
 TEST_F(WorkspaceTest, ASavedSceneIsWhatWasThereThenAndIsNotReadAgain) {
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray")));
