@@ -42,7 +42,7 @@ bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.tex
 
 }  // namespace
 
-void MaterialEdits::want(const Item& call, std::uint32_t has, const Material& material) {
+void MaterialEdits::want(const Item& call, std::uint32_t has, const Material& was, const Material& material) {
   const bool other = has >= wanted_.size() || !wanted_[has] || !(*wanted_[has] == material);
   const std::optional<Item> own = fieldOf(call.value(), Phong::kKeyword);
   if (own) {
@@ -52,8 +52,8 @@ void MaterialEdits::want(const Item& call, std::uint32_t has, const Material& ma
   const auto inForce = notes_.inForce.find(call.offset());
   if (inForce == notes_.inForce.end()) return;
   const NotedMaterial& base = inForce->second;
-  const bool stands =
-      base.block == NotedMaterial::kNoBlock ? static_cast<const Material&>(base) == material : !other;
+  // No block says what shapes start from, or the grey of a mesh from a file.
+  const bool stands = base.block == NotedMaterial::kNoBlock ? was == material : !other;
   if (!stands) additions_.insert_or_assign(call.offset(), Addition{call, material});
 }
 

@@ -19,8 +19,8 @@ class MaterialEdits {
   MaterialEdits(TextEdits& edits, const Notes& notes, std::vector<std::optional<Material>> wanted)
       : edits_(edits), notes_(notes), wanted_(std::move(wanted)) {}
 
-  /// The object of this call, which has the material of that index, is to have this one.
-  void want(const Item& call, std::uint32_t has, const Material& material);
+  /// The object of this call, which has the material `was` of that index, is to have this one.
+  void want(const Item& call, std::uint32_t has, const Material& was, const Material& material);
   /// That part of the text goes.
   void drop(std::size_t begin, std::size_t end) { dropped_.emplace_back(begin, end); }
   /// Changes the text. Then text() may be asked.

@@ -155,7 +155,7 @@ class Round {
       else
         edits_.addField(call.value(), "name = " + text);
     }
-    materials_.want(call, was.material, to_.materials.at(is.material));
+    materials_.want(call, was.material, from_.materials.at(was.material), to_.materials.at(is.material));
     const bool shaped = match(was.shape, [&]<class S>(const S& shape) {
       const S& other = *std::get_if<S>(&is.shape);
       changeFields(edits_, call.value(), shape, other);

@@ -369,10 +369,12 @@ Steps stepsOf(const Affine& m) {
   const Affine bare = sound ? m * Affine::scaling({1 / s.x, 1 / s.y, 1 / s.z}) : m;
   if (!sound || !isTurn(bare)) return {matrixStep(m)};
   const std::vector<Real> turn = axisAndAngle(bare);
+  // The axis whose first entry is above 0 comes first.
+  const Real first = std::copysign(1.0, turn[0] != 0 ? turn[0] : turn[1] != 0 ? turn[1] : turn[2]);
   for (int digits = 6; digits <= 17; ++digits) {
-    const auto near = [&](Real x) { return rounded(x, digits); };
+    const auto near = [&](Real x) { return rounded(x, digits) + 0.0; };  // no -0
     const Vec3 scale{near(s.x), near(s.y), near(s.z)};
-    for (const Real sign : {1.0, -1.0}) {  // of the largest entry of the axis
+    for (const Real sign : {first, -first}) {
       const Step rotate{
           Form::rotate,
           {near(sign * turn[0]), near(sign * turn[1]), near(sign * turn[2]), near(sign * turn[3])}};

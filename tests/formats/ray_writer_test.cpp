@@ -184,7 +184,7 @@ TEST(RayWriter, WritesASharedMaterialOnce) {
   const Scene scene = again(R"(SBT-raytracer 1.0
 material = { diffuse = (1, 0.5, 0); }
 sphere { } translate(0, 0, 1, box { })
-union { sphere { } box { material = { name = "material 1"; }; } })");
+union { sphere { } box { material = { name = "material 1"; diffuse = (0, 0, 1); }; } })");
   const std::string text = written(scene);
   EXPECT_EQ(text.find("(1, 0.5, 0)"), text.rfind("(1, 0.5, 0)")) << text;
   expectRoundTrip(scene, "shared material");
