@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "image/codec.h"
+#include "studio/landmarks.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -112,11 +113,28 @@ constexpr std::array kTable{
            always, nullptr},
 };
 
+constexpr const char *kHelpTitle = "Keys and mouse", *kAboutTitle = "About",
+                     *kLeavingTitle = "The scene was edited";
+
+bool modalIsOpen(const Studio& studio) {
+  return studio.dialog.isOpen() || ImGui::IsPopupOpen(kHelpTitle) || ImGui::IsPopupOpen(kAboutTitle) ||
+         ImGui::IsPopupOpen(kLeavingTitle);
+}
+
+/// A field that takes text undoes, copies and selects in it.
+bool belongsToText(const KeyPress& press) {
+  const bool edits = press.key > 0 && press.key < 128 &&
+                     std::string_view("ACVXYZ").find(static_cast<char>(press.key)) != std::string_view::npos;
+  return press.control ? edits && !press.alt : !press.alt;
+}
+
 void takeKeys(Studio& studio) {
-  const bool modal = studio.dialog.isOpen() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
-  if (modal) return;
+  if (modalIsOpen(studio)) return;
+  // Menus and lists take the plain keys; Dear ImGui closes them on Esc.
+  constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
   for (const KeyPress& press : studio.keys) {
-    if (ImGui::GetIO().WantTextInput && !press.control && !press.alt) continue;
+    if ((text && belongsToText(press)) || (popup && !press.control && !press.alt)) continue;
     for (const Action& action : kTable)
       if (action.key == press.key && action.control == press.control && action.shift == press.shift &&
           !press.alt && action.enabled(studio))
@@ -140,15 +158,15 @@ void closeOnEscape(const Studio& studio) {
 }
 
 void drawHelp(Studio& studio) {
-  if (studio.showHelp) ImGui::OpenPopup("Keys and mouse"), studio.showHelp = false;
+  if (studio.showHelp) ImGui::OpenPopup(kHelpTitle), studio.showHelp = false;
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 2);
+  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 3);
   ImGui::SetNextWindowSize({characters(96), std::min(rows, ImGui::GetMainViewport()->Size.y * 0.9f)},
                            ImGuiCond_Appearing);
   bool open = true;
-  if (!ImGui::BeginPopupModal("Keys and mouse", &open)) return;
+  if (!ImGui::BeginPopupModal(kHelpTitle, &open)) return;
   closeOnEscape(studio);
   if (ImGui::BeginTable("keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
     ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
@@ -170,17 +188,18 @@ void drawHelp(Studio& studio) {
            std::string(panel.help));
     line("wheel", "Zoom", "in the picture at the cursor; in the 3D view");
     line("drag", "Move", "the picture with the right or middle button");
-    line("Ctrl+click", "Type a number", "on any slider");
+    line("Ctrl+click", "Type a number", "on any slider; Enter takes it, Esc does not");
+    line("Tab, arrows", "Go to a control", "Enter or Space uses it, Esc goes back");
     ImGui::EndTable();
   }
   ImGui::EndPopup();
 }
 
 void drawAbout(Studio& studio) {
-  if (studio.showAbout) ImGui::OpenPopup("About"), studio.showAbout = false;
+  if (studio.showAbout) ImGui::OpenPopup(kAboutTitle), studio.showAbout = false;
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   bool open = true;
-  if (!ImGui::BeginPopupModal("About", &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
   closeOnEscape(studio);
   ImGui::TextUnformatted("Trace " TRACE_VERSION ", the ray tracer you can see inside");
   ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
@@ -188,12 +207,11 @@ void drawAbout(Studio& studio) {
 }
 
 void drawLeaving(Studio& studio) {
-  constexpr const char* kTitle = "The scene was edited";
   if (studio.leaving && studio.workspace.saving()) return;  // then there may be nothing to ask
   if (studio.leaving && !studio.workspace.document.edited()) return std::exchange(studio.leaving, nullptr)();
-  if (studio.leaving && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
   ImGui::TextUnformatted("What was changed is not in a file yet.");
   const ImVec2 size{characters(20), 0};
   const auto close = [&] {
@@ -232,6 +250,7 @@ void drawMenu(Studio& studio) {
   for (std::size_t i = 0; i < kTable.size();) {
     const char* menu = kTable[i].menu;
     const bool open = ImGui::BeginMenu(menu);
+    if (!open) landmark("menu " + std::string(menu));
     for (; i < kTable.size() && std::string_view(kTable[i].menu) == menu; ++i) {
       const Action& action = kTable[i];
       if (!open) continue;

@@ -77,7 +77,8 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, floa
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBackground);
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::InvisibleButton("bar", size);
   const bool tall = size.y > size.x;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())

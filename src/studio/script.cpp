@@ -182,8 +182,10 @@ constexpr std::array kTable{
             }},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
             [](Studio& s, const std::vector<std::string>& a) { return writeFile(a[0], state(s)), true; }},
-    Command{"await", "FILE", 1, 1, "until somebody has made the file",
-            [](Studio&, const std::vector<std::string>& a) { return std::filesystem::exists(a[0]); }},
+    Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen",
+            [](Studio& s, const std::vector<std::string>& a) {
+              return std::filesystem::exists(a[0]) && s.window.quiet();
+            }},
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ using Lines = std::vector<DrawLine>;
 
 constexpr float kNear = 6;  // pixels from a ray that count as on it
 constexpr std::size_t kMostNormals = 4000;
-constexpr float kHidden = 0.35f;  // opacity of what lies behind surfaces
+constexpr float kHidden = 0.6f;  // opacity of what lies behind surfaces
 
 /// Collects lines, given in world space.
 class Pen {

@@ -42,6 +42,7 @@ struct Window::State {
 namespace {
 
 constexpr int kSettlingFrames = 3;
+constexpr unsigned kPrivateUse = 0xE000;
 constexpr double kDoubleClick = 0.3;  // seconds between its clicks, at most
 constexpr double kLeastFrame = 1e-4;  // seconds: Dear ImGui's clock must not stand still
 
@@ -170,6 +171,8 @@ void Window::hand(const InputEvent& event) {
     case Kind::character: io.AddInputCharacter(event.character); break;
     case Kind::key:
       if (event.character) io.AddInputCharacter(event.character);
+      // A key with Alt is no tap on Alt, which would go to the menu; a character that no field takes says so.
+      if (event.alt && event.down && !event.modifier) io.AddInputCharacter(kPrivateUse);
       // Dear ImGui needs no key that only writes.
       if (!event.down || event.modifier || event.isCommand())
         ImGui_ImplGlfw_KeyCallback(state.window, event.code, 0, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
@@ -213,6 +216,7 @@ void Window::endFrame() {
   glfwSwapBuffers(state_->window);
 }
 
+bool Window::quiet() const { return state_->queue.empty() && state_->framesDue == 0; }
 bool Window::closing() const { return glfwWindowShouldClose(state_->window); }
 void Window::keepOpen() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
 void Window::hide() { glfwHideWindow(state_->window); }

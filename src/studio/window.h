@@ -32,6 +32,8 @@ class Window {
   /// Hands the frame its share of what happened: the rest is for the next frames.
   void beginFrame();
   void endFrame();
+  /// Nothing that happened waits for a frame.
+  bool quiet() const;
   bool closing() const;
   void keepOpen();  ///< takes back the wish to close
   void hide();

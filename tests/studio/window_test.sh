@@ -3,19 +3,8 @@
 # at what came out. Exits 77 where that cannot be tried. Usage: window_test.sh RAY_STUDIO CHECKOUT
 set -euo pipefail
 studio="$1" root="$2"
-skip() { echo "SKIPPED: $*"; exit 77; }
-[[ -x "$studio" ]] || skip "ray-studio was not built; ./dev studio installs what it needs"
-command -v Xvfb >/dev/null || skip "there is no Xvfb; ./dev setup all installs it"
-
-folder="$(mktemp -d)"
-server=''
-trap '[[ -z "$server" ]] || kill "$server" 2>/dev/null || true; rm -rf -- "$folder"' EXIT
-fail() { echo "FAILED: $*"; cat "$folder/log" 2>/dev/null || true; exit 1; }
-
-cp -- "$root/scenes/shapes.ray" "$folder/scene.ray"
-cd -- "$folder"
-export XDG_CONFIG_HOME="$folder/config" LIBGL_ALWAYS_SOFTWARE=1
-unset WAYLAND_DISPLAY
+source "$(dirname -- "${BASH_SOURCE[0]}")/display.sh"
+cp -- "$root/scenes/shapes.ray" scene.ray
 
 # Without a display: a clear error and the exit code for input and output.
 code=0
@@ -23,12 +12,7 @@ env -u DISPLAY "$studio" scene.ray >log 2>&1 || code=$?
 [[ $code == 1 ]] || fail "without a display it exits with $code, not 1"
 grep -q 'display' log || fail "without a display it does not say so"
 
-mkfifo display
-# -noreset: without it the server starts anew when the last window closes, and refuses the next one meanwhile.
-Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
-server=$!
-read -r -t 60 number <display || skip "Xvfb does not start"
-export DISPLAY=":$number"
+openDisplay
 
 cat >script <<'END'
 wait
@@ -64,6 +48,51 @@ code=0
 "$studio" --script script >log 2>&1 || code=$?
 [[ $code == 1 ]] || fail "a script that fails ends with exit code $code"
 grep -q 'script:1' log || fail "a script that fails does not name its line"
+
+# The view in space shows the same whatever the order of the objects: what is nearer hides, or shows through.
+head='SBT-raytracer 1.0
+camera { position = (0, 0, 8); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }'
+objects=(
+  'translate(-1.5, 0, 0, sphere { material = { diffuse = (0.9, 0.1, 0.1) } })'
+  'translate(-1.5, 0, 0, scale(0.5, sphere { material = { diffuse = (0.1, 0.1, 0.9) } }))'
+  'translate(1.5, 0, 0, sphere { material = { diffuse = (0.1, 0.6, 0.1); transmissive = (0.5, 0.9, 0.5) } })'
+  'translate(1.5, 0, 0, scale(0.6, box { material = { diffuse = (0.6, 0.1, 0.1); transmissive = (0.9, 0.5, 0.5) } }))'
+  'translate(0, -1.5, 0, scale(6, 0.1, 6, box { material = { diffuse = (0.6, 0.6, 0.1); transmissive = (0.9, 0.9, 0.5) } }))')
+{ echo "$head"; printf '%s\n' "${objects[@]}"; } >forward.ray
+{ echo "$head"; printf '%s\n' "${objects[@]}" | tac; } >backward.ray
+for scene in forward backward; do
+  printf '%s\n' wait 'set width 64' wait "screenshot $scene.png space" >script
+  "$studio" $scene.ray --script script >log 2>&1 || fail "the view in space of $scene.ray cannot be shown"
+done
+(($(stat -c %s forward.png) > 3000)) || fail "the view in space shows almost nothing"
+cmp forward.png backward.png || fail "the view in space depends on the order of the objects in the file"
+
+# Frames are drawn when something changed, and the view in space only when it did itself.
+cat >script <<'END'
+wait
+set width 64
+wait
+pixel 20 20
+rays
+state before
+panel Scene
+panel Controls
+select object 1
+select camera 0
+state after
+await go
+state idle
+END
+{ sleep 8; touch go; } &
+"$studio" scene.ray --script script >log 2>&1 || fail "the script of idle frames failed"
+count() { grep "^$2 " "$1" | cut -d' ' -f2; }
+(($(count after frames) > $(count before frames) + 8)) || fail "frames are not counted"
+(($(count after space-drawn) <= $(count before space-drawn) + 3)) ||
+  fail "the view in space is drawn in every frame"
+(($(count after space-drawn) > $(count before space-drawn))) ||
+  fail "the view in space does not show what is selected"
+(($(count idle frames) <= $(count after frames) + 12)) || fail "frames are drawn while nothing happens"
 
 # Files dropped onto the window; from a bad sample to its rays, and through them one by one; a background; themes.
 cat >bad.ray <<'END'

@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# Drives the studio's window with a real mouse and keyboard: what is clicked, typed and pressed, also when the
+# window is too slow to see each event by itself. Exits 77 where that cannot be tried.
+# Usage: input_test.sh RAY_STUDIO
+set -euo pipefail
+studio="$1"
+source "$(dirname -- "${BASH_SOURCE[0]}")/display.sh"
+command -v xdotool >/dev/null || skip "there is no xdotool; ./dev setup all installs it"
+openDisplay
+
+cat >scene.ray <<'SCENE'
+SBT-raytracer 1.0
+camera { position = (0, 0, 8); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }
+sphere { name = "ball"; material = { diffuse = (0.9, 0.1, 0.1) } }
+SCENE
+sed 's/0.9/0.5/' scene.ray >other.ray
+
+# The script writes the window's state into 0, 1, 2 ... and goes on when somebody has made go-0, go-1 ...
+steps=0
+step() { printf '%s\n' "$@" "state $steps" "await go-$steps" >>script; steps=$((steps + 1)); }
+step wait 'set width 100' wait 'pixel 50 50' rays pin rays 'panel Scene' 'select object 0' # 0
+step                                       # 1: a number was typed into "turn", not yet finished
+step                                       # 2: it was
+step                                       # 3: another was taken back with Esc
+step 'panel Controls' 'set depth 3'        # 4: the controls
+step                                       # 5: depth was reset with x
+step                                       # 6: the region was typed
+step                                       # 7: a menu is open
+step                                       # 8: Ctrl+Z while it was open
+step                                       # 9: Esc closed it
+step                                       # 10: options are looked for
+step 'set width 200' wait rays             # 11: the pixel keeps its place
+step 'open other.ray' wait rays            # 12: pinned rays went
+"$studio" scene.ray --script script >log 2>&1 &
+program=$!
+
+now=0
+# Waits for the state `now`, then sees to it that the next one is written after what follows.
+await() {
+  for ((i = 0; i < 1200; ++i)); do
+    [[ ! -s "$1" ]] || return 0
+    kill -0 $program 2>/dev/null || fail "the studio ended before state $1"
+    sleep 0.05
+  done
+  fail "the studio never wrote state $1"
+}
+next() { sleep 0.3; touch "go-$now"; now=$((now + 1)); await "$now"; sleep 0.1; }
+line() { grep -- "^$1 " "$now" | cut -d' ' -f"$(($(wc -w <<<"$1") + 1))-" || true; }
+is() { [[ "$(line "$1")" == "$2" ]] || fail "step $now: $1 is \"$(line "$1")\", expected \"$2\": $3"; }
+goTo() {
+  local at
+  at="$(grep -- "^at [0-9-]* [0-9-]* $*\$" "$now" | cut -d' ' -f2,3)"
+  [[ -n "$at" ]] || fail "step $now: the window does not show \"$*\""
+  # shellcheck disable=SC2086
+  xdotool mousemove $at
+}
+# All of it arrives at once, as if the last frame had taken that long.
+slowly() { kill -STOP $program; "$@"; kill -CONT $program; }
+await 0
+
+# A double click and a number, all within one frame: typed once, applied once, and only on Enter.
+is pinned yes "the rays were pinned"
+doubleClickAndType() { xdotool click --repeat 2 --delay 20 1; sleep 0.1; xdotool type --delay 5 "$1"; }
+goTo field turn number 2
+slowly doubleClickAndType 90
+next
+is undo width "a number that is being typed does not count yet"
+xdotool key Return
+next
+is undo 'turn ball' "Enter makes it count"
+goTo field move number 0
+slowly doubleClickAndType 7
+xdotool key Escape
+next
+is undo 'turn ball' "Esc takes it back"
+next
+
+# Options: x resets; a region; what is typed replaces all of a field after Ctrl+A, however slow the window is.
+is 'chosen depth' 3 "the script sets it"
+goTo reset depth
+xdotool click 1
+next
+is 'chosen depth' 5 "x goes back to what the file says"
+goTo option region
+typeRegion() { xdotool click 1; xdotool type --delay 5 '9 9'; xdotool key ctrl+a; xdotool type --delay 5 '1, 2, 30 40'; }
+slowly typeRegion
+xdotool key Return
+next
+is 'chosen region' 1,2,30,40 "it was typed, in place of something else"
+goTo menu View
+xdotool click 1
+next
+is popup open "a click opens a menu"
+xdotool key ctrl+z
+next
+is 'chosen region' 0,0,0,0 "Ctrl+Z works while a menu is open"
+xdotool key Escape
+next
+is popup none "Esc closes a menu"
+goTo find an option
+xdotool click 1
+xdotool type --delay 5 ANTIALIAS
+xdotool key Return
+next
+[[ -n "$(grep ' option spp$' "$now")" ]] || fail "spp is not found as ANTIALIAS"
+[[ -z "$(grep ' option width$' "$now")" ]] || fail "width is found as ANTIALIAS"
+next
+is pixel '101 101' "the chosen pixel stays where it is in the picture"
+is traced '101 101' "its rays are shown"
+next
+is pinned no "another scene was opened"
+is pixel '' "another scene was opened"
+touch "go-$now"
+wait $program || fail "the script failed"
+program=''
+echo "double clicks, typed numbers, keys in menus: all came through"
