@@ -6,6 +6,7 @@
 #include <new>
 
 #include "app/session.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "image/codec.h"
@@ -51,6 +52,8 @@ std::vector<fs::path> filesIn(const std::string& folder, bool (*wanted)(const fs
 std::string stemOf(const fs::path& file) { return fs::path(file).replace_extension().generic_string(); }
 
 LoadedPicture rendered(const std::string& scene, const GradeTask& task) {
+  Budget budget(budgetOfThread.budget);  // the scene's own time limit counts from here
+  const BudgetScope scope(&budget);
   Session session;
   session.open(scene, task.choices, task.strict);
   session.build();
@@ -105,6 +108,7 @@ void compareOrNote(GradedPair& pair, const GradeTask& task) {
   try {
     compareInto(pair, task);
   } catch (const Error& error) {
+    lookAtBudget();  // if the time of all is over, this pair is not at fault
     pair.verdict = Verdict::unreadable;
     pair.problem = error.what();
   } catch (const std::bad_alloc&) {
@@ -157,10 +161,13 @@ Grades grade(const GradeTask& task) {
       if (!used.contains(file.generic_string())) grades.extra.push_back(file.generic_string());
 
   Job job;
+  Work work("comparing pictures", static_cast<std::int64_t>(grades.pairs.size()));
   const int threads = resolve({task.choices}).threads;
-  parallelChunks(
-      static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
-      [&](std::int64_t i, int) { compareOrNote(grades.pairs[static_cast<std::size_t>(i)], task); });
+  parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
+                 [&](std::int64_t i, int) {
+                   work.reached(job.done);
+                   compareOrNote(grades.pairs[static_cast<std::size_t>(i)], task);
+                 });
   std::sort(grades.pairs.begin(), grades.pairs.end(), worse);
   grades.passed = static_cast<std::size_t>(std::count_if(grades.pairs.begin(), grades.pairs.end(),
                                                          [](const auto& p) { return passes(p.verdict); }));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
 #include "render/pixel.h"
 
 namespace trace {
@@ -44,17 +45,21 @@ Settings sparse(const Settings& settings) {
 template <class Visit>
 void forEachTree(const Settings& settings, const World& world, Visit&& visit) {
   const Size size{settings.width, settings.height};
-  for (int y = 0; y < size.height; ++y)
+  Work work("surveying the picture", size.height);
+  for (int y = 0; y < size.height; ++y) {
+    work.reached(y);
     for (int x = 0; x < size.width; ++x) {
       RayTree tree;
       try {
         PixelTracer(world, settings, size, &tree).sample(x, y, 0);
       } catch (const Error&) {
+        lookAtBudget();
         continue;
       }
       weigh(tree, 1);
       visit(tree);
     }
+  }
 }
 
 bool counts(const RayNode& node) { return maxComponent(node.weight * node.through) >= kCounts; }
