@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/session.h"
 #include "base/budget.h"
@@ -80,6 +81,13 @@ int runCommand(const Command& command, const std::vector<std::string>& words) {
     console.error(outOfMemory(budget.brokenOff()));
     why = "out of memory";
     code = static_cast<int>(Fault::limit);
+  } catch (const std::system_error& error) {
+    const bool noThread = error.code() == std::errc::resource_unavailable_try_again;
+    const Fault fault = noThread ? Fault::limit : Fault::io;
+    liftMemoryLimit();
+    why = noThread ? "the system starts no more threads" : error.what();
+    console.error(Error(fault, why, noThread ? "a thread needs memory for its stack; -t 1 takes one" : ""));
+    code = static_cast<int>(fault);
   } catch (const std::exception& error) {
     why = error.what();
     console.error(Error(Fault::io, why));
