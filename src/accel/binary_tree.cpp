@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "base/budget.h"
 #include "base/parallel.h"
 
 namespace trace {
@@ -240,6 +241,7 @@ void BinaryTree::few(std::vector<Branch>& tree, std::uint32_t index, std::uint32
 /// Builds tree[index] and what is below of the items at begin, ... in the orders.
 void BinaryTree::fewBranch(std::vector<Branch>& tree, std::uint32_t index, Few& few, std::uint32_t begin,
                            std::uint32_t count, const Bounds& box, std::uint32_t first) {
+  checkBudget();
   Split split;
   if (count > 1) {
     std::array<Slices, kFew> slices;

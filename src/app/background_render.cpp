@@ -183,8 +183,8 @@ void BackgroundRender::run(const Request& request) {
     state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     state_.fraction = session->job().fraction();
     state_.phase = result.end == End::finished ? Phase::finished
-                   : result.end == End::failed ? Phase::failed
-                                               : Phase::stopped;
+                   : result.failure.empty()    ? Phase::stopped
+                                               : Phase::failed;
     result_ = std::move(result);
   }
 }

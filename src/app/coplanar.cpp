@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/budget.h"
 #include "base/match.h"
 #include "math/transform.h"
 
@@ -48,6 +49,7 @@ class Faces {
  private:
   void add(std::uint32_t number, const Object& object) {
     const auto face = [&](std::vector<Vec3> corners, bool sheet, Real precision) {
+      checkBudget();
       if (faces_.size() >= kMostFlatFaces) return;
       Face f{.object = number, .corners = std::move(corners), .normal = {}, .sheet = sheet};
       Real largest = 0;
@@ -239,6 +241,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
                 [](const Face& a, const Face& b) { return a.low.x < b.low.x; });
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = i + 1; k < end && faces[k].low.x <= faces[i].high.x; ++k) {
+          checkBudget();
           const Face &a = faces[i], &b = faces[k];
           if (++tests > kMostOverlapTests) return pairs;
           if (a.object == b.object || a.low.y > b.high.y || b.low.y > a.high.y) continue;

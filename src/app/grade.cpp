@@ -8,6 +8,7 @@
 
 #include "app/grade_files.h"
 #include "app/session.h"
+#include "base/budget.h"
 #include "base/parallel.h"
 #include "image/codec.h"
 
@@ -38,6 +39,8 @@ InputFiles filesOf(const GradeTask& task, const Grades& grades) {
 }
 
 LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
+  Budget budget(budgetOfThread.budget);  // the scene's own time limit counts from here
+  const BudgetScope scope(&budget);
   Session session;
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
@@ -94,6 +97,7 @@ void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) 
   try {
     compareInto(pair, task, inputs);
   } catch (const Error& error) {
+    lookAtBudget();  // if the time of all is over, this pair is not at fault
     pair.verdict = Verdict::unreadable;
     pair.problem = error.what();
   } catch (const std::bad_alloc&) {
@@ -189,9 +193,11 @@ Grades grade(const GradeTask& task) {
 
   Job job;
   std::vector<InputFiles> inputs(grades.pairs.size());
+  Work work("comparing pictures", static_cast<std::int64_t>(grades.pairs.size()));
   const int threads = resolve({task.choices}).threads;
   parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
                  [&](std::int64_t i, int) {
+                   work.reached(job.done);
                    const auto index = static_cast<std::size_t>(i);
                    compareOrNote(grades.pairs[index], task, inputs[index]);
                  });

@@ -6,6 +6,7 @@
 
 #include "app/coplanar.h"
 #include "app/lint_checks.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "geometry/csg_tree.h"
@@ -308,7 +309,11 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
   std::vector<LintFinding> findings;
   for (const Message& message : warnings)
     if (!isOfArea(message)) findings.push_back({"reading", message});
-  for (const LintCheck& check : lintChecks()) check.run(s, findings);
+  Work work("checking", static_cast<std::int64_t>(lintChecks().size()));
+  for (const LintCheck& check : lintChecks()) {
+    check.run(s, findings);
+    work.reached(&check - lintChecks().data() + 1);
+  }
   return findings;
 }
 

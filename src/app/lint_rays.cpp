@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/budget.h"
 #include "image/tone.h"
 #include "render/pixel.h"
 
@@ -48,17 +49,21 @@ Settings sparse(const Settings& settings) {
 template <class Visit>
 void forEachTree(const Settings& settings, const World& world, Visit&& visit) {
   const Size size{settings.width, settings.height};
-  for (int y = 0; y < size.height; ++y)
+  Work work("surveying the picture", size.height);
+  for (int y = 0; y < size.height; ++y) {
+    work.reached(y);
     for (int x = 0; x < size.width; ++x) {
       RayTree tree;
       try {
         PixelTracer(world, settings, size, &tree).sample(x, y, 0);
       } catch (const Error&) {
+        lookAtBudget();
         continue;
       }
       weigh(tree, 1);
       visit(tree, static_cast<std::size_t>(y * size.width + x));
     }
+  }
 }
 
 bool counts(const RayNode& node) { return maxComponent(node.weight * node.through) >= kCounts; }

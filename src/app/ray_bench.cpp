@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 
 #include "app/session.h"
+#include "base/budget.h"
 #include "base/match.h"
 #include "render/pixel.h"
 #include "render/render.h"
@@ -46,6 +48,7 @@ std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool
 RayBench::Kind measure(const World& world, std::string_view name, const std::vector<Query>& queries,
                        bool anyHit, int passes) {
   constexpr double kLeastSeconds = 0.1;  // of a pass, which repeats the queries if they are few
+  const Work work("measuring");
   RayBench::Kind kind{.name = name, .rays = queries.size()};
   Statistics statistics;
   kind.hits = answer(world, queries, anyHit, statistics);  // also fills the caches
@@ -88,7 +91,9 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   std::vector<Query> primary, bounce, shadow;
   primary.reserve(most), bounce.reserve(most), shadow.reserve(most * scene.lights.size());
   Statistics statistics;
-  for (int y = 0; y < size.height; ++y)
+  std::optional<Work> work(std::in_place, "making the rays", size.height);
+  for (int y = 0; y < size.height; ++y) {
+    work->reached(y);
     for (int x = 0; x < size.width; ++x) {
       const Ray ray = pixels.cameraRay(x, y, 0);
       primary.push_back({ray});
@@ -103,6 +108,8 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
           shadow.push_back({hit.leave(arriving->toLight), arriving->distance});
       }
     }
+  }
+  work.reset();
   const auto add = [&](std::string_view name, const std::vector<Query>& queries, bool anyHit) {
     if (!queries.empty()) bench.kinds.push_back(measure(world, name, queries, anyHit, passes));
   };

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "base/budget.h"
 #include "base/file.h"
 #include "render/passes.h"
 #include "scene/picture_size.h"
@@ -48,22 +49,26 @@ std::uint64_t machineMemory() {
 #endif
 }
 
+std::uint64_t allowedMemory(const Settings& settings) {
+  return settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20 : machineMemory() / 2;
+}
+
 void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
                  const Settings& settings) {
   const std::uint64_t needed =
       static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) * bytesPerPixel;
-  const std::uint64_t allowed =
-      settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20 : machineMemory();
+  const std::uint64_t allowed = allowedMemory(settings);
   if (needed > allowed)
-    throw Error(
-        Fault::limit,
-        what + " of " + std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels needs " +
-            std::to_string(needed >> 20) + " MiB of memory; allowed are " + std::to_string(allowed >> 20),
-        "choose a smaller --width" + std::string(settings.maxMemory > 0 ? ", or a larger --max-memory" : ""));
+    throw Error(Fault::limit,
+                what + " of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                    " pixels needs " + std::to_string(needed >> 20) + " MiB of memory; allowed are " +
+                    std::to_string(allowed >> 20),
+                "choose a smaller --width, or a larger --max-memory");
 }
 
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
   const Stopwatch watch;
+  const Work work("reading the scene");
   strict_ = strict;
   messages_ = {};
   const std::string bytes = readFile(file);
@@ -77,6 +82,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (settings_.time != time) readAt(settings_.time);  // the file chooses the moment
   fingerprint_ = scene_.inputs.fingerprint();
   messages_.throwIfFailed(strict_);
+  if (budgetOfThread.budget) budgetOfThread.budget->limitTime(settings_.timeLimit);  // also the file's own
   phases_ = {watch.stop("read")};
 }
 
@@ -104,6 +110,7 @@ void Session::build(const Session* before) {
 
 RenderResult Session::render() {
   const Stopwatch watch;
+  if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
   RenderResult result = trace::render(*world_, settings_, *film_, job_);
   phases_.push_back(watch.stop("trace"));
   return result;
@@ -117,6 +124,7 @@ Metadata Session::metadata() const {
 
 std::string Session::save(PictureFiles& files) {
   const Stopwatch watch;
+  const BudgetScope unlimited(nullptr);  // what is done is kept, however late it is
   std::string written = files.write(*film_, settings_, metadata());
   phases_.push_back(watch.stop("write"));
   return written;

@@ -82,6 +82,9 @@ class Session {
 /// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.
 std::uint64_t machineMemory();
 
+/// Bytes of memory that a scene may take: what --max-memory says, or half of what the machine has.
+std::uint64_t allowedMemory(const Settings& settings);
+
 /// Throws Error(Fault::limit) if `what`, such as "a picture", of this size needs more memory than allowed.
 void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
                  const Settings& settings);

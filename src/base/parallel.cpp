@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/budget.h"
+
 namespace trace {
 
 int hardwareThreads() { return std::max(1u, std::thread::hardware_concurrency()); }
@@ -19,7 +21,9 @@ void parallelChunks(std::int64_t chunks, int threads, Job& job,
   std::atomic<std::int64_t> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
+  const BudgetOfThread budget = budgetOfThread;
   const auto pull = [&](int worker) {
+    const BudgetScope scope(budget);
     try {
       while (!job.cancel) {
         const std::int64_t chunk = next.fetch_add(1);

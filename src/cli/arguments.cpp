@@ -66,8 +66,9 @@ class Parser {
     app_.allow_extras();
     for (const Flag& flag : flags())
       if (knows(command, flag)) add(flag);
+    for (const Option& option : options())
+      if (takesOption(command, option)) add(option);
     if (!takesOptions(command)) return;
-    for (const Option& option : options()) add(option);
     for (const ShortFlag& flag : shortFlags())
       if (!flag.value.empty())
         addSwitch("-" + std::string(1, flag.letter), std::string(flag.option), std::string(flag.value));

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
+#include "app/session.h"
+#include "base/budget.h"
 #include "base/file.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "cli/help.h"
+#include "cli/memory_limit.h"
+#include "cli/overseer.h"
 
 namespace trace::cli {
 namespace {
@@ -48,9 +55,22 @@ std::string whyNothing(const Error& error) {
   return "it failed";
 }
 
+/// Within the limits of memory and time that the command line gives.
+int runLimited(const Command& command, const Arguments& arguments, const Console& console, Budget& budget) {
+  if (command.run == gui) return command.run(arguments, console);  // has no end of its own
+  const Settings given = resolve({arguments.choices});
+  limitMemory(allowedMemory(given), given.threads > 0 ? given.threads : hardwareThreads());
+  budget.limitTime(given.timeLimit);
+  const BudgetScope scope(&budget);
+  const Overseer overseer(budget, console, arguments.progress);
+  return command.run(arguments, console);
+}
+
 /// Runs the row, and turns everything that can go wrong into messages and an exit code. `named`: the command
 /// was typed.
 int runCommand(const Command& command, const std::vector<std::string>& words, bool named) {
+  endWithMessage();
+  Budget budget;
   Console console;
   std::string why;
   int code = kFailed;
@@ -59,17 +79,30 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     console = Console(arguments.logLevel, arguments.quiet);
     if (arguments.help) return printResult(page(named ? &command : nullptr, arguments.helpAll)), kDone;
     if (arguments.version) return printResult("Trace " TRACE_VERSION "\n"), kDone;
-    return command.run(arguments, console);
+    return runLimited(command, arguments, console, budget);
   } catch (const Error& error) {
+    liftMemoryLimit();
     console.error(error);
     why = whyNothing(error);
     code = static_cast<int>(error.fault());
   } catch (const ReaderGone&) {
     return kReaderGone;
   } catch (const std::bad_alloc&) {
-    console.error(Error(Fault::limit, "out of memory", "choose a smaller --width or a simpler scene"));
+    liftMemoryLimit();
+    console.error(outOfMemory(budget.brokenOff()));
     why = "out of memory";
     code = static_cast<int>(Fault::limit);
+  } catch (const std::length_error&) {  // more of something than addresses
+    console.error(outOfMemory(budget.brokenOff()));
+    why = "out of memory";
+    code = static_cast<int>(Fault::limit);
+  } catch (const std::system_error& error) {
+    const bool noThread = error.code() == std::errc::resource_unavailable_try_again;
+    const Fault fault = noThread ? Fault::limit : Fault::io;
+    liftMemoryLimit();
+    why = noThread ? "the system starts no more threads" : error.what();
+    console.error(Error(fault, why, noThread ? "a thread needs memory for its stack; -t 1 takes one" : ""));
+    code = static_cast<int>(fault);
   } catch (const std::exception& error) {
     why = error.what();
     console.error(Error(Fault::io, why));
@@ -87,6 +120,11 @@ int runAlone() {
 }
 
 }  // namespace
+
+Error outOfMemory(const std::string& doing) {
+  return {Fault::limit, "out of memory" + (doing.empty() ? "" : " while " + doing),
+          "--max-memory N allows N MiB; without it half of what the machine has is allowed"};
+}
 
 void checkDistinct(const std::string& read, const std::string& written) {
   if (!written.empty() && sameFile(read, written))

@@ -30,6 +30,9 @@ std::span<const Command> commands();
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
+/// That memory does not suffice; `doing`, if any, follows on "while".
+Error outOfMemory(const std::string& doing);
+
 /// Throws Error(Fault::usage) if both are names of one file: what is read is not written over. The files that
 /// a scene is made of are known once it is read: checkIsNoInput().
 void checkDistinct(const std::string& read, const std::string& written);

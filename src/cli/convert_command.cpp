@@ -1,10 +1,12 @@
 // ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "app/output.h"
 #include "app/remaining_time.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/match.h"
 #include "cli/commands.h"
@@ -70,10 +72,12 @@ int convert(const Arguments& arguments, const Console& console) {
   const SceneFormat& format = writableFormatFor(out);
   checkDistinct(in, out);
   checkWritable(out);
+  std::optional<Work> reading(std::in_place, "reading the scene");
   const std::string bytes = readFile(in);
   Messages messages;
   Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
                                    : readScene(in, bytes, messages);
+  reading.reset();
   change(scene, conversion, console);
   const std::vector<NamedBytes> files =
       format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);

@@ -5,13 +5,16 @@
 // limits[] of {metric, limit, met}, difference (name of the picture written, or null).
 #include <array>
 #include <cmath>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "app/difference.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/memory_limit.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 
@@ -136,6 +139,9 @@ int diff(const Arguments& arguments, const Console& console) {
     finding = findDifference(arguments, console);
   } catch (const Error& error) {
     console.error(error);
+  } catch (const std::bad_alloc&) {
+    liftMemoryLimit();
+    console.error(outOfMemory(doingNow()));
   } catch (const std::exception& error) {
     console.error(Error(Fault::limit, error.what()));
   }

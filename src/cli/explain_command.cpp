@@ -8,11 +8,13 @@
 #include "app/ray_drawing.h"
 #include "app/ray_segments.h"
 #include "app/session.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/explain_json.h"
 #include "cli/explain_text.h"
+#include "cli/render_steps.h"
 #include "cli/terminal.h"
 #include "image/codec.h"
 
@@ -77,13 +79,14 @@ int explain(const Arguments& arguments, const Console& console) {
   std::vector<Choice> choices = arguments.choices;
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
-  choices.push_back({"time-limit", "0", {}});  // the one pixel is rendered whole
   session.open(arguments.files[0], choices, arguments.strict);
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   console.warnings(session.messages().all());
+  const Work work("explaining the pixel");
   const Explanation explanation = session.explain(x, y, sample);
-  session.render();
+  if (const RenderResult result = session.render(); result.end != End::finished)  // not the whole pixel
+    throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
   const Size size = session.size();
   const PixelFacts facts{session.scene(), explanation, size.width, size.height, session.picture().at(x, y)};
   const int code = facts.agrees() ? kDone : kFailed;

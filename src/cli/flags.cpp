@@ -299,6 +299,11 @@ bool takesOptions(std::string_view command) {
   return std::find(kScenes.begin(), kScenes.end(), command) != kScenes.end();
 }
 
+bool takesOption(std::string_view command, const Option& option) {
+  const bool limit = option.name == "time-limit" || option.name == "max-memory";
+  return takesOptions(command) || (limit && (command == "convert" || command == "diff"));
+}
+
 std::span<const ShortFlag> shortFlags() {
   static constexpr std::array kTable{
       ShortFlag{'w', "width", "", ""},

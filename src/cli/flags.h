@@ -28,6 +28,8 @@ std::span<const Flag> flags();
 bool knows(std::string_view command, const Flag& flag);
 /// Whether the flags of the options table belong to the sub-command.
 bool takesOptions(std::string_view command);
+/// Whether that option is a flag of the sub-command: limits of time and memory are of every one that works.
+bool takesOption(std::string_view command, const Option& option);
 
 /// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
 struct ShortFlag {

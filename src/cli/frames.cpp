@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/remaining_time.h"
+#include "base/budget.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"
@@ -14,6 +15,7 @@ namespace trace::cli {
 namespace {
 
 void open(Session& session, const Arguments& arguments, int frame) {
+  if (budgetOfThread.budget) budgetOfThread.budget->startAgain();  // the time limit is of each frame
   std::vector<Choice> choices = arguments.choices;
   choices.push_back({"time", toText(frame / arguments.framesPerSecond), {}});
   session.open(arguments.files[0], choices, arguments.strict);

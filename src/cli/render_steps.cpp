@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "cli/commands.h"
+#include "cli/memory_limit.h"
 #include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "render/passes.h"
@@ -45,6 +46,7 @@ void reportBadSamples(const RenderResult& result, const Console& console) {
 }
 
 SavedPicture save(Session& session, PictureFiles& files, const Console& console) {
+  liftMemoryLimit();  // what is done is kept
   try {
     return {session.save(files), false};
   } catch (const Error& error) {
@@ -91,6 +93,7 @@ std::string whyStopped(const RenderResult& result) {
   switch (result.end) {
     case End::cancelled: return "stopped by the user: ";
     case End::timeLimit: return "stopped by the time limit: ";
+    case End::outOfMemory: return "stopped for lack of memory: ";
     case End::failed: return "broke off (" + result.failure + "): ";
     case End::finished: break;
   }
@@ -100,7 +103,8 @@ std::string whyStopped(const RenderResult& result) {
 int exitCode(const RenderResult& result) {
   switch (result.end) {
     case End::cancelled: return kStopped;
-    case End::timeLimit: return static_cast<int>(Fault::limit);
+    case End::timeLimit:
+    case End::outOfMemory: return static_cast<int>(Fault::limit);
     case End::failed: return kFailed;
     case End::finished: break;
   }

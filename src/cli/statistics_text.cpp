@@ -16,6 +16,7 @@ std::string_view nameOf(End end) {
     case End::finished: return "finished";
     case End::cancelled: return "cancelled";
     case End::timeLimit: return "timeLimit";
+    case End::outOfMemory: return "outOfMemory";
     case End::failed: break;
   }
   return "failed";

@@ -116,6 +116,7 @@ struct Files {
       to->assign(bytes.begin(), bytes.end());
       return true;
     } catch (const Error& failure) {
+      if (failure.fault() == Fault::limit) throw;
       *error = failure.messages().front().what;
       return false;
     }
@@ -142,6 +143,10 @@ tinygltf::Model parse(const std::string& file, std::string_view bytes, const Pla
             ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
             : parser.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), size, folder);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     errors = error.what();
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "math/transform.h"
 
 namespace trace::inventor {
@@ -208,6 +209,12 @@ Surface extrusion(const Values& shape) {
   if (section.size() < 2 || path.size() < 2) return surface;
   const std::vector<Vec2> scales = shape.pairs("scale");
   const std::vector<double>& turns = shape.numbers("orientation");
+  constexpr std::size_t kMostPoints = 10'000'000;
+  if (path.size() > kMostPoints / section.size())
+    throw Error(Fault::limit,
+                "an Extrusion of " + std::to_string(path.size()) + " times " +
+                    std::to_string(section.size()) + " points is larger than " + std::to_string(kMostPoints),
+                "give its spine or its crossSection fewer points");
   const Spine spine(path);
   const bool round = section.size() > 2 && section.front() == section.back();
 

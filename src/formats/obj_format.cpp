@@ -133,6 +133,7 @@ class ObjReader : public tinyobj::MaterialReader {
       std::string warnings, errors;
       tinyobj::LoadMtl(numbers, materials, &stream, &warnings, &errors);
     } catch (const Error& error) {
+      if (error.fault() == Fault::limit) throw;
       messages_.warn(place_, "materials: " + error.messages().front().what);
       return false;
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -55,6 +56,7 @@ class Checker {
 
   std::size_t check() {
     for (std::size_t start = 0; start < bytes_.size();) {
+      checkBudget();
       const std::size_t end = std::min(bytes_.find('\n', start), bytes_.size());
       line(bytes_.substr(start, end - start));
       start = end + 1;

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/budget.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray_background.h"
@@ -409,6 +410,7 @@ class Reader {
       try {
         shape.prepared();
       } catch (const Error& error) {
+        if (error.fault() == Fault::limit) throw;
         return findings_.error(call, error.messages().front().what, error.messages().front().hint);
       }
     }
@@ -462,10 +464,12 @@ class Reader {
     try {
       alive = particlesAt(system, time_);
     } catch (const Error& error) {
+      if (error.fault() == Fault::limit) throw;
       return findings_.error(call, error.messages().front().what, error.messages().front().hint);
     }
     // The objects are read once for each shade, so that they take it as they take the material.
     constexpr int kShades = 32;
+    constexpr std::size_t kMostObjects = 2'000'000;
     std::array<std::vector<Object>, kShades + 1> shades;
     const NotedMaterial outside = materials_.current;
     for (const Particle& particle : alive) {
@@ -482,6 +486,13 @@ class Reader {
         objects = std::move(found);
         if (objects.empty()) break;  // nothing to show, and that is reported
       }
+      if (alive.size() > kMostObjects / objects.size())
+        throw Error(Fault::limit, syntax_.place(call.offset()),
+                    "particles: " + std::to_string(alive.size()) + " particles of " +
+                        std::to_string(objects.size()) + " objects are more than " +
+                        std::to_string(kMostObjects) + " objects",
+                    "give a lower rate, a shorter lifetime or fewer objects");
+      checkBudget();
       const Real size = system.size + particle.age * (system.endSize - system.size);
       const Affine place = Affine::translation(particle.place) * Affine::scaling({size, size, size});
       for (const Object& o : objects)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/text.h"
 
 namespace trace {
@@ -40,6 +41,7 @@ Tokens::Tokens(std::string file, std::string_view source, const TokenRules& rule
 }
 
 Token Tokens::next() {
+  checkBudget();
   const Token token = next_;
   if (!atEnd()) advance();
   return token;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/match.h"
 #include "geometry/tessellation.h"
 
@@ -31,7 +32,10 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   std::vector<WorldMesh> meshes;
   bool sampled = false;
   std::map<std::string, std::size_t> leftOut;
+  Work work("making triangles of the objects", static_cast<std::int64_t>(scene.objects.size()));
+  std::int64_t done = 0;
   for (const Object& object : scene.objects) {
+    work.reached(done++);
     std::optional<MeshData> triangles;
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     if (!mesh) triangles = tessellated(object.shape), sampled |= triangles.has_value();

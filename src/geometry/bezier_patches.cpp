@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/small_list.h"
 
@@ -173,6 +174,7 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
     stack[count] = whole, depths[count++] = 0;
     SmallList<Root, 8> roots;
     while (count > 0 && ++looked < kMostPieces) {
+      checkBudget();
       Piece piece = stack[--count];
       const int depth = depths[count];
       if (!mayBeZero(piece.a, room) || !mayBeZero(piece.b, room)) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "geometry/placement.h"
 #include "geometry/span.h"
@@ -58,6 +59,7 @@ std::shared_ptr<const TracedCopies> Ifs::prepared() const {
     if (!(scale < kMost * kMost))
       throw Error(Fault::scene,
                   "maps: expected maps that shrink in every direction, found one that does not");
+    checkBudget();
     if (!invertible(a)) throw Error(Fault::scene, "maps: expected maps that can be undone, found a flat one");
     affine.push_back(a);
   }
@@ -119,6 +121,7 @@ bool TracedCopies::meetSeed(const Ray& ray, Stretch& stretch) const {
 
 void TracedCopies::descend(const Ray& ray, int level, std::int64_t leaf, const Range& range,
                            SmallList<Stretch, 16>& found) const {
+  checkBudget();
   if (level == 0) {
     Stretch stretch;
     if (!meetSeed(ray, stretch)) return;

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "base/budget.h"
 #include "geometry/span.h"
 #include "math/interval.h"
 
@@ -35,6 +36,7 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
   bool before = at(first).value < 0;
   int steps = 0;
   while (count > 0) {
+    checkBudget();
     const Stretch s = stack[--count];
     if (!(s.a < range.to)) return;
     const Real middle = s.a + 0.5 * (s.b - s.a);

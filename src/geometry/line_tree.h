@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "base/budget.h"
 #include "geometry/span.h"
 
 namespace trace {
@@ -30,16 +31,21 @@ class LineTree {
   /// Calls visit(number) for each box that the line of the ray may meet.
   template <class Visit>
   void query(const Ray& ray, Visit&& visit) const {
-    for (const Alone& part : alone_)
+    for (const Alone& part : alone_) {
+      checkBudget();
       if (!spanIn(part.box, ray).empty()) visit(part.number);
+    }
     if (reach_.empty()) return;
     const Span span = spanIn(roomy(reach_), ray);
     if (span.empty()) return;
     // The hierarchy looks ahead only: it is asked from a place before everything.
     const Real back = span.from - 0.5 * (span.to - span.from);
     NodeCount visited;
-    bvh_.query(ray.at(back), ray.direction, kInfinity, false, visited,
-               [&](std::uint32_t number) { return visit(number), false; });
+    bvh_.query(ray.at(back), ray.direction, kInfinity, false, visited, [&](std::uint32_t number) {
+      checkBudget();
+      visit(number);
+      return false;
+    });
   }
 
  private:

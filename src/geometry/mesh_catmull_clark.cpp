@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/budget.h"
 #include "geometry/mesh_crease.h"
 #include "geometry/mesh_repair.h"
 
@@ -128,6 +129,7 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
   std::size_t corner = 0;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     const std::size_t n = polygons[i].size();
+    checkBudget();
     for (std::size_t c = 0; c < n; ++c)
       finer.push_back({polygons[i][c], points + edgesOf[corner + c], firstMiddle + static_cast<Index>(i),
                        points + edgesOf[corner + (c + n - 1) % n]});
@@ -143,7 +145,11 @@ MeshData subdividedByCatmullClark(const MeshData& mesh, int levels, const std::v
   std::vector<Crease> left = creases;
   result.normals.clear();
   std::vector<Polygon> polygons = polygonsOf(mesh);
-  for (int level = 0; level < levels; ++level) divide(result, polygons, left);
+  Work work("subdividing a mesh", levels);
+  for (int level = 0; level < levels; ++level) {
+    work.reached(level);
+    divide(result, polygons, left);
+  }
   result.triangles.clear(), result.polygons.clear();
   for (const Polygon& polygon : polygons) appendPolygon(result, polygon);
   return result;

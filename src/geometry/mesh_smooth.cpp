@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/budget.h"
 #include "geometry/mesh_crease.h"
 
 namespace trace {
@@ -106,6 +107,7 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
   std::vector<int> uses;
   std::vector<std::array<Index, 3>> middles;
   for (const Triangle& t : mesh.triangles) {
+    checkBudget();
     middles.emplace_back();
     for (Index c = 0; c < 3; ++c) {
       const Index number = edges.number(edgeOf(t[c], t[(c + 1) % 3]));
@@ -139,6 +141,7 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
   }
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Edge e = edges.keys()[i];
+    checkBudget();
     const Vec3 ends = Vec3(mesh.points[e.a]) + Vec3(mesh.points[e.b]);
     result.points.push_back(
         Vec3f(creased(ends * 0.375 + opposite[i] * 0.125, ends * 0.5, sharp.sharpness[i])));
@@ -164,7 +167,11 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
 MeshData subdivided(const MeshData& mesh, int levels, const std::vector<Crease>& creases) {
   MeshData result = mesh;
   std::vector<Crease> left = creases;
-  for (int level = 0; level < levels; ++level) result = subdividedOnce(result, left);
+  Work work("subdividing a mesh", levels);
+  for (int level = 0; level < levels; ++level) {
+    work.reached(level);
+    result = subdividedOnce(result, left);
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "math/noise.h"
 #include "math/transform.h"
@@ -42,6 +43,7 @@ std::string grow(const Plant& plant, Chance& chance) {
   for (int i = 0; i < plant.iterations; ++i) {
     std::string next;
     for (const char symbol : text) {
+      checkBudget();
       const auto& choices = rules[static_cast<unsigned char>(symbol)];
       if (choices.empty())
         next += symbol;
@@ -81,6 +83,7 @@ std::vector<Branch> walk(const Plant& plant, const std::string& text, Chance& ch
     return plant.angle * (kPi / 180) * (1 + chance.between(-plant.jitter, plant.jitter));
   };
   for (const char symbol : text) {
+    checkBudget();
     const Turtle before = turtle;
     switch (symbol) {
       case 'F':
@@ -117,6 +120,7 @@ std::vector<Branch> walk(const Plant& plant, const std::string& text, Chance& ch
 }  // namespace
 
 std::shared_ptr<const TracedSweep> Plant::prepared() const {
+  const Work work("growing a plant");
   Chance chance(seed);
   const std::vector<Branch> branches = walk(*this, grow(*this, chance), chance);
   Real highest = 0, farthest = 0;

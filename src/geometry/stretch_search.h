@@ -5,6 +5,7 @@
 // with bounds of its derivatives (the mean value forms of Moore, Interval Analysis, 1966).
 #pragma once
 
+#include "base/budget.h"
 #include "geometry/span.h"
 
 namespace trace {
@@ -32,6 +33,7 @@ void stretchCrossings(const Span& span, const Range& range, Real least, Look&& l
   // Within the span a ray mostly starts on the surface, near which only short stretches are known.
   Real half = (span.to - t) * (t > span.from ? kFromWithin : kFromOutside);
   for (int looks = 0; t < span.to && t < range.to; ++looks) {
+    checkBudget();
     // On which side a ray starts is decided at its origin.
     const Real end = t < 0 && span.to > 0 ? 0 : span.to;
     const bool last = looks >= kMostLooks;

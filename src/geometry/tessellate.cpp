@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "base/budget.h"
 #include "base/match.h"
 #include "geometry/csg_tree.h"
 #include "math/transform.h"
@@ -53,6 +54,7 @@ class Grid {
     std::vector<SurfaceCorner> corners;
     std::vector<std::optional<Vec3>> points(heads_.size());
     for (const Edge& edge : edges_) {
+      checkBudget();
       std::array<SurfaceCorner, 4> quad;
       for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t cell = cellAround(edge, i);
@@ -86,6 +88,7 @@ class Grid {
 
   template <class ShapeType>
   void sampleLine(const ShapeType& shape, int axis, std::size_t j, std::size_t k) {
+    checkBudget();
     const std::vector<Real>& along = lines_[axis];
     Ray ray;
     ray.origin[axis] = along.front();

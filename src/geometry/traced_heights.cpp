@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "geometry/height_field.h"
 #include "geometry/span.h"
 #include "geometry/terrain.h"
@@ -22,8 +23,10 @@ std::shared_ptr<const TracedHeights> HeightField::prepared() const {
     const Expression expression(formula);
     const auto place = [&](int i) { return -1 + 2 * (static_cast<Real>(i) / (n - 1)); };
     for (int row = 0; row < n; ++row)
-      for (int column = 0; column < n; ++column)
+      for (int column = 0; column < n; ++column) {
+        checkBudget();
         grid.at(column, row) = static_cast<float>(expression.at({place(column), place(row), 0}));
+      }
   }
   for (float& z : grid.heights) z = static_cast<float>(z * height);
   return std::make_shared<const TracedHeights>(std::move(grid), floor, smooth, capped);
@@ -36,6 +39,7 @@ std::shared_ptr<const TracedHeights> Terrain::prepared() const {
   const auto place = [&](int i) { return static_cast<Real>(i) / (n - 1); };
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) {
+      checkBudget();
       Real z = 0, share = 1, finer = std::clamp(hills, 0.0, 1000.0);
       for (int octave = 0; octave < layers; ++octave, share *= roughness, finer *= 2) {
         const auto layer = mixBits(key * 64 + static_cast<std::uint64_t>(octave));

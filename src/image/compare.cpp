@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/budget.h"
 #include "base/error.h"
 
 namespace trace {
@@ -18,7 +19,8 @@ Comparison statistics(int width, int height, double peak, double tolerance, Diff
   Comparison c{.sameSize = true, .maxDifference = 0};
   double sum = 0, sumOfSquares = 0;
   std::size_t i = 0;
-  for (int y = 0; y < height; ++y)
+  for (int y = 0; y < height; ++y) {
+    checkBudget();
     for (int x = 0; x < width; ++x) {
       bool beyond = false;
       for (int channel = 0; channel < 3; ++channel, ++i) {
@@ -30,6 +32,7 @@ Comparison statistics(int width, int height, double peak, double tolerance, Diff
       }
       c.pixelsBeyond += beyond;
     }
+  }
   const double n = static_cast<double>(std::max<std::size_t>(i, 1));
   c.identical = c.maxDifference == 0;
   c.mean = sum / n;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/budget.h"
 #include "image/compare.h"
 #include "math/transform.h"
 
@@ -72,7 +73,10 @@ using Kernel = std::vector<double>;
 template <class Weight>
 Kernel kernel(int radius, Weight weight) {
   Kernel k;
-  for (int x = -radius; x <= radius; ++x) k.push_back(weight(static_cast<double>(x)));
+  for (int x = -radius; x <= radius; ++x) {
+    checkBudget();
+    k.push_back(weight(static_cast<double>(x)));
+  }
   return k;
 }
 
@@ -91,8 +95,10 @@ Plane filteredRows(Plane plane, const Kernel& k) {
   for (int y = 0; y < plane.height; ++y) {
     for (int x = -radius; x < plane.width + radius; ++x)
       row[static_cast<std::size_t>(x + radius)] = plane.at(std::clamp(x, 0, plane.width - 1), y);
-    for (int x = 0; x < plane.width; ++x)
+    for (int x = 0; x < plane.width; ++x) {
+      checkBudget();
       plane.at(x, y) = std::inner_product(k.begin(), k.end(), row.begin() + x, 0.0);
+    }
   }
   return plane;
 }

@@ -2,9 +2,8 @@
 
 namespace trace {
 
-PixelTracer::PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree,
-                         Tracer::Interrupt interrupt)
-    : tracer_(world, settings, tree, std::move(interrupt)),
+PixelTracer::PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree)
+    : tracer_(world, settings, tree),
       radiance_(integratorRow(settings.integrator).radiance),
       size_(size),
       grid_(gridSize(settings)),

@@ -31,8 +31,7 @@ class PixelMean {
 class PixelTracer {
  public:
   /// `tree`, if any, records the rays.
-  PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree = nullptr,
-              Tracer::Interrupt interrupt = {});
+  PixelTracer(const World& world, const Settings& settings, const Size& size, RayTree* tree = nullptr);
 
   /// How many a pixel has: the rays of its grid.
   int samples() const { return grid_ * grid_; }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <tuple>
 
+#include "base/budget.h"
 #include "render/passes.h"
 #include "render/pixel.h"
 
@@ -17,14 +20,16 @@ namespace {
 class TileRenderer {
  public:
   /// `interrupt` may throw GivenUp.
-  TileRenderer(const World& world, const Settings& settings, Film& film, Tracer::Interrupt interrupt)
-      : tracer_(world, settings, {film.width(), film.height()}, nullptr, std::move(interrupt)),
+  TileRenderer(const World& world, const Settings& settings, Film& film, std::function<void()> interrupt)
+      : budget_(std::move(interrupt)),
+        tracer_(world, settings, {film.width(), film.height()}),
         region_(settings.region),
         film_(film),
         passes_(passesOf(settings)),
         passSums_(passes_.size()) {}
 
   void render(const Tile& tile) {
+    const BudgetScope scope(&budget_);
     const auto bad = [&](int x, int y, int sample) {
       ++tracer_.statistics().badSamples;
       if (bad_.size() < kMostBadSamples) bad_.push_back({x, y, sample});
@@ -63,6 +68,7 @@ class TileRenderer {
       film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);
   }
 
+  Budget budget_;
   PixelTracer tracer_;
   const Region region_;
   Film& film_;
@@ -89,14 +95,14 @@ int gridSize(const Settings& settings) { return static_cast<int>(std::ceil(std::
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
   using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const std::chrono::duration<double> limit(settings.timeLimit);
+  Budget clock(budgetOfThread.budget);
+  if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
   std::atomic<bool> late{false};
   // Looks at the time in the midst of a tile, of which one can take hours. Each worker has a copy.
   const auto interrupt = [&, stopping = std::optional<Clock::time_point>()]() mutable {
-    const Clock::time_point now = Clock::now();
-    if (settings.timeLimit > 0 && now - start > limit && !job.cancel.exchange(true)) late = true;
+    if (clock.timeIsOver() && !job.cancel.exchange(true)) late = true;
     if (!job.cancel) return;
+    const Clock::time_point now = Clock::now();
     if (!stopping) stopping = now;
     if (now - *stopping >= job.patience) throw GivenUp{};
   };
@@ -111,8 +117,12 @@ RenderResult render(const World& world, const Settings& settings, Film& film, Jo
   };
 
   RenderResult result;
+  bool outOfMemory = false;
   try {
     parallelChunks(film.tiles(), threads, job, renderTile);
+  } catch (const std::bad_alloc&) {
+    outOfMemory = true;
+    result.failure = "out of memory";
   } catch (const std::exception& error) {
     result.failure = error.what();
   }
@@ -127,6 +137,7 @@ RenderResult render(const World& world, const Settings& settings, Film& film, Jo
   });
   result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
   result.end = job.done == job.total     ? End::finished
+               : outOfMemory             ? End::outOfMemory
                : !result.failure.empty() ? End::failed
                : late                    ? End::timeLimit
                                          : End::cancelled;

@@ -18,11 +18,11 @@ struct BadSample {
   bool operator==(const BadSample&) const = default;
 };
 
-enum class End { finished, cancelled, timeLimit, failed };
+enum class End { finished, cancelled, timeLimit, outOfMemory, failed };
 
 struct RenderResult {
   End end = End::finished;
-  std::string failure;  ///< of End::failed: what went wrong, such as a lack of memory
+  std::string failure;  ///< of End::failed: what went wrong
   Statistics statistics;
   std::vector<BadSample> badSamples;  ///< in picture order, the first kMostBadSamples
 };
@@ -39,9 +39,9 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 int gridSize(const Settings& settings);
 
 /// Renders into `film`, which must be of pictureSize() and have a layer for each pass (makeFilm() in
-/// passes.h). Returns early when job.cancel is set or the time limit is over; tiles that were begun are
-/// finished, unless they take longer than the job's patience. What is finished survives a failure too. The
-/// same bits for any number of threads.
+/// passes.h). Returns early when job.cancel is set or the time is over: that of the thread's Budget, or
+/// without one the settings' limit from now on. Tiles that were begun are finished, unless they take longer
+/// than the job's patience. What is finished survives a failure too. The same bits for any number of threads.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

@@ -23,11 +23,6 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found, Real airIndex)
       indexBefore(leaving ? material.index : airIndex),
       indexBehind(leaving ? airIndex : material.index) {}
 
-void Tracer::interrupt() {
-  untilInterrupt_ = kRaysBetweenInterrupts;
-  if (interrupt_) interrupt_();
-}
-
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   count(kind);
   if (records()) begin(ray, kind, kInfinity);

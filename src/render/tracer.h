@@ -3,7 +3,6 @@
 // recorded.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <utility>
 
@@ -16,13 +15,9 @@ namespace trace {
 
 class Tracer {
  public:
-  /// Called every kRaysBetweenInterrupts rays. It may throw, which ends whatever the rays are for.
-  using Interrupt = std::function<void()>;
-  static constexpr int kRaysBetweenInterrupts = 128;
-
   /// `tree`, if any, takes every ray from now on.
-  Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr, Interrupt interrupt = {})
-      : world_(world), settings_(settings), tree_(tree), interrupt_(std::move(interrupt)) {}
+  Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr)
+      : world_(world), settings_(settings), tree_(tree) {}
 
   /// The first surface that a ray of this kind meets.
   std::optional<Hit> cast(const Ray& ray, RayKind kind);
@@ -52,11 +47,7 @@ class Tracer {
   bool records() const { return kRecords && tree_; }
   static bool recorded(int node) { return kRecords && node != kNoNode; }
 
-  void count(RayKind kind) {
-    ++statistics_.rays[static_cast<std::size_t>(kind)];
-    if (--untilInterrupt_ == 0) interrupt();
-  }
-  [[gnu::noinline]] void interrupt();
+  void count(RayKind kind) { ++statistics_.rays[static_cast<std::size_t>(kind)]; }
 
   /// Rays from now on are children of the one cast last; returns its node.
   int enter() { return records() ? current_ = std::exchange(last_, kNoNode) : kNoNode; }
@@ -81,8 +72,6 @@ class Tracer {
   int current_ = kNoNode;  ///< the ray being followed
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
-  Interrupt interrupt_;
-  int untilInterrupt_ = kRaysBetweenInterrupts;
   std::vector<Found> crossed_;  // of one shadow ray; kept to save allocations
 };
 

@@ -8,8 +8,11 @@ namespace trace {
 
 std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
   std::optional<Found> best(std::in_place);
-  for (std::uint32_t object : always_)
+  checkBudget();
+  for (std::uint32_t object : always_) {
+    checkBudget();
     if (object != ray.leaves) closestOf(object, ray, faces, statistics, *best);
+  }
   if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
   if (best->t == kInfinity) best.reset();
   return best;
@@ -252,13 +255,15 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const bool bruteForce = settings.accel == Accel::none;
   MeshTrees trees;
   std::vector<Box3> boxes;
+  Work work("building the objects", static_cast<std::int64_t>(scene.objects.size()));
   for (const Object& object : scene.objects) {
+    work.reached(static_cast<std::int64_t>(boxes.size()));
     World::Instance instance;
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
     try {
       instance.shape = same ? same->shape : prepare(object.shape, earlier.operandTrees());
     } catch (const Error& error) {
-      throw Error(Fault::scene, object.place, error.messages().front().what, error.messages().front().hint);
+      throw Error(error.fault(), object.place, error.messages().front().what, error.messages().front().hint);
     }
     const bool flat = !invertible(object.worldFromObject),
                round = settings.roundSpheres && std::holds_alternative<Sphere>(object.shape);

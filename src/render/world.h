@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "base/budget.h"
 #include "base/match.h"
 #include "geometry/approach.h"
 #include "geometry/csg_tree.h"
@@ -188,8 +189,11 @@ void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Rea
 
 template <class Visit>
 void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
-  for (std::uint32_t object : always_)
+  checkBudget();
+  for (std::uint32_t object : always_) {
+    checkBudget();
     if (object != ray.leaves && crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
+  }
   if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
 }
 

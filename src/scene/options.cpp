@@ -484,7 +484,8 @@ constexpr std::array kTable{
     row<&Settings::timeLimit>(
         {.name = "time-limit",
          .group = "Resources",
-         .help = "stop after this time, at most 5 s later, and keep what is done; 0 never stops",
+         .help = "stop this long after the start, at most a few seconds later; a render keeps what is done; "
+                 "0 never stops",
          .source = "",
          .repeats = Repeats::nothing,
          .least = 0,
@@ -493,7 +494,7 @@ constexpr std::array kTable{
     row<&Settings::maxMemory>(
         {.name = "max-memory",
          .group = "Resources",
-         .help = "refuse to start a render that needs more; 0 allows what the machine has",
+         .help = "memory that a scene may take; 0 allows half of what the machine has",
          .source = "",
          .repeats = Repeats::nothing,
          .least = 0,

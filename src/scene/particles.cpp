@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "math/noise.h"
 
@@ -48,6 +49,7 @@ void collide(const Particles& system, Motion& m, const Vec3& normal, Real depth)
 
 /// Over a short time; the drag's exponential keeps it stable however strong the drag is.
 void advance(const Particles& system, Motion& m, Real dt) {
+  checkBudget();
   const Real kept = std::exp(-system.drag * dt);
   m.velocity = system.wind + (m.velocity - system.wind) * kept + system.gravity * dt;
   m.place += m.velocity * dt;
@@ -82,9 +84,11 @@ std::vector<Particle> particlesAt(const Particles& system, Real time) {
   if ((last - first + 1) * std::min(longest, since) / step > Particles::kMostSteps)
     throw Error(Fault::scene, "particles: the simulation would take too many steps", "give a longer step");
 
+  const Work work("following particles");
   std::vector<Particle> alive;
   for (Real number = first; number <= last; ++number) {
     if (!(number / system.rate < system.duration || number == 0)) break;
+    checkBudget();
     Chance chance(system.seed, static_cast<std::int64_t>(number));
     const Real age = since - number / system.rate;
     const Real life = system.lifetime * (1 + system.lifetimeSpread * chance.between(-1, 1));

@@ -1,0 +1,98 @@
+#include "base/budget.h"
+
+#include <exception>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace trace {
+namespace {
+
+/// With the innermost step first, as threads know them.
+std::string inWords(const std::vector<Budget::Step>& steps) {
+  std::string text;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    text += (text.empty() ? "" : ", ") + std::string(step->doing);
+    if (step->total > 0)
+      text += " (" + std::to_string(step->done) + " of " + std::to_string(step->total) + " done)";
+    else if (step->done > 0)
+      text += " (" + std::to_string(step->done) + " done)";
+  }
+  return text;
+}
+
+}  // namespace
+
+double Budget::seconds() const { return std::chrono::duration<double>(Clock::now() - start_.load()).count(); }
+
+const Budget* Budget::lateOne() const {
+  if (limit_ > 0 && seconds() > limit_) return this;
+  return outer_ ? outer_->lateOne() : nullptr;
+}
+
+void Budget::startAgain() {
+  start_ = Clock::now();
+  finishes_ = false;
+}
+
+void Budget::look() const {
+  if (look_) return look_();
+  const Budget* late = lateOne();
+  if (!late) return;
+  const std::string doing = doingNow();
+  throw Error(
+      Fault::limit,
+      "the time limit of " + toText(late->limit_) + " s is over" + (doing.empty() ? "" : " while " + doing),
+      "a larger --time-limit gives it longer; 0 never stops");
+}
+
+std::pair<Budget::Step, double> Budget::outermost() const {
+  const std::lock_guard lock(mutex_);
+  if (!outermost_) return {};
+  return {outermost_->step(), outermost_->since_};
+}
+
+std::string Budget::brokenOff() const {
+  const std::lock_guard lock(mutex_);
+  return inWords({broken_.begin(), broken_.begin() + brokenCount_});
+}
+
+void lookAtBudget() {
+  constexpr int kChecksBetweenLooks = 128;
+  budgetOfThread.untilLook = kChecksBetweenLooks;
+  if (budgetOfThread.budget) budgetOfThread.budget->look();
+}
+
+Work::Work(const char* doing, std::int64_t total)
+    : doing_(doing),
+      total_(total),
+      budget_(budgetOfThread.budget),
+      outer_(budgetOfThread.work),
+      since_(budget_ ? budget_->seconds() : 0),
+      exceptions_(std::uncaught_exceptions()) {
+  budgetOfThread.work = this;
+  if (!budget_ || outer_) return;
+  const std::lock_guard lock(budget_->mutex_);
+  budget_->outermost_ = this;
+  budget_->brokenCount_ = 0;
+}
+
+Work::~Work() {
+  budgetOfThread.work = outer_;
+  if (!budget_) return;
+  const std::lock_guard lock(budget_->mutex_);
+  if (budget_->outermost_ == this) budget_->outermost_ = nullptr;
+  if (std::uncaught_exceptions() == exceptions_)
+    budget_->brokenCount_ = 0;  // whatever was thrown inside was dealt with
+  else if (budget_->brokenCount_ < Budget::kMostSteps)
+    budget_->broken_[budget_->brokenCount_++] = step();
+}
+
+std::string doingNow() {
+  std::vector<Budget::Step> steps;
+  for (const Work* work = budgetOfThread.work; work; work = work->outer_) steps.push_back(work->step());
+  return inWords(steps);
+}
+
+}  // namespace trace

@@ -1,0 +1,98 @@
+#include "cli/overseer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include "app/remaining_time.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "cli/terminal.h"
+
+namespace trace::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval{100};
+constexpr double kQuiet = 1;           // seconds; shorter work needs no words
+constexpr double kPlainInterval = 10;  // seconds
+constexpr double kGrace = 6;           // seconds after the limit; more than a render's patience
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+Overseer::Overseer(const Budget& budget, const Console& console, ProgressStyle style)
+    : budget_(budget),
+      shows_(console.shows(LogLevel::info) && style != ProgressStyle::none && style != ProgressStyle::json),
+      draws_(style == ProgressStyle::bar || (style == ProgressStyle::automatic && canRedraw())) {
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error&) {
+    // The system gives no thread: nothing is said of long work.
+  }
+}
+
+Overseer::~Overseer() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  ends_.notify_one();
+  if (thread_.joinable()) thread_.join();
+  clear();
+}
+
+void Overseer::run() {
+  std::unique_lock lock(mutex_);
+  while (!ends_.wait_for(lock, kInterval, [this] { return ended_; })) {
+    endIfLate();
+    if (shows_) report();
+  }
+}
+
+void Overseer::endIfLate() const {
+  const double limit = budget_.timeLimit();
+  if (limit <= 0 || budget_.finishes() || budget_.seconds() < limit + kGrace) return;
+  const std::string doing = budget_.outermost().first.doing;
+  const std::string text = "error: the time limit of " + toText(limit) + " s is over" +
+                           (doing.empty() ? "" : " while " + doing) +
+                           "\nnothing written: a limit of size, memory or time was met\n";
+  constexpr int kCode = static_cast<int>(Fault::limit);
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(kCode);
+  ::_exit(kCode);
+}
+
+void Overseer::report() {
+  const auto [step, since] = budget_.outermost();
+  const double now = budget_.seconds();
+  if (!*step.doing || now - since < kQuiet) return clear();
+  std::string text = step.doing;
+  if (step.total > 0)
+    text += ": " +
+            std::to_string(
+                static_cast<int>(100.0 * static_cast<double>(step.done) / static_cast<double>(step.total))) +
+            " %";
+  text += ", " + durationText(now) + " elapsed";
+  if (draws_) {
+    // The cursor goes back, so that whatever is printed next begins there.
+    print("\r" + text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))) + "\033[K\r");
+    drawn_ = true;
+  } else if (now - std::max(lastPrint_, since) >= kPlainInterval) {
+    print(text + "\n");
+    lastPrint_ = now;
+  }
+}
+
+void Overseer::clear() {
+  if (drawn_) print("\r\033[K");
+  drawn_ = false;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,40 @@
+// A thread beside a command: says how far long work has come, and ends what does not end in time.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "base/budget.h"
+#include "cli/console.h"
+#include "cli/progress.h"
+
+namespace trace::cli {
+
+/// Lives while a command runs. Work that looks at the budget ends by itself when the time is over, and a
+/// render keeps what it has. What does neither, such as reading from a pipe that nobody fills, ends the
+/// process with a message some seconds later.
+class Overseer {
+ public:
+  Overseer(const Budget& budget, const Console& console, ProgressStyle style);
+  ~Overseer();
+  Overseer(const Overseer&) = delete;
+  Overseer& operator=(const Overseer&) = delete;
+
+ private:
+  void run();
+  void endIfLate() const;
+  void report();
+  void clear();
+
+  const Budget& budget_;
+  const bool shows_, draws_;
+  double lastPrint_ = 0;  // seconds of the budget
+  bool drawn_ = false;
+  std::mutex mutex_;
+  std::condition_variable ends_;
+  bool ended_ = false;
+  std::thread thread_;
+};
+
+}  // namespace trace::cli
