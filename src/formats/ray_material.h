@@ -35,6 +35,7 @@ class Materials {
   struct Block;
   void field(Block& block, const Item& field);
   bool picture(Block& block, const Item& field);
+  void warnOfInheritedGlass(const Item& block, const Material& inherited);
 
   Findings& findings_;
   struct Named {
