@@ -7,6 +7,7 @@
 #include "app/coplanar.h"
 #include "app/lint_rays.h"
 #include "base/text.h"
+#include "formats/ray_format.h"
 #include "geometry/csg_tree.h"
 #include "geometry/mesh_repair.h"
 
@@ -184,6 +185,7 @@ void normalsAgainstFaces(const LintScene& s, Findings& findings) {
 }
 
 bool isOfArea(const Message& message) { return message.what.starts_with(kWithoutArea); }
+bool isOfGlass(const Message& message) { return message.what.starts_with(kInheritsGlass); }
 
 void zeroArea(const LintScene& s, Findings& findings) {
   for (const Message& message : s.warnings)
@@ -251,6 +253,11 @@ void unusedMaterial(const LintScene& s, Findings& findings) {
       unused(s.scene.materials[i].name, Place{.file = s.scene.file});
 }
 
+void inheritedGlass(const LintScene& s, Findings& findings) {
+  for (const Message& message : s.warnings)
+    if (isOfGlass(message)) warn(findings, "inherited-glass", message.place, message.what, message.hint);
+}
+
 void indexBelowOne(const LintScene& s, Findings& findings) {
   std::set<std::uint32_t> told;
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
@@ -294,6 +301,7 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"zero-area", "triangles of a mesh without area", zeroArea},
       LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
+      LintCheck{"inherited-glass", "a material that is glass only for what it inherits", inheritedGlass},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
       LintCheck{"depth-too-low", "glass that is black for too small a depth", depthTooLow},
   };
@@ -306,7 +314,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
   s.aroundCamera = objectsAround(world, world.camera().eye);
   std::vector<LintFinding> findings;
   for (const Message& message : warnings)
-    if (!isOfArea(message)) findings.push_back({"reading", message});
+    if (!isOfArea(message) && !isOfGlass(message)) findings.push_back({"reading", message});
   for (const LintCheck& check : lintChecks()) check.run(s, findings);
   return findings;
 }

@@ -739,12 +739,12 @@ class Reader {
         }
         if (faces.hasMaterials) {
           const std::size_t n = bind.material(outline, face, corner);
-          missing += n >= state.paint->count();
+          missing += bind.material.indices && n >= state.paint->count();
           c.material = materialNumber(state, n);
         }
         if (faces.hasUvs) {
           const std::size_t n = uvBinding(outline, face, corner);
-          missing += n >= uvs.size();
+          missing += uvBinding.indices && n >= uvs.size();
           if (n < uvs.size()) c.uv = uvs[n];
         }
         faces.corners.push_back(c);

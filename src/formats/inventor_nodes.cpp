@@ -197,6 +197,7 @@ constexpr std::array kRules{
     Rule{" Viewpoint ", "orientation", Takes::rotation},
     Rule{" Viewpoint ", "fieldOfView", Takes::number, kAboveNothing, kPi},
     Rule{" Viewpoint ", "jump"},
+    Rule{" Viewpoint ", "centerOfRotation"},
     Rule{" Viewpoint ", "description"},
     Rule{" Background ", "skyColor", Takes::color, 0, 1},
     Rule{" Background ", "skyAngle", Takes::numbers, 0, kPi},

@@ -81,7 +81,6 @@ class Checker {
   /// Three numbers, perhaps with a weight or a colour.
   void point(std::string_view text, LineWords words) {
     const int count = numbers(text, words, "v", 3, 7);
-    if (count == 6 || count == 7) warn(text, "colours of points are left out");
     if (count == 5) warn(text, "v: expected 3 numbers, found 5; the last two are ignored");
   }
 

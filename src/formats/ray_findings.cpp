@@ -114,6 +114,11 @@ void Findings::texture(std::string_view file, const Item& node) {
   textures_.note(file, place);
 }
 
+bool Findings::isUnknown(std::string_view owner, std::string_view field) const {
+  return kinds_.contains("unknown field: " + std::string(owner) + "." + std::string(field)) ||
+         kinds_.contains("not rendered: " + std::string(field));
+}
+
 void Findings::signOf2001(const Item& at) {
   if (!of2001_) of2001_ = syntax_.place(at.offset());
 }
@@ -142,6 +147,7 @@ void Findings::finish() {
 void Repeats::note(const Item& field) {
   const std::string_view key = field.key();
   if (std::find(given_.begin(), given_.end(), key) == given_.end()) return given_.push_back(key);
+  if (findings_.isUnknown(owner_, key)) return;  // and told as such
   findings_.warn(field, std::string(key) + " of " + std::string(owner_) + " given again; the last counts");
 }
 

@@ -46,10 +46,12 @@ class Findings {
   /// A picture in place of a field's value: kept as Unrendered, and told with all others of the file.
   void texture(std::string_view file, const Item& node);
 
+  /// Was a field of that name not known before?
+  bool isUnknown(std::string_view owner, std::string_view field) const;
+
   // The file may be of 2001, whose shininess is from 0 to 1.
   void signOf2001(const Item& at);
   void sureSignOf2005() { later_ = true; }
-  void sureSignOfTrace() { later_ = true; }
   /// `shininess` of a material with a highlight.
   void noteShininess(const Item& at, double shininess);
 

@@ -409,10 +409,10 @@ class Reader {
       findings_.warn(call, std::move(what), std::move(hint));
     };
     try {
-      const auto form = prepare(shape);
       const std::string_view reason = repair(shape, worldFromObject);
       if (!reason.empty()) return findings_.warn(call, std::string(reason));
-      checkShape(shape, form, tell);
+      const auto form = prepare(shape);
+      if (!isEmpty(shape)) checkShape(shape, form, tell);
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
       return findings_.error(call, error.messages().front().what, error.messages().front().hint);
@@ -420,6 +420,15 @@ class Reader {
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// Solids made of no objects, of which that is said.
+  template <class S>
+  static bool isEmpty(const S& shape) {
+    if constexpr (requires { shape.objects.list(); })
+      return shape.objects.list().empty();
+    else
+      return false;
   }
 
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
@@ -620,7 +629,6 @@ class Reader {
   void settings(const Item& call) {
     const std::optional<Item> block = blockOf(call);
     if (!block) return;
-    findings_.sureSignOfTrace();
     Repeats repeats(findings_, kSettings);
     for (const Item item : *block) {
       if (!isField(item, kSettings)) continue;

@@ -28,7 +28,7 @@ std::string Textures::warning() const {
 }
 
 void Textures::report(Messages& messages, std::string_view instead) const {
-  if (!names_.empty()) messages.warn(place_, warning(), std::string(instead) + " shows in its place");
+  if (!names_.empty()) messages.warn(place_, warning(), std::string(instead) + " shows instead");
 }
 
 }  // namespace trace
