@@ -31,8 +31,8 @@ class BinaryReader {
     for (std::uint32_t n = count(12 * kWord); n > 0; --n) file.lamps.push_back(lamp());
     for (std::uint32_t n = count(3 * kWord); n > 0; --n) file.objects.push_back(object());
     if (at_ < bytes_.size())
-      messages_.warn({file_, 0, 0, {}}, "bytes after the last object are ignored: " +
-                                            std::to_string(bytes_.size() - at_));
+      messages_.warn({file_, 0, 0, {}},
+                     "bytes after the last object are ignored: " + std::to_string(bytes_.size() - at_));
     return file;
   }
 

@@ -113,7 +113,8 @@ class Reader {
     if (c.r < 0 || c.g < 0 || c.b < 0)
       warnings_.warn(place(), "color of a light: expected numbers of at least 0, found one below");
     if (lamp.kind == cf::Lamp::Kind::spot && !(lamp.cutOffAngle > 0 && lamp.cutOffAngle <= kPi))
-      warnings_.warn(place(), "cutOffAngle: expected above 0 and at most pi, found " + toText(lamp.cutOffAngle));
+      warnings_.warn(place(),
+                     "cutOffAngle: expected above 0 and at most pi, found " + toText(lamp.cutOffAngle));
     if (lamp.kind == cf::Lamp::Kind::spot && lamp.dropOffRate < 0)
       warnings_.warn(place(), "dropOffRate: expected at least 0, found " + toText(lamp.dropOffRate));
     switch (lamp.kind) {

@@ -102,7 +102,8 @@ class TextReader {
   /// Of things that the file counts before it gives them.
   void compare(const Token& at, std::string_view name, std::optional<std::uint32_t> said, std::size_t found) {
     if (said && *said != found)
-      warn(at, std::string(name) + " says " + std::to_string(*said) + ", but the file has " + std::to_string(found));
+      warn(at, std::string(name) + " says " + std::to_string(*said) + ", but the file has " +
+                   std::to_string(found));
   }
 
   void camera(const Token& name) {
@@ -244,7 +245,8 @@ class TextReader {
                                                             "POLYSET_QUAD_MESH"};
     const Token word = tokens_.word(f.text);
     if (std::find(kTypes.begin(), kTypes.end(), word.text) == kTypes.end())
-      warn(word, "type: expected POLYSET_TRI_MESH, POLYSET_FACE_SET or POLYSET_QUAD_MESH, found " + describe(word));
+      warn(word,
+           "type: expected POLYSET_TRI_MESH, POLYSET_FACE_SET or POLYSET_QUAD_MESH, found " + describe(word));
   }
 
   void polygon(PolySet& p) {

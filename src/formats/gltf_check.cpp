@@ -243,7 +243,8 @@ class Checker {
   }
 
   void checkNode(const Part& node) {
-    known(node, {"camera", "children", "skin", "matrix", "mesh", "rotation", "scale", "translation", "weights"});
+    known(node,
+          {"camera", "children", "skin", "matrix", "mesh", "rotation", "scale", "translation", "weights"});
     index(node, "mesh", "meshes");
     index(node, "camera", "cameras");
     index(node, "skin", "skins");
@@ -276,8 +277,7 @@ class Checker {
       if (!mode->is_number_unsigned() || mode->get<std::uint64_t>() > 6)
         fail(primitive.pathOf("mode") + ": expected 0 to 6, found " + found(*mode));
     const json* attributes = primitive.find("attributes");
-    if (!attributes || !attributes->is_object())
-      fail(primitive.path + ": expected an object \"attributes\"");
+    if (!attributes || !attributes->is_object()) fail(primitive.path + ": expected an object \"attributes\"");
     const Part of{*attributes, primitive.pathOf("attributes")};
     for (const auto& [key, value] : attributes->items()) checkIndex(value, of.pathOf(key), "accessors");
     if (!of.find("POSITION"))
@@ -362,8 +362,7 @@ class Checker {
   }
 
   void checkWhatIsNotRead() {
-    if (const std::size_t n = countOf("animations"))
-      warn("animations are not played: " + std::to_string(n));
+    if (const std::size_t n = countOf("animations")) warn("animations are not played: " + std::to_string(n));
     if (const std::size_t n = countOf("skins"))
       warn("skins are not applied, meshes stand as they were modelled: " + std::to_string(n));
     if (morphs_ > 0) warn("morph targets are left out: " + std::to_string(morphs_));

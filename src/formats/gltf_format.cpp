@@ -535,7 +535,8 @@ class GltfReader {
     if (texture < 0) return;
     const tinygltf::Image* image = imageOf(texture);
     if (image && !image->uri.empty()) return textures_.note(image->uri, place_);
-    const std::string name = image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
+    const std::string name =
+        image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
     textures_.note(name + " (inside the file)", place_);
   }
 
@@ -547,9 +548,9 @@ class GltfReader {
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
   Textures textures_;
-  std::size_t lines_ = 0;      ///< primitives that are no triangles
-  std::size_t leftOver_ = 0;   ///< corners that make no triangle
-  std::size_t flat_ = 0;       ///< objects without volume
+  std::size_t lines_ = 0;     ///< primitives that are no triangles
+  std::size_t leftOver_ = 0;  ///< corners that make no triangle
+  std::size_t flat_ = 0;      ///< objects without volume
   Model model_;
 };
 

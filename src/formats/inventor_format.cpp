@@ -265,7 +265,9 @@ class Reader {
   }
 
   /// Once for each kind.
-  void warn(const Node& at, std::string what, std::string_view kind) { warn(at.token, std::move(what), kind); }
+  void warn(const Node& at, std::string what, std::string_view kind) {
+    warn(at.token, std::move(what), kind);
+  }
   void warn(const Token& at, std::string what, std::string_view kind, std::string hint = {}) {
     constexpr std::size_t kMostKinds = 100;
     if (told_.size() < kMostKinds && told_.emplace(kind).second)
@@ -487,7 +489,8 @@ class Reader {
     for (std::string_view several : {"texture", "textures"})  // of a MultiTexture
       for (const NodeIn& one : v.nodes(several))
         if (one.node) textureOf(Values(*one.node, one.env));
-    if (v.numbers("image").size() > 3) textures_.note(std::string(v.node().type) + " (inside the file)", place);
+    if (v.numbers("image").size() > 3)
+      textures_.note(std::string(v.node().type) + " (inside the file)", place);
     return {};
   }
   void vertexProperty(const Values& v, State& s) {
@@ -599,7 +602,8 @@ class Reader {
   void drawStyle(const Values& v, State&) {
     const std::string_view style = v.word("style", "FILLED");
     if (style == "FILLED") return;
-    warn(v.node(), "DrawStyle " + std::string(style.substr(0, 40)) + " is not rendered: surfaces are drawn whole",
+    warn(v.node(),
+         "DrawStyle " + std::string(style.substr(0, 40)) + " is not rendered: surfaces are drawn whole",
          "draw style");
   }
 
@@ -828,7 +832,8 @@ class Reader {
     attributes(v, state);
     const Surface surface = extrusion(v);
     if (surface.outline.counts.empty())
-      return warn(v.node(), "an Extrusion needs a crossSection and a spine of at least 2 points", "extrusion");
+      return warn(v.node(), "an Extrusion needs a crossSection and a spine of at least 2 points",
+                  "extrusion");
     mesh(v, state, surface, {});
     remember(v, outer);
   }

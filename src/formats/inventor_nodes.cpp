@@ -17,10 +17,10 @@ namespace trace::inventor {
 namespace {
 
 enum class Takes {
-  number,     ///< one
-  whole,      ///< one without a fraction
-  numbers,    ///< a list of any length
-  pairs,      ///< lists of so many each
+  number,   ///< one
+  whole,    ///< one without a fraction
+  numbers,  ///< a list of any length
+  pairs,    ///< lists of so many each
   triples,
   quadruples,
   matrices,
@@ -30,8 +30,8 @@ enum class Takes {
   matrix,
   color,
   flag,
-  word,       ///< one of a list, or several in brackets
-  anything,   ///< texts, nodes, and what Trace does not use
+  word,      ///< one of a list, or several in brackets
+  anything,  ///< texts, nodes, and what Trace does not use
 };
 
 enum class In : unsigned char { both, old, vrml2 };  // old: Inventor and VRML 1.0
@@ -148,7 +148,8 @@ constexpr std::array kRules{
     Rule{" PackedColor ", "rgba", Takes::numbers, 0},
     Rule{" MaterialBinding NormalBinding ", "value", Takes::word, 0, 0, kBindings},
     Rule{" LightModel ", "model", Takes::word, 0, 0, " PHONG BASE_COLOR "},
-    Rule{" ShapeHints ", "vertexOrdering", Takes::word, 0, 0, " UNKNOWN_ORDERING CLOCKWISE COUNTERCLOCKWISE "},
+    Rule{" ShapeHints ", "vertexOrdering", Takes::word, 0, 0,
+         " UNKNOWN_ORDERING CLOCKWISE COUNTERCLOCKWISE "},
     Rule{" ShapeHints ", "shapeType", Takes::word, 0, 0, " UNKNOWN_SHAPE_TYPE SOLID "},
     Rule{" ShapeHints ", "faceType", Takes::word, 0, 0, " UNKNOWN_FACE_TYPE CONVEX "},
     Rule{" ShapeHints ", "hints"},
@@ -274,7 +275,8 @@ class FieldCheck {
 
   void wrong(const std::string& expected, const std::string& found) const {
     complain_(given_.token,
-              std::string(rule_.field) + " of " + std::string(type_) + ": expected " + expected + ", found " + found,
+              std::string(rule_.field) + " of " + std::string(type_) + ": expected " + expected + ", found " +
+                  found,
               {}, "wrong " + std::string(type_) + "." + std::string(rule_.field));
   }
 
@@ -331,7 +333,8 @@ void checkFields(const Values& values, bool vrml2, const Complain& complain) {
   const std::vector<const Rule*>& rules = rulesOf(node.type);
   if (rules.empty()) return;
   const auto given = [&](std::string_view name) {
-    return std::any_of(node.fields.begin(), node.fields.end(), [&](const Field& f) { return f.name == name; });
+    return std::any_of(node.fields.begin(), node.fields.end(),
+                       [&](const Field& f) { return f.name == name; });
   };
   const bool declares = given("fields") || given("isA");  // a node of another program, with fields of its own
   for (const Field& field : node.fields) {
@@ -347,8 +350,9 @@ void checkFields(const Values& values, bool vrml2, const Complain& complain) {
     std::vector<std::string_view> names;
     for (const Rule* r : rules)
       if (r->in == In::both || (r->in == In::vrml2) == vrml2) names.push_back(r->field);
-    complain(field.token, "unknown field " + quoted(field.name) + " of " + std::string(node.type) + " is ignored",
-             didYouMean(field.name, names), "unknown " + std::string(node.type) + "." + std::string(field.name));
+    complain(
+        field.token, "unknown field " + quoted(field.name) + " of " + std::string(node.type) + " is ignored",
+        didYouMean(field.name, names), "unknown " + std::string(node.type) + "." + std::string(field.name));
   }
 }
 

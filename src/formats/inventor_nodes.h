@@ -11,8 +11,7 @@
 namespace trace::inventor {
 
 /// Tells of one field: where, what is wrong, a hint, and the kind of mistake.
-using Complain =
-    std::function<void(const Token& at, std::string what, std::string hint, std::string kind)>;
+using Complain = std::function<void(const Token& at, std::string what, std::string hint, std::string kind)>;
 
 /// Looks at the fields that the node itself gives. Nodes that the table does not have are not looked at.
 void checkFields(const Values& node, bool vrml2, const Complain& complain);

@@ -174,8 +174,8 @@ class Parser {
     // `value ~` has no value, only the mark that it does not count: a word after it is the next field.
     if (tokens_.skipMark('~')) {
       const Token& next = tokens_.peek();
-      const bool hasValue =
-          next.is(Token::Kind::number) || next.is(Token::Kind::string) || next.isMark('[') || next.isMark('(');
+      const bool hasValue = next.is(Token::Kind::number) || next.is(Token::Kind::string) ||
+                            next.isMark('[') || next.isMark('(');
       if (!hasValue) {
         if (tokens_.skipMark('=')) connection();
         return;

@@ -32,9 +32,9 @@ constexpr std::array<Numbers, 12> kNumbers{{{"Ka", 3, 0, 1},
 
 /// Statements that name a picture.
 constexpr std::array<std::string_view, 21> kMaps{
-    "map_Ka", "map_Kd",   "map_Ks",   "map_Ke",   "map_Ns",   "map_d",  "map_Tr",
-    "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",   "map_Disp",
-    "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal",  "map_norm"};
+    "map_Ka", "map_Kd",   "map_Ks",   "map_Ke",   "map_Ns",   "map_d", "map_Tr",
+    "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",  "map_Disp",
+    "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
 /// Statements of physically based materials, which Trace's material does not have.
 constexpr std::array<std::string_view, 7> kNotUsed{"Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"};
@@ -92,7 +92,8 @@ class Checker {
     const std::string_view key = words.next();
     if (key.empty() || key[0] == '#') return;
     if (key == "newmtl") return newMaterial(key, words);
-    if (!inMaterial_) warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
+    if (!inMaterial_)
+      warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
     if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
     if (has(kMaps, key)) return map(key, words);
     if (has(kNotUsed, key) || key == "map_aat") return;
@@ -115,7 +116,8 @@ class Checker {
   void numbers(const Numbers& row, std::string_view key, LineWords words) {
     const std::string name(key);
     int count = 0;
-    for (std::string_view word = words.next(); !word.empty() && word[0] != '#'; word = words.next(), ++count) {
+    for (std::string_view word = words.next(); !word.empty() && word[0] != '#';
+         word = words.next(), ++count) {
       if (key == "d" && word == "-halo") {
         --count;
         continue;

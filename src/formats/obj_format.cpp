@@ -266,8 +266,8 @@ class ObjReader : public tinyobj::MaterialReader {
     }
     if (named > kMostNamed) names += " and " + std::to_string(named - kMostNamed) + " more";
     messages_.warn(placeAt(file_, bytes_, first),
-                   (named == 1 ? "the material " : "the materials ") + names +
-                       (named == 1 ? " is" : " are") + " not defined: a light grey shows instead",
+                   (named == 1 ? "the material " : "the materials ") + names + (named == 1 ? " is" : " are") +
+                       " not defined: a light grey shows instead",
                    "a line \"mtllib FILE\" names the file that defines them");
   }
 

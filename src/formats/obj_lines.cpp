@@ -13,12 +13,12 @@ namespace {
 constexpr std::array<std::string_view, 5> kDrawn{"g", "o", "s", "mtllib", "usemtl"};
 constexpr std::array<std::string_view, 2> kThin{"l", "p"};
 constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
-/// What belongs to curves and surfaces, which are told of by themselves, or says nothing that a picture shows.
+/// What belongs to curves and surfaces, which are told of by themselves, or says nothing that a picture
+/// shows.
 constexpr std::array<std::string_view, 25> kSilent{
-    "vp",       "cstype",   "deg",   "bmat",       "step",       "parm", "trim",
-    "hole",     "scrv",     "sp",    "end",        "con",        "mg",   "bevel",
-    "c_interp", "d_interp", "lod",   "shadow_obj", "trace_obj",  "ctech", "stech",
-    "maplib",   "usemap",   "csh",   "call"};
+    "vp",        "cstype", "deg",   "bmat",   "step",   "parm",     "trim",     "hole", "scrv",
+    "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",  "shadow_obj",
+    "trace_obj", "ctech",  "stech", "maplib", "usemap", "csh",      "call"};
 
 template <std::size_t N>
 bool has(const std::array<std::string_view, N>& list, std::string_view word) {

@@ -35,7 +35,8 @@ class OffReader {
   Model read() {
     const Kind kind = *kindOf(words_.next());
     const std::size_t points = count("the number of points"), faces = count("the number of faces");
-    if (const double edges = words_.number("the number of edges"); !(edges >= 0) || edges != std::floor(edges))
+    if (const double edges = words_.number("the number of edges");
+        !(edges >= 0) || edges != std::floor(edges))
       words_.fail("expected the number of edges, a whole number, found " + toText(edges));
     mesh_.points.reserve(points), mesh_.triangles.reserve(faces);
     for (std::size_t i = 0; i < points; ++i) readPoint(kind);
@@ -43,8 +44,7 @@ class OffReader {
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
     if (faceColors_ > 0)
       messages_.warn(Place{file_, 0, 0, {}}, "colours of faces are left out: " + std::to_string(faceColors_));
-    if (!words_.atEnd())
-      messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
+    if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
     if (unusable_ > 0)
       messages_.warn(Place{file_, 0, 0, {}},
                      "faces of fewer than 3 points are left out: " + std::to_string(unusable_));

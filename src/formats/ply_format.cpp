@@ -54,8 +54,9 @@ class PlyReader {
       const auto has = [&](const char* name) { return element.find({name}) >= 0; };
       const auto count = std::count_if(names.begin(), names.end(), has);
       if (count == 1 || count == 2)
-        messages_.warn(place(), std::string("expected all of ") + names[0] + ", " + names[1] + " and " + names[2] +
-                                    " of a vertex, found " + std::to_string(count) + "; they are ignored");
+        messages_.warn(place(), std::string("expected all of ") + names[0] + ", " + names[1] + " and " +
+                                    names[2] + " of a vertex, found " + std::to_string(count) +
+                                    "; they are ignored");
     }
     columns_.assign(element.properties.size(), {});
     mesh_.points.resize(element.count);
@@ -105,7 +106,8 @@ class PlyReader {
       return !(min(c.x, min(c.y, c.z)) >= 0 && max(c.x, max(c.y, c.z)) <= most);
     });
     if (outside > 0)
-      messages_.warn(place(), "colours that are not from 0 to " + toText(1 / scale) + ": " + std::to_string(outside));
+      messages_.warn(place(),
+                     "colours that are not from 0 to " + toText(1 / scale) + ": " + std::to_string(outside));
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys()) {
@@ -141,8 +143,7 @@ class PlyReader {
       ++row;
     });
     if (unusable > 0)
-      messages_.warn(place(),
-                     "faces of fewer than 3 points are left out: " + std::to_string(unusable));
+      messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable));
   }
 
   /// Strips of triangles that turn about, each ended by -1, as scanners write them.

@@ -43,7 +43,8 @@ struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
   std::size_t end = 0;  ///< offset of the body
-  std::vector<std::pair<std::string, Place>> textures;  ///< that comments name, as scanners' programs write them
+  std::vector<std::pair<std::string, Place>>
+      textures;  ///< that comments name, as scanners' programs write them
 };
 
 /// Throws Error(Fault::scene).

@@ -23,8 +23,8 @@ class CameraReader {
     }
     if (findings_.errors() == before) direct();
     if (!(camera_.near < camera_.far))
-      findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) + " and " +
-                                toText(camera_.far) + ": nothing is seen");
+      findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) +
+                                " and " + toText(camera_.far) + ": nothing is seen");
     if (horizontalFov_ > 0 && findings_.errors() == before)
       camera_.fov = std::atan(std::tan(horizontalFov_ * kPi / 360) / camera_.aspectratio) * 360 / kPi;
     return camera_;

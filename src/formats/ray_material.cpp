@@ -170,7 +170,8 @@ void Materials::warnOfInheritedGlass(const Item& block, const Material& inherite
   if (!looks) return;
   const std::string of = inherited.name.empty() ? "the material in force" : "\"" + inherited.name + "\"";
   findings_.warn(block, std::string(kInheritsGlass) + " of " + of + ", which it starts as a copy of",
-                 "add transmissive = (0, 0, 0) if it is to be opaque, or transmissive with a value", kInheritsGlass);
+                 "add transmissive = (0, 0, 0) if it is to be opaque, or transmissive with a value",
+                 kInheritsGlass);
 }
 
 void Materials::markUsed(const std::string& name) {

@@ -21,7 +21,8 @@ void checkCurve(const Tell& tell, std::string_view list, std::size_t points, Spl
   const std::size_t least = spline == Spline::linear ? 2 : 4;
   if (points < (closed ? 3 : least)) return say("at least " + std::to_string(closed ? 3 : least), "");
   if (spline != Spline::bezier) return;
-  // An arc begins where the one before it ends; a closed curve may leave out its last point, which is the first.
+  // An arc begins where the one before it ends; a closed curve may leave out its last point, which is the
+  // first.
   const std::size_t over = closed && points % 3 == 0 ? 0 : (points - 1) % 3;
   if (over > 0) say("4, 7, 10 or so on", over == 1 ? "; the last is ignored" : "; the last two are ignored");
 }
@@ -53,8 +54,9 @@ void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, b
   int flat = 0;
   for (int axis = 0; axis < 3; ++axis) flat += !(size[axis] > 0);
   if (bounds.empty() || flat >= (solid ? 1 : 2))
-    tell(std::string(keyword) + ": nothing of it can be seen, for it has no " + (solid ? "volume" : "surface"),
-         {});
+    tell(
+        std::string(keyword) + ": nothing of it can be seen, for it has no " + (solid ? "volume" : "surface"),
+        {});
 }
 
 }  // namespace trace::rayfile

@@ -23,20 +23,42 @@ void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, b
 /// `form` is what prepare() made of the shape.
 template <class S, class Form>
 void checkShape(const S& shape, const Form& form, const Tell& tell) {
-  if constexpr (requires { shape.profile; shape.spline; shape.capped; } && !requires { shape.points; })
+  if constexpr (
+      requires {
+        shape.profile;
+        shape.spline;
+        shape.capped;
+      } &&
+      !requires { shape.points; })
     checkCurve(tell, "profile", shape.profile.size(), shape.spline, false);
-  if constexpr (requires { shape.outline; shape.holes; }) {
+  if constexpr (requires {
+                  shape.outline;
+                  shape.holes;
+                }) {
     checkCurve(tell, "outline", shape.outline.size(), shape.spline, true);
     for (const auto& hole : shape.holes) checkCurve(tell, "a hole", hole.size(), shape.spline, true);
   }
   if constexpr (requires { shape.profileSpline; })
     checkCurve(tell, "profile", shape.profile.size(), shape.profileSpline, shape.closed);
-  if constexpr (requires { shape.points.size(); shape.spline; })
+  if constexpr (requires {
+                  shape.points.size();
+                  shape.spline;
+                })
     checkCurve(tell, "points", shape.points.size(), shape.spline, false);
-  if constexpr (requires { shape.low; shape.high; }) checkBox(tell, shape.low, shape.high);
-  if constexpr (requires { shape.formula; shape.low; })
+  if constexpr (requires {
+                  shape.low;
+                  shape.high;
+                })
+    checkBox(tell, shape.low, shape.high);
+  if constexpr (requires {
+                  shape.formula;
+                  shape.low;
+                })
     checkFormula(tell, shape.formula, shape.low, shape.high);
-  if constexpr (requires { shape.formula; shape.file; })
+  if constexpr (requires {
+                  shape.formula;
+                  shape.file;
+                })
     if (shape.file.file.empty()) checkFormula(tell, shape.formula, {-1, -1, 0}, {1, 1, 0});
   checkSize(tell, S::kKeyword, formOf(form).bounds(), formOf(form).solid());
 }

@@ -1,5 +1,6 @@
-// The pictures that a file names for its materials. Trace does not render them yet: a material keeps the names
-// of those that give one of its fields (Material::maps), and one warning for each file tells which they are.
+// The pictures that a file names for its materials. Trace does not render them yet: a material keeps the
+// names of those that give one of its fields (Material::maps), and one warning for each file tells which they
+// are.
 //
 // All readers share this, so that no texture vanishes without a word and a file of a hundred has one warning.
 #pragma once

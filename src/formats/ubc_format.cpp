@@ -289,7 +289,8 @@ class Reader {
   }
 
   void negative(const Token& token, double radius) {
-    warnings_.warn(tokens_.place(token), "a radius: expected at least 0, found " + toText(radius), {}, "radius");
+    warnings_.warn(tokens_.place(token), "a radius: expected at least 0, found " + toText(radius), {},
+                   "radius");
   }
 
   void conic(const Token& token) {

@@ -337,8 +337,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 7);
   EXPECT_TRUE(scene.materials[scene.objects[1].material].maps.empty());
-  EXPECT_EQ(warningsOf(text), "2:24: the textures \"a.bmp\", \"b.png\" and \"c.png\" are not rendered yet [white, or the second "
-            "value of map(\"file\", (r, g, b)), shows instead]");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:24: the textures \"a.bmp\", \"b.png\" and \"c.png\" are not rendered yet [white, or the second "
+      "value of map(\"file\", (r, g, b)), shows instead]");
   ASSERT_EQ(scene.unrendered.size(), 3u);
   EXPECT_EQ(scene.unrendered[1].kind, "map");
   EXPECT_EQ(scene.unrendered[1].text, "\"b.png\"");
@@ -520,14 +522,15 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
-  EXPECT_EQ(warningsOf(text),
-            "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
-            "4:20: \"metaball\" is not rendered yet [Trace has metaballs { threshold = 0.5; balls = ((x, y, z, "
-            "radius, strength), ...); }]\n"
-            "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
-            "box { } sphere { } }]\n"
-            "6:23: \"bump_mapping\" is not rendered yet\n"
-            "6:63: \"marble\" is not rendered yet");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
+      "4:20: \"metaball\" is not rendered yet [Trace has metaballs { threshold = 0.5; balls = ((x, y, z, "
+      "radius, strength), ...); }]\n"
+      "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
+      "box { } sphere { } }]\n"
+      "6:23: \"bump_mapping\" is not rendered yet\n"
+      "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
   EXPECT_EQ(loaded.scene.unrendered[0].kind, "area_light");
   EXPECT_EQ(loaded.scene.unrendered[0].text, "area_light { position = (0, 0, 1); }");
