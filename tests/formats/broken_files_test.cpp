@@ -645,6 +645,20 @@ TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {
             "");
 }
 
+[[noreturn]] void readWithLittleMemory(const std::string& file) {
+  constexpr rlim_t kLittle = 100'000'000;
+  const rlimit limit{kLittle, kLittle};
+  setrlimit(RLIMIT_AS, &limit);
+  Messages messages;
+  try {
+    readScene(file, messages);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s", error.what());
+    std::_Exit(static_cast<int>(error.fault()));
+  }
+  std::_Exit(0);
+}
+
 // A stand-in for a machine without memory: nothing may be taken beyond a bound.
 TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -655,21 +669,8 @@ TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
   // 50 million triangles of a subdivided one take gigabytes.
   writeFile(file, ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0), (1,1,0)); faces = ((0,1,2), (1,3,2)); "
                       "subdivide = 10; }"));
-  EXPECT_EXIT(
-      {
-        constexpr rlim_t kLittle = 300'000'000;
-        const rlimit limit{kLittle, kLittle};
-        setrlimit(RLIMIT_AS, &limit);
-        Messages messages;
-        try {
-          readScene(file, messages);
-        } catch (const Error& error) {
-          std::fprintf(stderr, "%s", error.what());
-          std::_Exit(static_cast<int>(error.fault()));
-        }
-        std::_Exit(0);
-      },
-      testing::ExitedWithCode(static_cast<int>(Fault::limit)), "large.ray.*not enough memory");
+  EXPECT_EXIT(readWithLittleMemory(file), testing::ExitedWithCode(static_cast<int>(Fault::limit)),
+              "large.ray.*not enough memory");
 }
 
 }  // namespace
