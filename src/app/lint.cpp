@@ -9,6 +9,7 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "formats/ray_format.h"
 #include "geometry/csg_tree.h"
 #include "geometry/mesh_repair.h"
 
@@ -128,6 +129,7 @@ void normalsAgainstFaces(const LintScene& s, Findings& findings) {
 }
 
 bool isOfArea(const Message& message) { return message.what.starts_with(kWithoutArea); }
+bool isOfGlass(const Message& message) { return message.what.starts_with(kInheritsGlass); }
 
 void zeroArea(const LintScene& s, Findings& findings) {
   for (const Message& message : s.warnings)
@@ -193,6 +195,11 @@ void unusedMaterial(const LintScene& s, Findings& findings) {
   for (std::uint32_t i = 0; i < s.scene.materials.size(); ++i)
     if (!s.scene.materials[i].name.empty() && !used.contains(i))
       unused(s.scene.materials[i].name, Place{.file = s.scene.file});
+}
+
+void inheritedGlass(const LintScene& s, Findings& findings) {
+  for (const Message& message : s.warnings)
+    if (isOfGlass(message)) warn(findings, "inherited-glass", message.place, message.what, message.hint);
 }
 
 void indexBelowOne(const LintScene& s, Findings& findings) {
@@ -292,6 +299,7 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"zero-area", "triangles of a mesh without area", zeroArea},
       LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
+      LintCheck{"inherited-glass", "a material that is glass only for what it inherits", inheritedGlass},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
       LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
       LintCheck{"no-material", "objects without a material", noMaterial},
@@ -308,7 +316,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
   s.remarks = remarksOn(scene);
   std::vector<LintFinding> findings;
   for (const Message& message : warnings)
-    if (!isOfArea(message)) findings.push_back({"reading", message});
+    if (!isOfArea(message) && !isOfGlass(message)) findings.push_back({"reading", message});
   Work work("checking", static_cast<std::int64_t>(lintChecks().size()));
   for (const LintCheck& check : lintChecks()) {
     check.run(s, findings);

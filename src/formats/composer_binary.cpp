@@ -11,8 +11,9 @@ constexpr std::size_t kWord = 4;  ///< bytes of an integer and of a float
 
 class BinaryReader {
  public:
-  BinaryReader(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21)
-      : file_(file), bytes_(bytes), at_(start), old_(beforeVersion21) {}
+  BinaryReader(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21,
+               Messages& messages)
+      : file_(file), bytes_(bytes), at_(start), old_(beforeVersion21), messages_(messages) {}
 
   File read() {
     constexpr std::int32_t kCheck = 123456789;
@@ -29,6 +30,9 @@ class BinaryReader {
     if (v.verticalFov != 0) file.view = v;
     for (std::uint32_t n = count(12 * kWord); n > 0; --n) file.lamps.push_back(lamp());
     for (std::uint32_t n = count(3 * kWord); n > 0; --n) file.objects.push_back(object());
+    if (at_ < bytes_.size())
+      messages_.warn({file_, 0, 0, {}},
+                     "bytes after the last object are ignored: " + std::to_string(bytes_.size() - at_));
     return file;
   }
 
@@ -141,12 +145,14 @@ class BinaryReader {
   std::string_view bytes_;
   std::size_t at_;
   bool old_, big_ = false;
+  Messages& messages_;
 };
 
 }  // namespace
 
-File readBinary(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21) {
-  return BinaryReader(file, bytes, start, beforeVersion21).read();
+File readBinary(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21,
+                Messages& messages) {
+  return BinaryReader(file, bytes, start, beforeVersion21, messages).read();
 }
 
 }  // namespace trace::composer

@@ -72,7 +72,8 @@ struct File {
 
 // Each throws Error(Fault::scene). `bytes` is the whole file; `start` the offset after its first line.
 File readText(const std::string& file, std::string_view bytes, std::size_t start, Messages& messages);
-File readBinary(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21);
+File readBinary(const std::string& file, std::string_view bytes, std::size_t start, bool beforeVersion21,
+                Messages& messages);
 
 /// The file as text, with numbers of that many significant digits; 0: as many as it takes.
 std::string writeText(const File& file, int digits = 0);

@@ -16,6 +16,8 @@
 #include "formats/composer_file.h"
 #include "formats/directions.h"
 #include "formats/model.h"
+#include "formats/textures.h"
+#include "formats/warnings.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {
@@ -72,11 +74,14 @@ class Reader {
   Scene read() {
     for (const cf::Object& object : content_.objects) add(object);
     if (hasMeshes_) repairs_.report(place(), messages_);
+    if (scene_.objects.empty()) warnings_.warn(place(), "no object: the picture will be empty");
     camera();
     for (const cf::Lamp& lamp : content_.lamps) add(lamp);
     if (content_.lamps.empty()) scene_.lights = plainLights(scene_.camera);
     scene_.lights.push_back({AmbientLight{Color(1)}, place()});
     scene_.choices.push_back({"like", "uw1998", place()});
+    warnings_.report(messages_);
+    textures_.report(messages_);
     return std::move(scene_);
   }
 
@@ -104,6 +109,14 @@ class Reader {
     constexpr Real kConstant = 0.25, kLinear = 0.1, kQuadratic = 0.01;
     if (lamp.kind != cf::Lamp::Kind::point && !(length(lamp.direction) > 0))
       return messages_.warn(place(), "a light without a direction is left out");
+    const Color& c = lamp.color;
+    if (c.r < 0 || c.g < 0 || c.b < 0)
+      warnings_.warn(place(), "color of a light: expected numbers of at least 0, found one below");
+    if (lamp.kind == cf::Lamp::Kind::spot && !(lamp.cutOffAngle > 0 && lamp.cutOffAngle <= kPi))
+      warnings_.warn(place(),
+                     "cutOffAngle: expected above 0 and at most pi, found " + toText(lamp.cutOffAngle));
+    if (lamp.kind == cf::Lamp::Kind::spot && lamp.dropOffRate < 0)
+      warnings_.warn(place(), "dropOffRate: expected at least 0, found " + toText(lamp.dropOffRate));
     switch (lamp.kind) {
       case cf::Lamp::Kind::point: {
         PointLight light{lamp.position, lamp.color};
@@ -127,6 +140,27 @@ class Reader {
 
   // --- materials ---
 
+  /// Warns of numbers that no surface has.
+  void checkRanges(const cf::Material& m, const Place& at) {
+    const auto check = [&](const char* name, double low, double high, double most) {
+      if (low >= 0 && high <= most) return;
+      warnings_.warn(at,
+                     std::string(name) + " of a material: expected " +
+                         (most == kNoLimit ? "at least 0" : "0 to " + toText(most)) + ", found " +
+                         toText(low < 0 ? low : high),
+                     {}, name);
+    };
+    const auto color = [&](const char* name, const Color& c) {
+      check(name, min(c.r, min(c.g, c.b)), max(c.r, max(c.g, c.b)), 1);
+    };
+    color("diffColor", m.diffuse);
+    color("ambColor", m.ambient);
+    color("specColor", m.specular);
+    check("emisColor", min(m.emission.r, min(m.emission.g, m.emission.b)), 0, kNoLimit);
+    check("shininess", m.shininess, m.shininess, 1);
+    check("ktran", m.ktran, m.ktran, 1);
+  }
+
   std::uint32_t add(const cf::Material& m, const Extras& extras) {
     Phong phong;
     const Real opaque = 1 - m.ktran;
@@ -149,7 +183,10 @@ class Reader {
   void add(const cf::Object& object) {
     const Extras extras = extrasOf(object, messages_);
     const auto first = static_cast<std::uint32_t>(scene_.materials.size());
+    for (const cf::Material& m : object.materials) checkRanges(m, object.place);
     for (const cf::Material& m : object.materials) add(m, extras);
+    for (const auto& picture : {extras.texture, extras.bump})
+      if (picture) textures_.note(*picture, object.place);
     if (extras.bump) scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
     if (object.materials.empty()) add(cf::Material{}, extras);
     if (object.sphere)
@@ -160,7 +197,7 @@ class Reader {
 
   void add(const cf::Object& object, Shape shape, const Affine& worldFromObject, std::uint32_t material) {
     if (!invertible(worldFromObject))
-      return messages_.warn(object.place, "an object without size is left out");
+      return warnings_.warn(object.place, "an object without size is left out");
     scene_.objects.push_back({object.name, std::move(shape), worldFromObject, material, object.place});
   }
 
@@ -188,7 +225,7 @@ class Reader {
         append(mesh, p, p.vertices[at + i], object, firstMaterial);
       }
       if (count < 3) {
-        messages_.warn(object.place, "a polygon of fewer than 3 vertices is left out");
+        warnings_.warn(object.place, "a polygon of fewer than 3 vertices is left out");
         mesh.points.resize(corners.empty() ? mesh.points.size() : corners[0]);
         if (p.vertexNormals) mesh.normals.resize(mesh.points.size());
         if (p.vertexMaterials) mesh.materials.resize(mesh.points.size());
@@ -235,6 +272,8 @@ class Reader {
   Messages& messages_;
   MeshRepairs repairs_;
   bool hasMeshes_ = false;
+  WarningsByKind warnings_;
+  Textures textures_;
   Scene scene_;
 };
 
@@ -246,13 +285,13 @@ Scene readComposer(const std::string& file, std::string_view bytes, Messages& me
   const std::string_view line = bytes.substr(0, std::min<std::size_t>(bytes.find('\n'), 80));
   const Place place{file, 1, static_cast<int>(kMagic.size()) + 1, std::string(line)};
   const auto version = parseNumber(line.substr(std::min(kMagic.size() + 1, line.size())));
-  if (!version || version->value > 2.1)
+  if (!version || !(version->value > 0 && version->value <= 2.1))
     throw Error(Fault::scene, place,
                 "expected version 2.1 or older of the format, as in \"Composer format 2.1 ascii\"");
   const std::size_t start = line.size() == bytes.size() ? line.size() : line.size() + 1;
   const std::string_view kind = line.substr(std::min(line.size(), kMagic.size() + 1 + version->length));
   if (kind.find("binary") != std::string_view::npos)
-    return Reader(file, cf::readBinary(file, bytes, start, version->value < 2.05), messages).read();
+    return Reader(file, cf::readBinary(file, bytes, start, version->value < 2.05, messages), messages).read();
   if (kind.find("ascii") == std::string_view::npos)
     throw Error(Fault::scene, place, "expected \"ascii\" or \"binary\" after the version");
   return Reader(file, cf::readText(file, bytes, start, messages), messages).read();

@@ -1,11 +1,14 @@
 // The text form of composer files: words that name their values, in any order, and blocks.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "base/text.h"
 #include "formats/composer_file.h"
 #include "formats/tokens.h"
+#include "formats/warnings.h"
 
 namespace trace::composer {
 namespace {
@@ -19,7 +22,7 @@ class TextReader {
     while (!tokens_.atEnd()) {
       const Token name = tokens_.word("scene");
       if (name.text == "camera")
-        file_.view = view();
+        camera(name);
       else if (name.text == "point_light")
         file_.lamps.push_back(lamp(Lamp::Kind::point));
       else if (name.text == "directional_light")
@@ -31,6 +34,7 @@ class TextReader {
       else
         unknown(name);
     }
+    warnings_.report(messages_);
     return std::move(file_);
   }
 
@@ -82,8 +86,7 @@ class TextReader {
       tokens_.fail(name, "expected a camera, a light, a sphere or a poly_set, found " + describe(name),
                    didYouMean(name.text, kNodes));
     }
-    messages_.warn(tokens_.place(name),
-                   "\"" + std::string(name.text.substr(0, 40)) + "\" is not known and is skipped");
+    warn(name, "\"" + std::string(name.text.substr(0, 40)) + "\" is not known and is skipped");
     while (tokens_.peek().is(Token::Kind::number)) tokens_.next();
     if (!tokens_.skipMark('{')) return;
     for (int depth = 1; depth > 0;) {
@@ -91,6 +94,21 @@ class TextReader {
       if (token.is(Token::Kind::end)) tokens_.fail(name, "this block is never closed");
       depth += token.isMark('{') ? 1 : token.isMark('}') ? -1 : 0;
     }
+  }
+
+  void warn(const Token& at, std::string what) {
+    if (!warnings_.again(what)) warnings_.warn(tokens_.place(at), std::move(what));
+  }
+  /// Of things that the file counts before it gives them.
+  void compare(const Token& at, std::string_view name, std::optional<std::uint32_t> said, std::size_t found) {
+    if (said && *said != found)
+      warn(at, std::string(name) + " says " + std::to_string(*said) + ", but the file has " +
+                   std::to_string(found));
+  }
+
+  void camera(const Token& name) {
+    if (file_.view) warn(name, "there are several cameras; the last counts");
+    file_.view = view();
   }
 
   View view() {
@@ -168,11 +186,13 @@ class TextReader {
     o.place = tokens_.place(token);
     const bool isSphere = token.text == "sphere";
     Sphere s;
+    std::optional<std::uint32_t> materials;
+    polygonCount_.reset();
     block(token, [&](const Token& f) {
       if (f.text == "name")
         o.name = name();
       else if (f.text == "numMaterials")
-        count(f);
+        materials = count(f);
       else if (f.text == "material")
         o.materials.push_back(material());
       else if (isSphere)
@@ -180,6 +200,8 @@ class TextReader {
       else
         polygonField(o.polygons, f);
     });
+    compare(token, "numMaterials", materials, o.materials.size());
+    compare(token, "numPolys", polygonCount_, o.polygons.counts.size());
     if (isSphere) o.sphere = s;
     file_.objects.push_back(std::move(o));
   }
@@ -202,24 +224,42 @@ class TextReader {
   void polygonField(PolySet& p, const Token& f) {
     if (f.text == "poly") return polygon(p);
     if (f.text == "type")
-      tokens_.word(f.text);  // all are polygons to us
+      polygonType(f);
     else if (f.text == "normType")
       p.vertexNormals = flag(f, "PER_VERTEX_NORMAL", {"PER_FACE_NORMAL"});
     else if (f.text == "materialBinding")
       p.vertexMaterials = flag(f, "PER_VERTEX_MATERIAL", {"PER_OBJECT_MATERIAL"});
     else if (f.text == "hasTextureCoords")
       p.hasUv = flag(f, "TRUE", {"FALSE"});
-    else if (f.text == "rowSize" || f.text == "numPolys")
+    else if (f.text == "rowSize")
       count(f);
+    else if (f.text == "numPolys")
+      polygonCount_ = count(f);
     else
       unknown(f);
   }
 
+  /// All are polygons to us.
+  void polygonType(const Token& f) {
+    static constexpr std::array<std::string_view, 3> kTypes{"POLYSET_TRI_MESH", "POLYSET_FACE_SET",
+                                                            "POLYSET_QUAD_MESH"};
+    const Token word = tokens_.word(f.text);
+    if (std::find(kTypes.begin(), kTypes.end(), word.text) == kTypes.end())
+      warn(word,
+           "type: expected POLYSET_TRI_MESH, POLYSET_FACE_SET or POLYSET_QUAD_MESH, found " + describe(word));
+  }
+
   void polygon(PolySet& p) {
     const std::size_t first = p.vertices.size();
+    const Token start = tokens_.peek();
+    std::optional<std::uint32_t> vertices;
+    std::size_t normals = 0, materials = 0, uvs = 0;
     block("poly", [&](const Token& f) {
-      if (f.text == "numVertices") return void(count(f));
+      if (f.text == "numVertices") return void(vertices = count(f));
       if (f.text == "pos") return void(p.vertices.emplace_back().position = vector(f));
+      normals += f.text == "norm";
+      materials += f.text == "materialIndex";
+      uvs += f.text == "s";
       if (p.vertices.size() == first) tokens_.fail(f, "poly: expected \"pos\" first, found " + describe(f));
       Vertex& v = p.vertices.back();
       if (f.text == "norm")
@@ -233,11 +273,21 @@ class TextReader {
       else
         unknown(f);
     });
-    p.counts.push_back(static_cast<std::uint32_t>(p.vertices.size() - first));
+    const std::size_t found = p.vertices.size() - first;
+    p.counts.push_back(static_cast<std::uint32_t>(found));
+    compare(start, "numVertices", vertices, found);
+    const auto lacks = [&](bool wanted, std::size_t has, const char* what) {
+      if (wanted && has < found) warn(start, std::string("poly: expected ") + what + " for each pos");
+    };
+    lacks(p.vertexNormals, normals, "a norm");
+    lacks(p.vertexMaterials, materials, "a materialIndex");
+    lacks(p.hasUv, uvs, "s and t");
   }
 
   Tokens tokens_;
   Messages& messages_;
+  WarningsByKind warnings_;
+  std::optional<std::uint32_t> polygonCount_;  ///< that the object being read says it has
   File file_;
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -107,6 +109,14 @@ std::string kindOf(std::string_view bytes) {
   return "other text";
 }
 
+/// `12 bytes`, `34 kB`, `56 MB`.
+std::string sizeText(std::size_t bytes) {
+  constexpr std::size_t kKilo = 1000, kFew = 10;
+  if (bytes < kFew * kKilo) return std::to_string(bytes) + " bytes";
+  if (bytes < kFew * kKilo * kKilo) return std::to_string(bytes / kKilo) + " kB";
+  return std::to_string(bytes / (kKilo * kKilo)) + " MB";
+}
+
 /// The row that fits, of those that `wanted` accepts. Throws Error(Fault::scene).
 template <class Wanted>
 const SceneFormat& formatOf(const std::string& file, std::string_view bytes, const char* expected,
@@ -135,6 +145,19 @@ void forEachQuoted(std::string_view text, Use&& use) {
   }
 }
 
+/// What read() returns; lack of memory becomes an Error that names the file and its size.
+template <class Read>
+auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {  // of a vector or string
+  }
+  throw Error(Fault::limit, Place{.file = file},
+              "not enough memory for what is in this file of " + sizeText(bytes.size()),
+              "a smaller mesh, fewer levels of `subdivide`, or fewer copies need less");
+}
+
 }  // namespace
 
 std::span<const SceneFormat> sceneFormats() { return kTable; }
@@ -145,9 +168,11 @@ Scene readScene(const std::string& file, Messages& messages, Real time) {
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
-  Scene scene = format.readAt ? format.readAt(file, bytes, messages, time)
-                : format.read ? format.read(file, bytes, messages)
-                              : sceneOf(format.readModel(file, bytes, messages), file, format.name);
+  Scene scene = withinMemory(file, bytes, [&] {
+    if (format.readAt) return format.readAt(file, bytes, messages, time);
+    if (format.read) return format.read(file, bytes, messages);
+    return sceneOf(format.readModel(file, bytes, messages), file, format.name);
+  });
   InputFiles inputs;
   inputs.noteRead(file, bytes);
   inputs.note(scene.inputs);
@@ -164,7 +189,7 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
   const SceneFormat& format =
       formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
-  return format.readModel(file, bytes, messages);
+  return withinMemory(file, bytes, [&] { return format.readModel(file, bytes, messages); });
 }
 
 const SceneFormat& writableFormatFor(const std::string& file) {

@@ -17,7 +17,9 @@
 #include "base/file.h"
 #include "base/unique.h"
 #include "formats/directions.h"
+#include "formats/gltf_check.h"
 #include "formats/gltf_material.h"
+#include "formats/textures.h"
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -75,11 +77,12 @@ void checkDepth(const Place& place, std::string_view json) {
 }
 
 /// Only the first buffer may be the binary chunk, and none may be empty.
-void checkContainer(const Place& place, std::string_view bytes) {
+void checkContainer(const Place& place, std::string_view bytes, Messages& messages) {
   const std::string_view text = jsonOf(place, bytes);
   checkDepth(place, text);
   const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw Error(Fault::scene, place, "expected a JSON object");
+  checkGltf(json, place, messages);
   const auto buffers = json.find("buffers");
   if (buffers == json.end() || !buffers->is_array()) return;
   for (std::size_t i = 0; i < buffers->size(); ++i) {
@@ -124,8 +127,8 @@ struct Files {
 };
 
 tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place,
-                      InputFiles& inputs) {
-  checkContainer(place, bytes);
+                      InputFiles& inputs, Messages& messages) {
+  checkContainer(place, bytes, messages);
   Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
@@ -263,24 +266,28 @@ Affine transformOf(const tinygltf::Node& node) {
 class GltfReader {
  public:
   GltfReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : place_{file, 0, 0, {}}, messages_(messages), gltf_(parse(file, bytes, place_, model_.inputs)) {
+      : place_{file, 0, 0, {}},
+        messages_(messages),
+        gltf_(parse(file, bytes, place_, model_.inputs, messages)) {
     for (const tinygltf::Image& image : gltf_.images)
       if (!image.uri.empty() && !image.uri.starts_with("data:"))
         model_.inputs.noteNamed(besideFile(file, image.uri));
   }
 
   Model read() {
-    for (const std::string& name : gltf_.extensionsRequired)
-      if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
-        throw Error(Fault::scene, place_, "compressed meshes (" + name + ") are not read",
-                    "export the scene without compression");
     for (const tinygltf::Material& material : gltf_.materials)
       model_.materials.push_back(materialOf(material));
     for (const tinygltf::Buffer& buffer : gltf_.buffers) allowance_ += kMostUses * buffer.data.size();
     readNodes();
     for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     repairs_.report(place_, messages_);
-    if (lines_ > 0) messages_.warn(place_, "points and lines are left out: " + std::to_string(lines_));
+    textures_.report(messages_);
+    const auto warn = [&](const char* what, std::size_t count) {
+      if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
+    };
+    warn("points and lines are left out", lines_);
+    warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
+    warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
     return std::move(model_);
   }
 
@@ -341,6 +348,10 @@ class GltfReader {
     const std::string& name =
         node.name.empty() ? gltf_.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
     for (const Object& part : partsOf(node.mesh)) {
+      if (!invertible(worldFromNode)) {
+        ++flat_;
+        continue;
+      }
       model_.objects.push_back(part);
       model_.objects.back().name = name;
       model_.objects.back().worldFromObject = worldFromNode;
@@ -442,6 +453,7 @@ class GltfReader {
     readColors(primitive, mesh);
 
     const std::vector<std::uint32_t> corners = cornersOf(primitive, mesh.points.size());
+    leftOver_ += triangles ? corners.size() % 3 : 0;
     for (std::size_t i = 2; i < corners.size(); i += triangles ? 3 : 1) {
       const bool turned = strip && i % 2 == 1;
       const std::uint32_t a = corners[fan ? 0 : i - 2], b = corners[i - 1], c = corners[i];
@@ -514,19 +526,32 @@ class GltfReader {
     Material material{from.name, toPhong(m), {}};
     addMap(material, "diffuse", pbr.baseColorTexture.index);
     addMap(material, "emissive", from.emissiveTexture.index);
+    for (int texture : {pbr.metallicRoughnessTexture.index, from.normalTexture.index,
+                        from.occlusionTexture.index})  // of what a material has no field for
+      noteTexture(texture);
     return material;
   }
 
   void addMap(Material& material, const char* field, int texture) {
-    if (!isIndex(texture, gltf_.textures.size())) return;
+    const tinygltf::Image* image = imageOf(texture);
+    if (image && !image->uri.empty()) material.maps.push_back({field, image->uri});
+    noteTexture(texture);
+  }
+
+  const tinygltf::Image* imageOf(int texture) const {
+    if (!isIndex(texture, gltf_.textures.size())) return nullptr;
     const int source = gltf_.textures[static_cast<std::size_t>(texture)].source;
-    if (!isIndex(source, gltf_.images.size())) return;
-    const std::string& uri = gltf_.images[static_cast<std::size_t>(source)].uri;
-    if (!uri.empty())
-      material.maps.push_back({field, uri});
-    else
-      messages_.warn(place_,
-                     "the picture of material \"" + material.name + "\" is inside the file; it is left out");
+    return isIndex(source, gltf_.images.size()) ? &gltf_.images[static_cast<std::size_t>(source)] : nullptr;
+  }
+
+  /// By the name of its file, or, if it is in this one, by its own.
+  void noteTexture(int texture) {
+    if (texture < 0) return;
+    const tinygltf::Image* image = imageOf(texture);
+    if (image && !image->uri.empty()) return textures_.note(image->uri, place_);
+    const std::string name =
+        image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
+    textures_.note(name + " (inside the file)", place_);
   }
 
   Place place_;
@@ -537,7 +562,10 @@ class GltfReader {
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
-  std::size_t lines_ = 0;  ///< primitives that are no triangles
+  Textures textures_;
+  std::size_t lines_ = 0;     ///< primitives that are no triangles
+  std::size_t leftOver_ = 0;  ///< corners that make no triangle
+  std::size_t flat_ = 0;      ///< objects without volume
 };
 
 }  // namespace

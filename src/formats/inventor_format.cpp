@@ -17,13 +17,16 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "formats/directions.h"
 #include "formats/format.h"
 #include "formats/inventor_binding.h"
+#include "formats/inventor_nodes.h"
 #include "formats/inventor_shapes.h"
 #include "formats/inventor_state.h"
 #include "formats/inventor_transform.h"
 #include "formats/model.h"
+#include "formats/textures.h"
 
 namespace trace {
 namespace inventor {
@@ -37,7 +40,6 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "WorldInfo",
                                           "NavigationInfo",
                                           "Complexity",
-                                          "Fog",
                                           "Sound",
                                           "AudioClip",
                                           "Script",
@@ -57,7 +59,6 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "PositionInterpolator",
                                           "ScalarInterpolator",
                                           "PickStyle",
-                                          "DrawStyle",
                                           "FontStyle",
                                           "Font",
                                           "TextureCoordinateBinding",
@@ -65,7 +66,6 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "TextureTransform",
                                           "Callback",
                                           "EventCallback",
-                                          "MovieTexture",
                                           "ColorIndex",
                                           "LinearProfile",
                                           "ProfileCoordinate2",
@@ -109,6 +109,7 @@ class Reader {
   /// Only what the file itself holds.
   Scene readPart() {
     walk();
+    textures_.report(messages_);
     return std::move(scene_);
   }
 
@@ -161,7 +162,15 @@ class Reader {
       if (at.node->proto->nodes.empty()) return {};
       at = {at.node->proto->nodes.front(), envOf(at)};
     }
+    if (at.node) check(Values(*at.node, at.env));
     return at;
+  }
+  /// Warns once of what is wrong in the fields of a node.
+  void check(const Values& v) {
+    if (!checked_.insert(&v.node()).second) return;
+    checkFields(v, vrml2_, [&](const Token& at, std::string what, std::string hint, std::string kind) {
+      warn(at, std::move(what), kind, std::move(hint));
+    });
   }
   /// The first node of a field, or nothing.
   NodeIn nodeOf(const Values& v, std::string_view field) {
@@ -218,6 +227,7 @@ class Reader {
         {"Normal", &Reader::normals},
         {"TextureCoordinate2", &Reader::textureCoordinates},
         {"Texture2", &Reader::texture},
+        {"DrawStyle", &Reader::drawStyle},
         {"VertexProperty", &Reader::vertexProperty},
         {"Environment", &Reader::environment},
         {"PointLight", &Reader::pointLight},
@@ -245,6 +255,7 @@ class Reader {
   }
 
   void node(const Values& v, State& state) {
+    check(v);
     const auto handler = handlers().find(v.node().type);
     if (handler != handlers().end()) return (this->*handler->second)(v, state);
     if (kIgnored.count(v.node().type)) return;
@@ -255,9 +266,12 @@ class Reader {
 
   /// Once for each kind.
   void warn(const Node& at, std::string what, std::string_view kind) {
+    warn(at.token, std::move(what), kind);
+  }
+  void warn(const Token& at, std::string what, std::string_view kind, std::string hint = {}) {
     constexpr std::size_t kMostKinds = 100;
     if (told_.size() < kMostKinds && told_.emplace(kind).second)
-      messages_.warn(document_.place(at.token), std::move(what));
+      messages_.warn(document_.place(at), std::move(what), std::move(hint));
   }
 
   // --- groups ---
@@ -281,6 +295,11 @@ class Reader {
     const std::vector<NodeIn> all = alternatives(v, "choice");
     for (std::size_t i = 0; i < all.size(); ++i)
       if (which == kAll || which == static_cast<Real>(i)) visit(all[i], state);
+    if (which >= static_cast<Real>(all.size()))
+      warn(v.node(),
+           "Switch: expected the number of one of its " + std::to_string(all.size()) +
+               " children, counted from 0, found " + toText(which),
+           "switch");
   }
   void firstChild(const Values& v, State& state) {
     const std::vector<NodeIn> all = alternatives(v, "level");
@@ -312,7 +331,8 @@ class Reader {
   /// Objects and lights of another file, of this kind or of meshes, as if they stood here.
   void include(const Values& v, State& state) {
     const std::string name(v.word(v.node().type == "Inline" ? "url" : "name", ""));
-    if (name.empty()) return;
+    if (name.empty())
+      return warn(v.node(), std::string(v.node().type) + " names no file: nothing is brought in", "no file");
     const auto [known, fresh] = library_.try_emplace(besideFile(document_.file(), name));
     if (fresh) try {
         known->second = readPart(known->first, name);
@@ -456,15 +476,25 @@ class Reader {
   void normals(const Values& v, State& s) { s.normals = vectors(v, "vector"); }
   void textureCoordinates(const Values& v, State& s) { s.uvs = pairs(v, "point"); }
   void texture(const Values& v, State& s) {
-    const std::string_view file = v.word("filename", "");
-    if (!file.empty()) keepTexture(v.node(), file);
-    repaint(v, s, [&](Paint& p) { p.texture = file; });
+    repaint(v, s, [&, file = textureOf(v)](Paint& p) { p.texture = file; });
   }
-  void keepTexture(const Node& node, std::string_view file) {
-    scene_.inputs.noteNamed(besideFile(document_.file(), std::string(file)));
-    if (textures_.emplace(file).second)
-      scene_.unrendered.push_back({"map", document_.place(node.token), "map(\"" + std::string(file) + "\")"});
-    warn(node, "texture maps are not rendered yet", "map");
+  /// The name of the texture's file, noted; empty if its picture stands in this file.
+  std::string_view textureOf(const Values& v) {
+    const std::string_view file = v.word(v.has("url") ? "url" : "filename", "");
+    const Place place = document_.place(v.node().token);
+    if (!file.empty()) {
+      scene_.inputs.noteNamed(besideFile(document_.file(), std::string(file)));
+      if (files_.emplace(file).second)
+        scene_.unrendered.push_back({"map", place, "map(\"" + std::string(file) + "\")"});
+      textures_.note(file, place);
+      return file;
+    }
+    for (std::string_view several : {"texture", "textures"})  // of a MultiTexture
+      for (const NodeIn& one : v.nodes(several))
+        if (one.node) textureOf(Values(*one.node, one.env));
+    if (v.numbers("image").size() > 3)
+      textures_.note(std::string(v.node().type) + " (inside the file)", place);
+    return {};
   }
   void vertexProperty(const Values& v, State& s) {
     if (v.has("vertex")) s.points = vectors(v, "vertex");
@@ -567,6 +597,17 @@ class Reader {
   void background(const Values& v, State&) {
     const std::vector<Color> sky = v.colors("skyColor");
     if (scene_.background.colors.empty() && !sky.empty()) scene_.background.colors = {sky.front()};
+    for (const char* side : {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"})
+      if (const std::string_view file = v.word(side, ""); !file.empty())
+        textures_.note(file, document_.place(v.node().token));
+  }
+  /// Nothing but whether what follows is seen at all.
+  void drawStyle(const Values& v, State&) {
+    const std::string_view style = v.word("style", "FILLED");
+    if (style == "FILLED") return;
+    warn(v.node(),
+         "DrawStyle " + std::string(style.substr(0, 40)) + " is not rendered: surfaces are drawn whole",
+         "draw style");
   }
 
   // --- shapes ---
@@ -600,9 +641,8 @@ class Reader {
       const Values look(*at.node, at.env);
       if (const NodeIn m = nodeOf(look, "material"); m.node) material(Values(*m.node, m.env), state);
       if (const NodeIn t = nodeOf(look, "texture"); t.node) {
-        const std::string_view file = Values(*t.node, t.env).word("url", "");
-        if (!file.empty()) keepTexture(*t.node, file);
-        repaint(Values(*t.node, t.env), state, [&](Paint& p) { p.texture = file; });
+        const Values picture(*t.node, t.env);
+        repaint(picture, state, [&, file = textureOf(picture)](Paint& p) { p.texture = file; });
       }
     }
     if (const NodeIn at = nodeOf(v, "geometry"); at.node) visit(at, state);
@@ -692,7 +732,7 @@ class Reader {
     faces.hasUvs = !uvs.empty();
     const Binding byPoint{By::point, nullptr};
     const Binding& uvBinding = surface.uvs.empty() && bind.uv.by != By::nothing ? bind.uv : byPoint;
-    std::size_t corner = 0;
+    std::size_t corner = 0, missing = 0;
     for (std::size_t face = 0; face < faces.counts.size(); ++face)
       for (std::uint32_t i = 0; i < faces.counts[face]; ++i, ++corner) {
         Corner c;
@@ -704,13 +744,20 @@ class Reader {
           else
             c.normal = unit(normals[n]);
         }
-        if (faces.hasMaterials) c.material = materialNumber(state, bind.material(outline, face, corner));
+        if (faces.hasMaterials) {
+          const std::size_t n = bind.material(outline, face, corner);
+          missing += bind.material.indices && n >= state.paint->count();
+          c.material = materialNumber(state, n);
+        }
         if (faces.hasUvs) {
           const std::size_t n = uvBinding(outline, face, corner);
+          missing += uvBinding.indices && n >= uvs.size();
           if (n < uvs.size()) c.uv = uvs[n];
         }
         faces.corners.push_back(c);
       }
+    if (missing > 0)
+      warn(v.node(), "corners use materials, colours or texture coordinates that are not there", "missing");
     if (bind.normal.by != By::nothing && !normals.empty() && !faces.hasNormals)
       warn(v.node(), "there are fewer normals than the faces need; they are made from the faces", "normals");
     MeshData data = meshOf(std::move(faces));
@@ -786,7 +833,11 @@ class Reader {
     if (addAgain(v, outer)) return;
     State state = outer;
     attributes(v, state);
-    mesh(v, state, extrusion(v), {});
+    const Surface surface = extrusion(v);
+    if (surface.outline.counts.empty())
+      return warn(v.node(), "an Extrusion needs a crossSection and a spine of at least 2 points",
+                  "extrusion");
+    mesh(v, state, surface, {});
     remember(v, outer);
   }
 
@@ -795,6 +846,7 @@ class Reader {
   void finish() {
     const Place place{scene_.file, 0, 0, {}};
     if (!meshes_.empty()) repairs_.report(place, messages_);
+    textures_.report(messages_);
     if (scene_.objects.empty()) messages_.warn(place, "no object: the picture will be empty");
     if (!hasCamera_) {
       scene_.camera = framing(bounds(scene_));
@@ -828,7 +880,9 @@ class Reader {
   std::map<MeshKey, Mesh> meshes_;
   Mesh made_;  ///< by mesh(), for remember()
   std::map<std::shared_ptr<const Paint>, std::vector<std::uint32_t>> numbers_;
-  std::set<std::string, std::less<>> told_, textures_;
+  std::set<std::string, std::less<>> told_, files_;
+  std::set<const Node*> checked_;
+  Textures textures_;
   std::size_t spent_ = 0;
   int depth_ = 0;
 };

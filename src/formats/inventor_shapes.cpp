@@ -29,6 +29,8 @@ class Maker {
     for (std::size_t i = 0; i + 2 < items.size(); ++i)
       add({items[i], items[i + 1 + i % 2], items[i + 2 - i % 2]}, part);
   }
+  /// Faces that the file announces and has no points for.
+  void leaveOut() { ++outline_.bad; }
   Outline finish() { return std::move(outline_); }
 
  private:
@@ -59,14 +61,16 @@ void indexedRuns(const std::vector<double>& indices, End&& end) {
 
 /// Calls end(items, part) for each run of consecutive points; a length of -1 takes all that are left.
 template <class End>
-void countedRuns(const Values& shape, std::size_t points, End&& end) {
+void countedRuns(Maker& maker, const Values& shape, std::size_t points, End&& end) {
   std::vector<double> lengths = shape.numbers("numVertices");
   if (lengths.empty()) lengths = {-1};
   std::uint32_t point = asIndex(shape.number("startIndex", 0)), order = 0, part = 0;
   for (double length : lengths) {
-    if (point >= points) return;
+    if (point >= points) return maker.leaveOut();
     const std::size_t left = points - point;
-    const std::size_t count = length < 0 ? left : std::min(left, static_cast<std::size_t>(asIndex(length)));
+    const std::size_t wanted = length < 0 ? left : static_cast<std::size_t>(asIndex(length));
+    const std::size_t count = std::min(left, wanted);
+    if (wanted > left) maker.leaveOut();
     std::vector<Item> items;
     for (std::size_t i = 0; i < count; ++i, ++point, ++order) items.push_back({point, order, order});
     end(items, part++);
@@ -77,7 +81,7 @@ void quadMesh(Maker& maker, const Values& shape) {
   const std::uint32_t start = asIndex(shape.number("startIndex", 0));
   const std::uint32_t columns = asIndex(shape.number("verticesPerRow", 1));
   const std::uint32_t rows = asIndex(shape.number("verticesPerColumn", 1));
-  if (columns > 1u << 15 || rows > 1u << 15) return;
+  if (columns > 1u << 15 || rows > 1u << 15) return maker.leaveOut();
   const auto item = [&](std::uint32_t row, std::uint32_t column) {
     const std::uint32_t n = row * columns + column;
     return Item{start + n, n, n};
@@ -107,9 +111,9 @@ Outline outlineOf(const Values& shape, std::string_view type, std::size_t points
   else if (type == "IndexedTriangleStripSet" || type == "IndexedTriangleMesh")
     indexedRuns(indices, strip);
   else if (type == "FaceSet")
-    countedRuns(shape, points, polygon);
+    countedRuns(maker, shape, points, polygon);
   else if (type == "TriangleStripSet")
-    countedRuns(shape, points, strip);
+    countedRuns(maker, shape, points, strip);
   else if (type == "QuadMesh")
     quadMesh(maker, shape);
   return maker.finish();

@@ -171,7 +171,16 @@ class Parser {
 
   /// All that can belong to one value: a list in brackets, or numbers, or texts, or one word, or one node.
   void value(Field& field) {
-    tokens_.skipMark('~');
+    // `value ~` has no value, only the mark that it does not count: a word after it is the next field.
+    if (tokens_.skipMark('~')) {
+      const Token& next = tokens_.peek();
+      const bool hasValue = next.is(Token::Kind::number) || next.is(Token::Kind::string) ||
+                            next.isMark('[') || next.isMark('(');
+      if (!hasValue) {
+        if (tokens_.skipMark('=')) connection();
+        return;
+      }
+    }
     if (tokens_.skipWord("IS")) {
       field.is = tokens_.word("IS").text;
     } else if (tokens_.skipMark('[')) {

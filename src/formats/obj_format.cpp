@@ -9,12 +9,18 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <streambuf>
 #include <utility>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "base/unique.h"
+#include "formats/mtl_lines.h"
 #include "formats/obj_lines.h"
+#include "formats/obj_words.h"
+#include "formats/textures.h"
+#include "formats/warnings.h"
 #include "geometry/mesh_repair.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -59,7 +65,8 @@ Material toMaterial(const tinyobj::material_t& mtl) {
   const std::pair<const char*, const std::string&> maps[] = {{"ambient", mtl.ambient_texname},
                                                              {"diffuse", mtl.diffuse_texname},
                                                              {"specular", mtl.specular_texname},
-                                                             {"emissive", mtl.emissive_texname}};
+                                                             {"emissive", mtl.emissive_texname},
+                                                             {"shininess", mtl.specular_highlight_texname}};
   for (const auto& [field, picture] : maps)
     if (!picture.empty()) material.maps.push_back({field, picture});
   return material;
@@ -98,7 +105,7 @@ class ObjReader : public tinyobj::MaterialReader {
       : file_(file), place_{file, 0, 0, {}}, bytes_(bytes), messages_(messages) {}
 
   Model read() {
-    unusable_ = checkObjLines(file_, bytes_);
+    uses_ = checkObjLines(file_, bytes_, warnings_);
     tinyobj::callback_t calls;
     calls.vertex_cb = [](void* self, float x, float y, float z, float) {
       of(self).points_.push_back({x, y, z});
@@ -108,7 +115,9 @@ class ObjReader : public tinyobj::MaterialReader {
     calls.index_cb = [](void* self, tinyobj::index_t* indices, int count) {
       of(self).face({indices, static_cast<std::size_t>(count)});
     };
-    calls.usemtl_cb = [](void* self, const char*, int material) { of(self).useMaterial(material); };
+    calls.usemtl_cb = [](void* self, const char* name, int material) {
+      of(self).useMaterial(name, material);
+    };
     calls.group_cb = [](void* self, const char** names, int count) {
       std::string all;
       for (int i = 0; i < count; ++i) all += (i ? " " : "") + std::string(names[i]);
@@ -129,12 +138,14 @@ class ObjReader : public tinyobj::MaterialReader {
                   std::map<std::string, int>* numbers, std::string*, std::string*) override {
     try {
       const std::string text = readBeside(file_, name, model_.inputs);
+      checkMtlLines(besideFile(file_, name), text, textures_, warnings_);
       ByteStream stream(text);
       std::string warnings, errors;
       tinyobj::LoadMtl(numbers, materials, &stream, &warnings, &errors);
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
       messages_.warn(place_, "materials: " + error.messages().front().what);
+      materialsMissing_ = true;
       return false;
     }
     for (const tinyobj::material_t& material : *materials) notePictures(material, besideFile(file_, name));
@@ -167,7 +178,18 @@ class ObjReader : public tinyobj::MaterialReader {
     name_ = std::move(name);
     part_ = nullptr;
   }
-  void useMaterial(int material) {
+  /// tinyobj takes blanks at the end of a line for a part of the name.
+  void useMaterial(const std::string& text, int material) {
+    const std::string name(LineWords(text).rest());
+    if (material < 0 && !name.empty() && !undefined_.contains(name)) {
+      const auto found =
+          std::find_if(model_.materials.begin(), model_.materials.end(),
+                       [&](const Material& one) { return LineWords(one.name).rest() == name; });
+      if (found != model_.materials.end())
+        material = static_cast<int>(found - model_.materials.begin());
+      else
+        undefined_.insert(name);
+    }
     material_ = material < 0 ? Model::kNoMaterial : static_cast<std::uint32_t>(material);
     part_ = nullptr;
   }
@@ -226,8 +248,9 @@ class ObjReader : public tinyobj::MaterialReader {
   }
 
   void finish() {
-    if (unusable_ > 0)
-      messages_.warn(place_, "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
+    warnUndefined();
+    warnings_.report(messages_);
+    textures_.report(messages_);
     if (missing_ > 0)
       messages_.warn(place_,
                      "normals or uv that the file does not have are left out: " + std::to_string(missing_));
@@ -245,10 +268,32 @@ class ObjReader : public tinyobj::MaterialReader {
     repairs_.report(place_, messages_);
   }
 
+  /// Of materials that no file defines; where a file is missing, that is said.
+  void warnUndefined() {
+    if (undefined_.empty() || materialsMissing_) return;
+    constexpr std::size_t kMostNamed = 3;
+    std::size_t named = 0, first = bytes_.size();
+    std::string names;
+    for (const std::string& name : undefined_) {
+      if (const auto use = uses_.find(name); use != uses_.end()) first = std::min(first, use->second);
+      if (named++ < kMostNamed) names += (names.empty() ? "\"" : ", \"") + name.substr(0, 60) + "\"";
+    }
+    if (named > kMostNamed) names += " and " + std::to_string(named - kMostNamed) + " more";
+    messages_.warn(placeAt(file_, bytes_, first),
+                   (named == 1 ? "the material " : "the materials ") + names + (named == 1 ? " is" : " are") +
+                       " not defined: a light grey shows instead",
+                   "a line \"mtllib FILE\" names the file that defines them");
+  }
+
   const std::string& file_;
   Place place_;
   std::string_view bytes_;
   Messages& messages_;
+  WarningsByKind warnings_;
+  Textures textures_;
+  MaterialUses uses_;
+  std::set<std::string> undefined_;
+  bool materialsMissing_ = false;
   std::vector<Vec3f> points_, normals_;
   std::vector<Vec2> uvs_;
   std::string name_;
@@ -258,7 +303,7 @@ class ObjReader : public tinyobj::MaterialReader {
   Part* part_ = nullptr;  ///< that of name_ and material_, once known
   std::vector<std::uint32_t> face_;
   MeshRepairs repairs_;
-  std::size_t faces_ = 0, unusable_ = 0, missing_ = 0;
+  std::size_t faces_ = 0, missing_ = 0;
   Model model_;
 };
 

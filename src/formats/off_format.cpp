@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "base/unique.h"
 #include "formats/words.h"
 #include "geometry/mesh_repair.h"
@@ -34,11 +35,16 @@ class OffReader {
   Model read() {
     const Kind kind = *kindOf(words_.next());
     const std::size_t points = count("the number of points"), faces = count("the number of faces");
-    words_.number("the number of edges");
+    if (const double edges = words_.number("the number of edges");
+        !(edges >= 0) || edges != std::floor(edges))
+      words_.fail("expected the number of edges, a whole number, found " + toText(edges));
     mesh_.points.reserve(points), mesh_.triangles.reserve(faces);
     for (std::size_t i = 0; i < points; ++i) readPoint(kind);
     if (kind.color) takeColors();
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
+    if (faceColors_ > 0)
+      messages_.warn(Place{file_, 0, 0, {}}, "colours of faces are left out: " + std::to_string(faceColors_));
+    if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
     if (unusable_ > 0)
       messages_.warn(Place{file_, 0, 0, {}},
                      "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
@@ -89,6 +95,23 @@ class OffReader {
       model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
   }
 
+  /// Numbers until the end of the line.
+  void readFaceColor(std::size_t face) {
+    std::string_view rest = words_.line();
+    rest = rest.substr(0, rest.find('#'));
+    const std::string line(rest);
+    Words numbers(file_, line, '\0');
+    if (numbers.atEnd()) return;
+    ++faceColors_;
+    while (!numbers.atEnd()) {
+      const std::string_view word = numbers.next();
+      const auto number = parseNumber(word);
+      if (!number || number->length != word.size())
+        words_.fail("face " + std::to_string(face) + ": expected a colour after its points, found \"" +
+                    std::string(word.substr(0, 40)) + "\"");
+    }
+  }
+
   /// The number of corners, their points, and until the end of the line a colour.
   void readFace(std::size_t number) {
     const std::size_t corners = count("the number of a face's corners");
@@ -100,7 +123,7 @@ class OffReader {
                     std::to_string(mesh_.points.size()) + " - 1, found " + toText(point));
       face_.push_back(static_cast<std::uint32_t>(point));
     }
-    words_.line();
+    readFaceColor(number);
     if (corners < 3) ++unusable_;
     appendPolygon(mesh_, face_);
   }
@@ -111,7 +134,7 @@ class OffReader {
   MeshData mesh_;
   std::vector<Vec3f> colors_;
   std::vector<std::uint32_t> face_;
-  std::size_t unusable_ = 0;
+  std::size_t unusable_ = 0, faceColors_ = 0;
   Model model_;
 };
 

@@ -1,12 +1,15 @@
 // The meaning of PLY files: which elements and properties make a mesh. Those not known are skipped.
 #include "formats/ply_format.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "base/unique.h"
 #include "formats/ply_syntax.h"
+#include "formats/textures.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {
@@ -33,7 +36,11 @@ class PlyReader {
     if (!hasVertices_) fail("expected an element \"vertex\"");
     if (!hasFaces_)
       fail("expected an element \"face\" or \"tristrips\": this file holds points, and no surface");
-    addOnlyMesh(model_, std::move(mesh_), Place{file_, 0, 0, {}}, messages_);
+    if (const std::size_t left = body_.left(); left > 0)
+      messages_.warn(place(), "bytes after the last element are ignored: " + std::to_string(left));
+    addOnlyMesh(model_, std::move(mesh_), place(), messages_);
+    for (const auto& [name, where] : header_.textures) textures_.note(name, where);
+    textures_.report(messages_);
     return std::move(model_);
   }
 
@@ -43,6 +50,14 @@ class PlyReader {
   void readVertices(const Element& element) {
     if (std::exchange(hasVertices_, true)) fail("expected one element \"vertex\", found two");
     body_.checkCount(element);
+    for (const auto& names : {std::array{"nx", "ny", "nz"}, std::array{"red", "green", "blue"}}) {
+      const auto has = [&](const char* name) { return element.find({name}) >= 0; };
+      const auto count = std::count_if(names.begin(), names.end(), has);
+      if (count == 1 || count == 2)
+        messages_.warn(place(), std::string("expected all of ") + names[0] + ", " + names[1] + " and " +
+                                    names[2] + " of a vertex, found " + std::to_string(count) +
+                                    "; they are ignored");
+    }
     columns_.assign(element.properties.size(), {});
     mesh_.points.resize(element.count);
     float* const points = element.count ? &mesh_.points[0].x : nullptr;
@@ -86,6 +101,13 @@ class PlyReader {
   /// Whole numbers count from 0 to the most their type holds, others from 0 to 1. Equal colours become one.
   void takeColors(const std::vector<Vec3f>& colors, Type type) {
     const double scale = type == Type::uint8 ? 1.0 / 255 : type == Type::uint16 ? 1.0 / 65535 : 1;
+    const auto most = static_cast<float>(1 / scale);
+    const auto outside = std::count_if(colors.begin(), colors.end(), [&](const Vec3f& c) {
+      return !(min(c.x, min(c.y, c.z)) >= 0 && max(c.x, max(c.y, c.z)) <= most);
+    });
+    if (outside > 0)
+      messages_.warn(place(),
+                     "colours that are not from 0 to " + toText(1 / scale) + ": " + std::to_string(outside));
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys()) {
@@ -121,8 +143,7 @@ class PlyReader {
       ++row;
     });
     if (unusable > 0)
-      messages_.warn(Place{file_, 0, 0, {}},
-                     "faces of fewer than 3 points are left out: " + std::to_string(unusable));
+      messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable));
   }
 
   /// Strips of triangles that turn about, each ended by -1, as scanners write them.
@@ -146,14 +167,14 @@ class PlyReader {
 
   void check(std::uint32_t point, const char* what, std::size_t row) const {
     if (point < mesh_.points.size()) return;
-    const std::string name = point >= 0x80000000 ? "a negative number" : "point " + std::to_string(point);
+    const std::string name =
+        point >= 0x80000000 ? "a number that no point has" : "point " + std::to_string(point);
     body_.fail(what + (" " + std::to_string(row)) + " uses " + name + " but the mesh has " +
                std::to_string(mesh_.points.size()) + " points, counted from 0");
   }
 
-  [[noreturn]] void fail(std::string what) const {
-    throw Error(Fault::scene, Place{file_, 0, 0, {}}, std::move(what));
-  }
+  Place place() const { return {file_, 0, 0, {}}; }
+  [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place(), std::move(what)); }
 
   const std::string& file_;
   Messages& messages_;
@@ -162,6 +183,7 @@ class PlyReader {
   std::vector<Column> columns_;
   MeshData mesh_;
   Model model_;
+  Textures textures_;
   bool hasVertices_ = false, hasFaces_ = false;
 };
 

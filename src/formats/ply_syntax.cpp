@@ -84,7 +84,11 @@ class HeaderReader {
     bool format = false;
     for (;;) {
       if (!nextLine()) fail("expected \"end_header\", found the end of the file");
-      if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
+      if (words_.empty() || words_[0] == "obj_info") continue;
+      if (words_[0] == "comment") {
+        readComment();
+        continue;
+      }
       if (words_[0] == "end_header") break;
       if (words_[0] == "format")
         readFormat(), format = true;
@@ -121,6 +125,15 @@ class HeaderReader {
     }
   }
 
+  /// `comment TextureFile wood.png`: the name is the rest of the line.
+  void readComment() {
+    if (words_.size() < 3 || words_[1] != "TextureFile") return;
+    const auto start = static_cast<std::size_t>(words_[2].data() - bytes_.data());
+    std::string_view name = bytes_.substr(start, at_ - start);
+    name = name.substr(0, name.find_last_not_of(" \t\r\n") + 1);
+    header_.textures.emplace_back(std::string(name), placeAt(file_, bytes_.substr(0, at_), lineStart_));
+  }
+
   void readFormat() {
     const std::string_view name = words_.size() > 1 ? words_[1] : "";
     if (name == "ascii")
@@ -131,6 +144,8 @@ class HeaderReader {
       header_.encoding = Encoding::big;
     else
       fail("expected format ascii, binary_little_endian or binary_big_endian");
+    if (words_.size() > 2 && words_[2] != "1.0")
+      fail("expected version 1.0 of the format, found \"" + std::string(words_[2].substr(0, 40)) + "\"");
   }
 
   void readElement() {
@@ -152,6 +167,9 @@ class HeaderReader {
     Property property{std::string(words_[isList ? 4 : 2]), type(words_[isList ? 3 : 1]), isList,
                       isList ? type(words_[2]) : Type::uint8};
     std::vector<Property>& all = header_.elements.back().properties;
+    for (const Property& before : all)
+      if (before.name == property.name)
+        fail("expected each property once, found \"" + property.name.substr(0, 40) + "\" again");
     if (all.size() >= kMostProperties) fail("expected at most 1000 properties of an element");
     all.push_back(std::move(property));
   }
@@ -195,6 +213,12 @@ Body::Body(const std::string& file, std::string_view bytes, const Header& header
 void Body::fail(std::string what) const {
   if (encoding_ == Encoding::text) throw Error(Fault::scene, placeAt(file_, bytes_, at_), std::move(what));
   throw Error(Fault::scene, Place{file_, 0, 0, {}}, what + " (byte " + std::to_string(at_) + " of the file)");
+}
+
+std::size_t Body::left() const {
+  if (encoding_ != Encoding::text) return bytes_.size() - at_;
+  const std::string_view rest = bytes_.substr(at_);
+  return rest.find_last_not_of(" \t\r\n\v\f") + 1;
 }
 
 void Body::need(std::size_t bytes) const {

@@ -12,7 +12,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "base/error.h"
 
 namespace trace::ply {
 
@@ -40,6 +43,8 @@ struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
   std::size_t end = 0;  ///< offset of the body
+  std::vector<std::pair<std::string, Place>>
+      textures;  ///< that comments name, as scanners' programs write them
 };
 
 /// Throws Error(Fault::scene).
@@ -71,6 +76,9 @@ class Body {
   void skip(const Element& element);
 
   [[noreturn]] void fail(std::string what) const;
+
+  /// Bytes that no element has used, blanks at the end of a text not counted.
+  std::size_t left() const;
 
  private:
   double number(Type type);

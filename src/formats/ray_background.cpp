@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "formats/ray_fields.h"
 
 namespace trace::rayfile {
@@ -25,6 +26,12 @@ Background readBackground(Findings& findings, const Item& block) {
                               std::to_string(background.colors.size()));
   if (!std::is_sorted(limits.begin(), limits.end()))
     findings.error(block, "background: expected limits that ascend, from the top of the picture down");
+  for (const Color& color : background.colors)
+    if (color.r < 0 || color.g < 0 || color.b < 0)
+      findings.warn(block, "background: expected colors of at least 0, found a number below");
+  for (Real limit : limits)
+    if (!(limit >= 0 && limit <= 1))
+      findings.warn(block, "background: expected limits from 0 to 1, found " + toText(limit));
   return background;
 }
 

@@ -16,8 +16,15 @@ class CameraReader {
 
   Camera read(const Item& block) {
     const std::size_t before = findings_.errors();
-    for (const Item item : block) field(item);
+    RepeatedFields repeats(findings_, Camera::kKeyword);
+    for (const Item item : block) {
+      if (item.keyed()) repeats.note(item);
+      field(item);
+    }
     if (findings_.errors() == before) direct();
+    if (!(camera_.near < camera_.far))
+      findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) +
+                                " and " + toText(camera_.far) + ": nothing is seen");
     if (horizontalFov_ > 0 && findings_.errors() == before)
       camera_.fov = std::atan(std::tan(horizontalFov_ * kPi / 360) / camera_.aspectratio) * 360 / kPi;
     return camera_;
@@ -32,6 +39,7 @@ class CameraReader {
       if (rayfile::read(findings_, key, item.value(), horizontalFov_) &&
           !(horizontalFov_ > 0 && horizontalFov_ < 180))
         findings_.expected(item.value(), key, "an angle between 0 and 180 degrees");
+      if (hasFov_) findings_.warn(item, "fov is ignored, since horizontal_fov is given");
       return;
     }
     if (key == "look_at") {
@@ -40,6 +48,11 @@ class CameraReader {
       return;
     }
     if (!assignField(findings_, camera_, item)) return unknown(item);
+    checkRange(findings_, camera_, item);
+    if (key == "fov") {
+      hasFov_ = true;
+      if (horizontalFov_ > 0) findings_.warn(item, "fov is ignored, since horizontal_fov is given");
+    }
     if (key == "viewdir") viewdir_ = item;
     if (key == "updir") updir_ = item;
     if (key == "fov" && item.value().is(Kind::number) && !(camera_.fov > 0 && camera_.fov < 180))
@@ -49,7 +62,10 @@ class CameraReader {
   }
 
   void unknown(const Item& item) {
-    if (item.key() == "focaldistance") findings_.sureSignOf2001(item);
+    if (item.key() == "focaldistance") {
+      findings_.signOf2001(item);
+      return findings_.warn(item, "focaldistance of camera is ignored: everything is in focus");
+    }
     findings_.unknownField(Camera::kKeyword, item,
                            keywords<Camera>({"horizontal_fov", "look_at", "quaternian"}));
   }
@@ -57,7 +73,7 @@ class CameraReader {
   /// (x, y, z, w), the real part last: turns the default camera. viewdir and updir override it.
   void quaternion(const Item& item) {
     if (item.key() == "quaternion")
-      findings_.sureSignOf2001(item);
+      findings_.signOf2001(item);
     else
       findings_.sureSignOf2005();
     Real q[4];
@@ -101,6 +117,7 @@ class CameraReader {
   Camera camera_;
   Vec3 target_;
   Real horizontalFov_ = 0;  ///< degrees; 0: not given
+  bool hasFov_ = false;
   std::optional<Item> viewdir_, updir_, lookAt_;
 };
 

@@ -19,6 +19,22 @@ constexpr std::array<std::string_view, 24> kRelatives{
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;
 
+/// What Trace has for words of others.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kInstead{{
+    {"csg", "Trace has union, intersection and difference, as in difference { box { } sphere { } }"},
+    {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
+    {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
+    {"obj_mesh", "Trace has mesh { file = \"name.obj\"; }"},
+    {"displace", "Trace has height_field { } and isosurface { }"},
+    {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
+}};
+
+std::string_view insteadOf(std::string_view kind) {
+  for (const auto& [word, hint] : kInstead)
+    if (word == kind) return hint;
+  return {};
+}
+
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
 
 }  // namespace
@@ -77,7 +93,7 @@ void Findings::notRendered(std::string_view kind, const Item& node, std::string 
   const std::string key = "not rendered: " + std::string(kind);
   if (again(key)) return;
   if (isRelative(kind))
-    add(key, node, quoted(kind) + " is not rendered yet", {});
+    add(key, node, quoted(kind) + " is not rendered yet", std::string(insteadOf(kind)));
   else
     add(key, node, quoted(kind) + " is not known and is left out", didYouMean(kind, known));
 }
@@ -92,7 +108,18 @@ void Findings::unknownField(std::string_view owner, const Item& field,
       warnings_.size() < kFullWarnings ? didYouMean(name, known) : std::string());
 }
 
-void Findings::sureSignOf2001(const Item& at) {
+void Findings::texture(std::string_view file, const Item& node) {
+  const Place place = textures_.empty() ? syntax_.place(node.offset()) : syntax_.shortPlace(node.offset());
+  scene_.unrendered.push_back({"map", syntax_.shortPlace(node.offset()), std::string(node.source())});
+  textures_.note(file, place);
+}
+
+bool Findings::isUnknown(std::string_view owner, std::string_view field) const {
+  return kinds_.contains("unknown field: " + std::string(owner) + "." + std::string(field)) ||
+         kinds_.contains("not rendered: " + std::string(field));
+}
+
+void Findings::signOf2001(const Item& at) {
   if (!of2001_) of2001_ = syntax_.place(at.offset());
 }
 
@@ -114,13 +141,21 @@ void Findings::finish() {
   }
   warnings_.clear();
   kinds_.clear();
+  textures_.report(messages_, "white, or the second value of map(\"file\", (r, g, b)),");
 }
 
-/// Shininess tells only where nothing says more: no sure sign of 2005, and the exponents of all highlights
-/// from 0 to 1, where they would be so wide that nobody wants them.
+void RepeatedFields::note(const Item& field) {
+  const std::string_view key = field.key();
+  if (std::find(given_.begin(), given_.end(), key) == given_.end()) return given_.push_back(key);
+  if (findings_.isUnknown(owner_, key)) return;  // and told as such
+  findings_.warn(field, std::string(key) + " of " + std::string(owner_) + " given again; the last counts");
+}
+
+/// Words of 2001 and shininess tell only where nothing says that the file is newer, and no highlight has an
+/// exponent above 1. Exponents from 0 to 1 would make highlights so wide that nobody wants them.
 void Findings::finishDialect() {
-  std::optional<Place> sign = of2001_;
-  if (!sign && !of2005_ && !largeShininess_) sign = smallShininess_;
+  if (later_ || largeShininess_) return;
+  const std::optional<Place>& sign = of2001_ ? of2001_ : smallShininess_;
   if (!sign) return;
   for (const Choice& choice : scene_.choices)
     if (choice.option == "like") return;

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "formats/ray_notes.h"
 #include "formats/ray_syntax.h"
+#include "formats/textures.h"
 #include "scene/scene.h"
 
 namespace trace::rayfile {
@@ -45,9 +46,15 @@ class Findings {
   /// A field that `owner` does not have: not rendered if the format's relatives have it, else ignored.
   void unknownField(std::string_view owner, const Item& field, std::span<const std::string_view> known);
 
+  /// A picture in place of a field's value: kept as Unrendered, and told with all others of the file.
+  void texture(std::string_view file, const Item& node);
+
+  /// Was a field of that name not known before?
+  bool isUnknown(std::string_view owner, std::string_view field) const;
+
   // The file may be of 2001, whose shininess is from 0 to 1.
-  void sureSignOf2001(const Item& at);
-  void sureSignOf2005() { of2005_ = true; }
+  void signOf2001(const Item& at);
+  void sureSignOf2005() { later_ = true; }
   /// `shininess` of a material with a highlight.
   void noteShininess(const Item& at, double shininess);
 
@@ -75,7 +82,21 @@ class Findings {
 
   std::optional<Place> of2001_, smallShininess_;
   std::size_t errors_ = 0;
-  bool of2005_ = false, largeShininess_ = false;
+  bool later_ = false;  ///< than 2001
+  bool largeShininess_ = false;
+  Textures textures_;
+};
+
+/// Warns of the fields of a block that are given again.
+class RepeatedFields {
+ public:
+  RepeatedFields(Findings& findings, std::string_view owner) : findings_(findings), owner_(owner) {}
+  void note(const Item& field);
+
+ private:
+  Findings& findings_;
+  std::string_view owner_;
+  std::vector<std::string_view> given_;
 };
 
 /// Does `keyword` belong to a relative of the format, so that "did you mean" would be wrong?

@@ -28,6 +28,7 @@
 #include "formats/ray_mesh.h"
 #include "formats/ray_mesh_file.h"
 #include "formats/ray_notes.h"
+#include "formats/ray_shape_checks.h"
 #include "formats/ray_syntax.h"
 #include "geometry/csg_tree.h"
 #include "scene/options.h"
@@ -196,7 +197,7 @@ class Reader {
     if (++item == end || !(*item).is(Kind::number))
       throw Error(Fault::scene, syntax_.place(magic.offset()),
                   "expected a version after SBT-raytracer, as in 1.0");
-    if ((*item).number() > kNewestVersion)
+    if (!((*item).number() > 0 && (*item).number() <= kNewestVersion))
       throw Error(Fault::scene, syntax_.place((*item).offset()),
                   "expected version 1.1 or older of the format, found " + describe(*item));
     ++item;
@@ -391,11 +392,12 @@ class Reader {
     NotedMaterial material = materials_.current;
     const std::size_t errors = findings_.errors();
     constexpr bool kOfObjects = requires { shape.objects; };
+    RepeatedFields repeats(findings_, S::kKeyword);
     for (const Item item : block) {
       if (kOfObjects && (isObject(item) || isListOfObjects(item))) continue;
       if (!isField(item, call.key())) continue;
+      repeats.note(item);
       if (item.key() == Phong::kKeyword) {
-        if (item.is(Kind::call)) findings_.sureSignOf2001(item);
         material = materials_.read(item.value(), materials_.current);
       } else if (item.key() == "name") {
         rayfile::read(findings_, "name", item.value(), name);
@@ -405,22 +407,34 @@ class Reader {
       }
     }
     if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
-    if constexpr (requires { shape.prepared(); }) {
+    if constexpr (requires { shape.prepared(); })
       if (findings_.errors() != errors) return;  // what is wrong is said
-      try {
-        shape.prepared();
-      } catch (const Error& error) {
-        if (error.fault() == Fault::limit) throw;
-        return findings_.error(call, error.messages().front().what, error.messages().front().hint);
-      }
+    const Tell tell = [&](std::string what, std::string hint) {
+      findings_.warn(call, std::move(what), std::move(hint));
+    };
+    try {
+      const std::string_view reason = repair(shape, worldFromObject);
+      if (!reason.empty()) return findings_.warn(call, std::string(reason));
+      const auto form = prepare(shape);
+      if (!isEmpty(shape)) checkShape(shape, form, tell);
+    } catch (const Error& error) {
+      if (error.fault() == Fault::limit) throw;
+      return findings_.error(call, error.messages().front().what, error.messages().front().hint);
     }
-    const std::string_view reason = repair(shape, worldFromObject);
-    if (!reason.empty()) return findings_.warn(call, std::string(reason));
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
     if constexpr (requires { shape.excess(); })
       if (const std::string excess = shape.excess(); !excess.empty()) findings_.warn(call, excess);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// Solids made of no objects, of which that is said.
+  template <class S>
+  static bool isEmpty(const S& shape) {
+    if constexpr (requires { shape.objects.list(); })
+      return shape.objects.list().empty();
+    else
+      return false;
   }
 
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
@@ -530,6 +544,8 @@ class Reader {
       if (isListOfObjects(item)) readAll(item.value());
     materials_.current = outside;
     if (operands.empty()) findings_.warn(call, std::string(call.key()) + " without objects is empty");
+    if (operands.size() == 1 && call.key() != Union::kKeyword && call.key() != Blend::kKeyword)
+      findings_.warn(call, std::string(call.key()) + " of one object changes nothing");
     return Operands(std::move(operands));
   }
 
@@ -568,7 +584,6 @@ class Reader {
   }
 
   void namedMaterial(const Item& call) {
-    findings_.sureSignOf2001(call);
     const NotedMaterial material = materials_.read(call.value(), materials_.current);
     if (material.name.empty()) findings_.warn(call, "a material without a name is never used");
   }
@@ -576,7 +591,10 @@ class Reader {
   // --- camera, lights, settings ---
 
   void camera(const Item& call) {
-    if (const std::optional<Item> block = blockOf(call)) scene_.camera = readCamera(findings_, *block);
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return;
+    if (std::exchange(hasCamera_, true)) findings_.warn(call, "there are several cameras; the last counts");
+    scene_.camera = readCamera(findings_, *block);
   }
 
   void background(const Item& call) {
@@ -591,26 +609,27 @@ class Reader {
     L light;
     const std::size_t errors = findings_.errors();
     std::vector<std::string_view> given;
+    RepeatedFields repeats(findings_, L::kKeyword);
     for (const Item item : *block) {
       if (!isField(item, L::kKeyword)) continue;
+      repeats.note(item);
       if (!assignField(findings_, light, item)) {
         findings_.unknownField(L::kKeyword, item, keywords<L>({"colour"}));
         continue;
       }
       checkRange(findings_, light, item);
-      const std::string_view key = canonical(item.key());
-      const bool again = std::find(given.begin(), given.end(), key) != given.end();
-      if (again)
-        findings_.warn(
-            item, std::string(key) + " of " + std::string(L::kKeyword) + " given again; the last counts");
-      else
-        given.push_back(key);
+      given.push_back(canonical(item.key()));
     }
     forEachField<L>([&](const auto& field) {
       if (isRequired(field.keyword) && std::find(given.begin(), given.end(), field.keyword) == given.end())
         findings_.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword));
     });
     if (findings_.errors() != errors || !checkDirection(call, light)) return;
+    if constexpr (requires { light.fullAngle; })
+      if (light.fullAngle > light.angle &&
+          std::find(given.begin(), given.end(), std::string_view("full_angle")) != given.end())
+        findings_.warn(call, "spot_light: expected a full_angle of at most the angle, found " +
+                                 toText(light.fullAngle) + " and " + toText(light.angle));
     scene_.lights.push_back({light, syntax_.shortPlace(call.offset())});
   }
 
@@ -629,8 +648,12 @@ class Reader {
   void settings(const Item& call) {
     const std::optional<Item> block = blockOf(call);
     if (!block) return;
-    for (const Item item : *block)
-      if (isField(item, kSettings)) choice(item);
+    RepeatedFields repeats(findings_, kSettings);
+    for (const Item item : *block) {
+      if (!isField(item, kSettings)) continue;
+      repeats.note(item);
+      choice(item);
+    }
   }
 
   void choice(const Item& item) {
@@ -664,6 +687,7 @@ class Reader {
   Materials materials_;
   MeshFiles meshFiles_;
   SharedMeshes sharedMeshes_;
+  bool hasCamera_ = false;
 };
 
 }  // namespace

@@ -9,6 +9,9 @@
 
 namespace trace {
 
+/// Begins the warning of a block that becomes glass by what it inherits.
+inline constexpr std::string_view kInheritsGlass = "this material inherits the transmissive";
+
 /// Does the content begin, after white space and comments, with the word SBT-raytracer?
 bool recognisesRay(std::string_view bytes);
 

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ray_fields.h"
+#include "formats/ray_format.h"
 
 namespace trace::rayfile {
 namespace {
@@ -101,7 +102,12 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
 
   Block block{inherited, *std::get_if<Phong>(&inherited.model), false, {}};
   block.material.name.clear();
-  for (const Item item : value) field(block, item);
+  Repeats repeats(findings_, Phong::kKeyword);
+  for (const Item item : value) {
+    if (item.keyed()) repeats.note(item);
+    field(block, item);
+  }
+  warnOfInheritedGlass(value, inherited);
   block.material.model = block.phong;
   if (block.shininess && !isBlack(block.phong.specular))
     findings_.noteShininess(*block.shininess, block.phong.shininess);
@@ -139,6 +145,9 @@ void Materials::field(Block& block, const Item& field) {
   if (!picture(block, field)) {
     assignField(findings_, block.phong, field);
     checkRange(findings_, block.phong, field);
+    if (key == "index" && block.phong.index == 0)
+      findings_.warn(field, "index of material: expected a number above 0, found 0",
+                     "air has 1, water 1.33, glass 1.5");
     if (key == "shininess") block.shininess = field;
   }
   if (key == "reflective") block.gaveReflective = true, block.phong.mirrorsSpecular = false;
@@ -154,12 +163,31 @@ bool Materials::picture(Block& block, const Item& field) {
   if (file) {
     block.material.maps.push_back({std::string(field.key()), std::string(*file)});
     findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(*file)));
+    findings_.texture(*file, value);
+  } else {
+    findings_.notRendered(value.key(), value, {});
   }
-  findings_.notRendered(file ? "map" : value.key(), value, {});
   if (isColor(field.key()).value_or(false)) setWhite(block.phong, field.key());
   if (file && value.is(Kind::call) && value.value().count() == 2)
     setField(findings_, block.phong, field.key(), *++value.value().begin());
   return true;
+}
+
+/// Whoever describes all looks of a material but that it is glass seldom wants the glass of another.
+void Materials::warnOfInheritedGlass(const Item& block, const Material& inherited) {
+  const Phong& before = *std::get_if<Phong>(&inherited.model);
+  if (!before.transmits()) return;
+  bool looks = false;
+  for (const Item item : block) {
+    if (!item.keyed()) continue;
+    if (item.key() == "transmissive" || item.key() == "index") return;
+    looks |= item.key() == "diffuse";
+  }
+  if (!looks) return;
+  const std::string of = inherited.name.empty() ? "the material in force" : "\"" + inherited.name + "\"";
+  findings_.warn(block, std::string(kInheritsGlass) + " of " + of + ", which it starts as a copy of",
+                 "add transmissive = (0, 0, 0) if it is to be opaque, or transmissive with a value",
+                 kInheritsGlass);
 }
 
 void Materials::markUsed(const std::string& name) {

@@ -38,6 +38,7 @@ class Materials {
   void field(Block& block, const Item& field);
   bool picture(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
+  void warnOfInheritedGlass(const Item& block, const Material& inherited);
 
   Findings& findings_;
   struct Named {

@@ -29,7 +29,11 @@ class MeshReader {
   }
 
   std::optional<MeshNode> read(const Item& block) {
-    for (const Item item : block) good_ &= field(item);
+    RepeatedFields repeats(findings_, Mesh::kKeyword);
+    for (const Item item : block) {
+      if (item.keyed()) repeats.note(item);
+      good_ &= field(item);
+    }
     if (sharedAs_ && data_.points.empty() && !faces_) return again();
     if (good_) good_ = checkCounts() && readFaces() && readSharpEdges();
     if (!good_) return {};
@@ -67,7 +71,7 @@ class MeshReader {
     const std::string_view key = item.key();
     const Item value = item.value();
     if (key == "gennormals") {
-      findings_.sureSignOf2001(item);
+      findings_.signOf2001(item);
       return rayfile::read(findings_, key, value, data_.generateNormals);
     }
     if (key == "two_sided") return rayfile::read(findings_, key, value, data_.twoSided);
@@ -80,7 +84,6 @@ class MeshReader {
     if (key == "shared") return rayfile::read(findings_, key, sharedAs_.emplace(item).value(), sharedName_);
     if (key == "name") return rayfile::read(findings_, key, value, node_.name);
     if (key == "material") {
-      if (item.is(Kind::call)) findings_.sureSignOf2001(item);
       node_.material = materials_.read(value, materials_.current);
       return true;
     }
@@ -250,6 +253,8 @@ class MeshReader {
   }
 
   void repair(const Item& block) {
+    if (data_.triangles.empty())
+      findings_.warn(faces_.value_or(block), "polymesh: nothing of it can be seen, for it has no faces");
     if (const std::size_t n = dropDegenerate(data_); n > 0)
       findings_.warnOfNumber(faces_.value_or(block), std::string(kWithoutArea), n);
     if (const std::size_t n = repairNormals(data_); n > 0)

@@ -17,6 +17,11 @@ constexpr std::array<std::string_view, 8> kFields{"uv",         "crease",   "fil
 
 bool isFile(const Item& item) { return item.keyed() && (item.key() == "file" || item.key() == "objfile"); }
 
+std::string placeText(const Place& place) {
+  if (place.line == 0) return place.file;
+  return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+}
+
 }  // namespace
 
 bool namesMeshFile(const Item& block) {
@@ -80,14 +85,12 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
     for (Material& material : model.materials)  // pictures lie beside the mesh, and are named from the scene
       for (FieldMap& map : material.maps) map.file = besideFile(name, map.file);
     for (const Message& warning : messages.all())
-      findings_.warn(field, warning.place.file + ": " + warning.what);
+      findings_.warn(field, placeText(warning.place) + ": " + warning.what, warning.hint);
     return &model;
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     const Message& first = error.messages().front();
-    std::string place = first.place.file;
-    if (first.place.line > 0)
-      place += ":" + std::to_string(first.place.line) + ":" + std::to_string(first.place.column);
+    const std::string place = placeText(first.place);
     findings_.error(field, (place.empty() ? "" : place + ": ") + first.what, first.hint);
     return nullptr;
   }

@@ -16,8 +16,10 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/format.h"
+#include "formats/textures.h"
 #include "formats/tokens.h"
 #include "formats/ubc_scene.h"
+#include "formats/warnings.h"
 
 namespace trace {
 namespace ubc {
@@ -53,8 +55,12 @@ class Reader {
     scene_.camera = ubc::camera(view_, viewPlace_);
     addChoices(scene_, width_, height_, view_);
     if (supersampling_) scene_.choices.push_back({"spp", std::to_string(*supersampling_), {}});
-    if (scene_.objects.empty())
-      messages_.warn({scene_.file, 0, 0, {}}, "no object: the picture will be empty");
+    if (stack_.size() > 1)
+      warnings_.warn({scene_.file, 0, 0, {}},
+                     "PushMatrix without a PopMatrix after it: " + std::to_string(stack_.size() - 1));
+    warnings_.report(messages_);
+    textures_.report(messages_);
+    warnOfNothing(scene_, view_, viewPlace_, messages_);
     return std::move(scene_);
   }
 
@@ -106,12 +112,18 @@ class Reader {
     while (tokens_.peek().is(Token::Kind::string)) {
       Parameter& parameter = all.emplace_back();
       parameter.key = tokens_.next();
+      for (std::size_t i = 0; i + 1 < all.size(); ++i)
+        if (all[i].key.text == parameter.key.text) repeated(parameter.key);
       if (tokens_.peek().is(Token::Kind::string))
         parameter.text = tokens_.next().text;
       else
         parameter.numbers = list(parameter.key.text);
     }
     return all;
+  }
+  void repeated(const Token& key) {
+    warnings_.warn(tokens_.place(key),
+                   "\"" + std::string(key.text.substr(0, 40)) + "\" is given again; the last counts");
   }
   double single(const Parameter& p) const { return counted(p, 1), p.numbers[0]; }
   Color color(const Parameter& p) const {
@@ -150,8 +162,12 @@ class Reader {
     viewPlace_ = tokens_.place(token);
   }
   void supersampling() {
+    const Token token = tokens_.peek();
     const double rays = number("Supersampling");
-    supersampling_ = static_cast<int>(std::clamp(rays, 1.0, 65536.0));
+    constexpr double kMost = 65536;
+    if (!(rays >= 1 && rays <= kMost))
+      warnings_.warn(tokens_.place(token), "Supersampling: expected 1 to 65536 rays, found " + toText(rays));
+    supersampling_ = static_cast<int>(std::clamp(rays, 1.0, kMost));
   }
 
   // --- matrices ---
@@ -162,8 +178,16 @@ class Reader {
   }
   void move(const Affine& own) { stack_.back() = stack_.back() * own; }
   void rotate() {
+    const Token token = tokens_.peek();
     const double degrees = number("Rotate");
-    move(Affine::rotation(vector("Rotate"), degrees * kPi / 180));  // of an axis as long as it is
+    const Vec3 axis = vector("Rotate");
+    constexpr Real kClose = 0.01;
+    if (!(std::abs(length(axis) - 1) < kClose))
+      warnings_.warn(tokens_.place(token),
+                     "Rotate: expected an axis of length 1, found one of length " + toText(length(axis)) +
+                         ", which also scales and skews",
+                     {}, "axis");
+    move(Affine::rotation(axis, degrees * kPi / 180));  // of an axis as long as it is
   }
 
   // --- materials ---
@@ -213,6 +237,9 @@ class Reader {
     phong.transmissive = Color(transparency ? *transparency : eta ? refract.value_or(0) : 0);
     phong.index = eta ? *eta : transparency && refract.value_or(0) > 0 ? *refract : 1;
     result.model = phong;
+    warnOfRanges(result, tokens_.place(name), warnings_);
+    if (eta && !(*eta > 0))
+      warnings_.warn(tokens_.place(name), "rfrIndex: expected a number above 0, found " + toText(*eta));
     materials_.insert_or_assign(result.name, static_cast<std::uint32_t>(scene_.materials.size()));
     scene_.materials.push_back(std::move(result));
   }
@@ -222,6 +249,7 @@ class Reader {
     if (p.text->empty()) return;
     material.maps.push_back({"diffuse", std::string(*p.text)});
     scene_.inputs.noteNamed(findFile(scene_.file, material.maps.back().file));
+    textures_.note(*p.text, tokens_.place(p.key));
   }
 
   void ignored(const Parameter& p, std::string_view owner) {
@@ -256,13 +284,22 @@ class Reader {
   }
 
   void sphere(const Token& token) {
-    const double radius = std::abs(number("Sphere"));
+    const double given = number("Sphere"), radius = std::abs(given);
+    if (given < 0) negative(token, given);
     add(token, Sphere{}, stack_.back() * Affine::scaling({radius, radius, radius}), materialName());
+  }
+
+  void negative(const Token& token, double radius) {
+    warnings_.warn(tokens_.place(token), "a radius: expected at least 0, found " + toText(radius), {},
+                   "radius");
   }
 
   void conic(const Token& token) {
     Conic conic;
-    conic.bottomRadius = std::abs(number("Conic")), conic.topRadius = std::abs(number("Conic"));
+    const double bottom = number("Conic"), top = number("Conic");
+    if (bottom < 0 || top < 0) negative(token, min(bottom, top));
+    conic.bottomRadius = std::abs(bottom);
+    conic.topRadius = std::abs(top);
     conic.zMin = number("Conic"), conic.zMax = number("Conic");
     const std::uint32_t material = materialName();
     if (conic.zMin == conic.zMax || (conic.bottomRadius == 0 && conic.topRadius == 0))
@@ -328,6 +365,9 @@ class Reader {
       mesh.triangles.push_back({face[0], face[1], face[2]});
       if (face.size() == 4) mesh.triangles.push_back({face[0], face[2], face[3]});
     }
+    if (used < indices.size())
+      warnings_.warn(tokens_.place(start), "Mesh: the list has more indices than its faces need: " +
+                                               std::to_string(indices.size() - used));
     repairs_.check(mesh, tokens_.place(start));
     hasMeshes_ = true;
     mesh.twoSided = true;
@@ -354,6 +394,12 @@ class Reader {
         ignored(p, "light");
       }
     }
+    const Vec3& a = lamp.attenuation;
+    if (a.x < 0 || a.y < 0 || a.z < 0)
+      warnings_.warn(tokens_.place(token), "attenuation: expected numbers of at least 0, found one below");
+    for (const Color& c : {lamp.ambient, lamp.diffuse, lamp.specular})
+      if (c.r < 0 || c.g < 0 || c.b < 0)
+        warnings_.warn(tokens_.place(token), "PointLight: expected colours of at least 0, found one below");
     addLamp(scene_, lamp, tokens_.place(token));
   }
 
@@ -369,13 +415,15 @@ class Reader {
   Scene scene_;
   int width_ = 640, height_ = 640;
   View view_;
-  Place viewPlace_;
+  Place viewPlace_{scene_.file, 0, 0, {}};
   std::optional<int> supersampling_;
   bool shadowGiven_ = false;
   std::vector<Affine> stack_{Affine{}};
   std::map<std::string, std::uint32_t, std::less<>> materials_;
   std::map<std::string, std::vector<Object>> files_;
   std::vector<std::string> told_;
+  WarningsByKind warnings_;
+  Textures textures_;
 };
 
 bool isCommand(std::string_view word) {

@@ -46,6 +46,8 @@ class Reader {
                                describe(name));
       }
     }
+    warnings_.report(messages_);
+    warnOfNothing(scene_, view, viewPlace, messages_);
     scene_.camera = ubc::camera(view, viewPlace);
     addChoices(scene_, width, height, view);
     return std::move(scene_);
@@ -74,6 +76,7 @@ class Reader {
   }
 
   void material() {
+    const Place place = tokens_.place(tokens_.peek());
     const std::string name = id("Material");
     Surface s;
     s.ambient = color("Material"), s.diffuse = color("Material"), s.specular = color("Material");
@@ -82,6 +85,7 @@ class Reader {
     for (Color* own : {&s.ambient, &s.diffuse, &s.specular, &s.emission}) *own *= Color(1 - s.reflect);
     materials_.insert_or_assign(name, static_cast<std::uint32_t>(scene_.materials.size()));
     scene_.materials.push_back({name, phong(s), {}});
+    warnOfRanges(scene_.materials.back(), place, warnings_);
   }
 
   std::uint32_t materialNamed() {
@@ -120,6 +124,7 @@ class Reader {
   Tokens tokens_;
   Messages& messages_;
   Scene scene_;
+  WarningsByKind warnings_;
   std::map<std::string, std::uint32_t, std::less<>> materials_;
 };
 

@@ -1,5 +1,6 @@
 #include "formats/ubc_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
@@ -47,6 +48,42 @@ Camera camera(const View& view, const Place& place) {
   if (!(view.aspect > 0))
     throw Error(Fault::scene, place, "expected an aspect ratio above 0, width / height");
   return camera;
+}
+
+void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace, Messages& messages) {
+  const Place place{scene.file, 0, 0, {}};
+  if (!(view.near < view.far))
+    messages.warn(viewPlace, "expected near to be less than far, found " + toText(view.near) + " and " +
+                                 toText(view.far) + ": nothing is seen");
+  if (scene.objects.empty()) return messages.warn(place, "no object: the picture will be empty");
+  const bool glows = std::any_of(
+      scene.materials.begin(), scene.materials.end(),
+      [](const Material& material) { return !isBlack(std::get_if<Phong>(&material.model)->emissive); });
+  if (scene.lights.empty() && !glows)
+    messages.warn(place, "no light: everything will be black",
+                  "add one, as in PointLight 0 5 5 \"diffuse\" [1 1 1]");
+}
+
+void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings) {
+  const Phong& phong = *std::get_if<Phong>(&material.model);
+  const auto check = [&](const char* name, double value, double most) {
+    if (value >= 0 && value <= most) return;
+    const std::string range = most == kNoLimit ? "at least 0" : "0 to " + toText(most);
+    warnings.warn(place, std::string(name) + " of a material: expected " + range + ", found " + toText(value),
+                  {}, std::string("range of ") + name);
+  };
+  const auto least = [](const Color& c) { return min(c.r, min(c.g, c.b)); };
+  check("ambient", least(phong.ambient), kNoLimit);
+  check("diffuse", least(phong.diffuse), kNoLimit);
+  check("specular", least(phong.specular), kNoLimit);
+  check("emission", least(phong.emissive), kNoLimit);
+  check("shininess", phong.shininess, kNoLimit);
+  check("shadow", phong.shadow, 1);
+  check("reflect", phong.reflective.r, 1);
+  check("transparency", phong.transmissive.r, 1);
+  if (!(phong.index > 0))
+    warnings.warn(place, "the index of refraction of a material: expected a number above 0, found " +
+                             toText(phong.index));
 }
 
 void addChoices(Scene& scene, int width, int height, const View& view) {

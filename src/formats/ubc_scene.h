@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "formats/warnings.h"
 #include "scene/scene.h"
 
 namespace trace::ubc {
@@ -33,6 +34,11 @@ struct View {
 };
 /// Throws Error(Fault::scene) at the place if it cannot look.
 Camera camera(const View& view, const Place& place);
+
+/// Warns of a scene that shows nothing: no object, no light, a view that ends before it begins.
+void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace, Messages& messages);
+/// Warns of numbers of a material that no surface has.
+void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings);
 
 /// The conventions, 9 bounces, the size of the picture, the depth beside it, from black at `view.near` to
 /// white at `view.far`, and where the two go: NAME_out.bmp and NAME_out_depth.bmp beside the scene.

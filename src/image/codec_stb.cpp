@@ -200,6 +200,8 @@ Picture decodeByStb(std::string_view bytes) {
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(start, size, &width, &height, &channels)) failAsStbSays();
+  // The height of a BMP is negative where its rows go from the top down.
+  if (height < 0 && height > -INT_MAX) height = -height;
   checkClaimedSize(width, height, bytes.size());
   if (stbi_is_16_bit_from_memory(start, size))
     return decodeAs<stbi_us>(bytes, 65535, stbi_load_16_from_callbacks);

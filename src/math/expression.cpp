@@ -99,9 +99,11 @@ class ExpressionParser {
     else if (steps_[exponent].what == Do::negate && steps_[steps_[exponent].a].what == Do::number)
       e = -steps_[steps_[exponent].a].number;
     else
-      fail("expected a number as exponent");
+      throw Error(Fault::scene, "formula: expected a number as exponent, found a formula before character " +
+                                    std::to_string(at_ + 1));
     constexpr Real kMostExponent = 64;
-    if (!(std::abs(e) <= kMostExponent)) fail("expected an exponent from -64 to 64");
+    if (!(std::abs(e) <= kMostExponent))
+      throw Error(Fault::scene, "formula: expected an exponent from -64 to 64, found " + toText(e));
     if (e == 2) return add(Do::square, base);
     if (e != std::floor(e)) return add(Do::root, base, 0, e);
     const Index whole = add(Do::power, base, 0, std::abs(e));

@@ -178,7 +178,7 @@ TEST(Ply, SaysWhatIsWrong) {
       {replaced(kSquare, "4 0 1 2 3", "4 0 1 2 4"),
        "15:10: face 0 uses point 4 but the mesh has 4 points, counted from 0"},
       {replaced(kSquare, "4 0 1 2 3", "3 0 1 -2"),
-       "15:9: face 0 uses a negative number but the mesh has 4 points, counted from 0"},
+       "15:9: face 0 uses a number that no point has but the mesh has 4 points, counted from 0"},
       {replaced(kSquare, "4 0 1 2 3", "4 0 1"),
        "15:2: element \"face\": a list is longer than the rest of the file"},
       {replaced(kSquare, "0.5", "nan"), "0:0: point 3: expected three finite numbers of at most 3.4e38"},

@@ -337,7 +337,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 7);
   EXPECT_TRUE(scene.materials[scene.objects[1].material].maps.empty());
-  EXPECT_EQ(warningsOf(text), "2:24: \"map\" is not rendered yet (3 times, first here)");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:24: the textures \"a.bmp\", \"b.png\" and \"c.png\" are not rendered yet [white, or the second "
+      "value of map(\"file\", (r, g, b)), shows instead]");
   ASSERT_EQ(scene.unrendered.size(), 3u);
   EXPECT_EQ(scene.unrendered[1].kind, "map");
   EXPECT_EQ(scene.unrendered[1].text, "\"b.png\"");
@@ -470,7 +473,7 @@ TEST(RayFormat, ReadsWhatMeshesSayPerPoint) {
   EXPECT_EQ(mesh->normals[1], Vec3f(0, 0, 2)) << "lengths stay: they weigh the interpolation";
   ASSERT_EQ(mesh->uvs.size(), 5u);
   EXPECT_EQ(mesh->uvs[4], (Vec2{0.5, 0.5}));
-  EXPECT_EQ(warningsOf("polymesh {" + (kPoints + rest) + "}"), "");
+  EXPECT_EQ(warningsOf("polymesh {" + (kPoints + rest) + "faces = ((0,1,2)) }"), "");
   EXPECT_TRUE(load("polymesh {" + (kPoints + rest) + "}").scene.unrendered.empty());
   EXPECT_TRUE(meshOf("normals = (); materials = (); texture_uv = (); points = ((0,0,0))")->normals.empty());
 }
@@ -507,7 +510,8 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
             "4:12: normals of length 0 are taken from the faces: 3");
   EXPECT_EQ(warningsOf(std::string(text) + text).find("3:10: triangles without area are left out: 6"), 0u)
       << "one sum over the file";
-  EXPECT_EQ(warningsOf("polymesh { gennormals; points = ((0,0,0)); normals = ((0,0,0)); }"), "");
+  EXPECT_EQ(warningsOf("polymesh { gennormals; points = ((0,0,0)); normals = ((0,0,0)); }"),
+            "2:10: polymesh: nothing of it can be seen, for it has no faces");
 }
 
 // --- what is not rendered, and what is unknown --------------------------------------------------------
@@ -518,12 +522,15 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
-  EXPECT_EQ(warningsOf(text),
-            "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
-            "4:20: \"metaball\" is not rendered yet\n"
-            "5:1: \"csg\" is not rendered yet\n"
-            "6:23: \"bump_mapping\" is not rendered yet\n"
-            "6:63: \"marble\" is not rendered yet");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
+      "4:20: \"metaball\" is not rendered yet [Trace has metaballs { threshold = 0.5; balls = ((x, y, z, "
+      "radius, strength), ...); }]\n"
+      "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
+      "box { } sphere { } }]\n"
+      "6:23: \"bump_mapping\" is not rendered yet\n"
+      "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
   EXPECT_EQ(loaded.scene.unrendered[0].kind, "area_light");
   EXPECT_EQ(loaded.scene.unrendered[0].text, "area_light { position = (0, 0, 1); }");
@@ -540,7 +547,7 @@ TEST(RayFormat, WarnsOfUnknownWords) {
   EXPECT_EQ(warningsOf("horizon = 1"), "2:1: \"horizon\" is not known and is left out");
   EXPECT_EQ(warningsOf("{ zzz(1, 2) }"), "2:3: \"zzz\" is not known and is left out");
   EXPECT_EQ(warningsOf("camera { focaldistance = 4; }"),
-            "2:10: unknown field \"focaldistance\" of camera is ignored");
+            "2:10: focaldistance of camera is ignored: everything is in focus");
   EXPECT_EQ(warningsOf("camera { viewdri = 4; viewdri = 5 }"),
             "2:10: unknown field \"viewdri\" of camera is ignored (2 times, first here) [did you mean "
             "\"viewdir\"?]");
@@ -548,7 +555,8 @@ TEST(RayFormat, WarnsOfUnknownWords) {
             "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
             "2:36: unknown field \"capped\" of sphere is ignored");
   EXPECT_EQ(warningsOf("polymesh { point = () }"),
-            "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]");
+            "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]\n"
+            "2:10: polymesh: nothing of it can be seen, for it has no faces");
   EXPECT_EQ(warningsOf("ambient_light { color = 1; colr = 2; }"),
             "2:28: unknown field \"colr\" of ambient_light is ignored [did you mean \"color\"?]");
 }
@@ -596,13 +604,16 @@ TEST(RayFormat, RecognisesTheDialectOf2001) {
       {"", 0},
       {"camera { focaldistance = 3; }", 2},
       {"camera { quaternion = (0, 0, 0, 1); }", 2},
-      {"\nmaterial { name = a; }", 3},
-      {"sphere { material { diffuse = 1; } }", 2},
+      {"\nmaterial { name = a; }", 0},
+      {"sphere { material { diffuse = 1; } }", 0},
+      {"material { name = gold; diffuse = (0.8, 0.6, 0.1); specular = 0.5; shininess = 40; }", 0},
+      {"material { name = gold; specular = 0.5; shininess = 0.3; }", 2},
       {"polymesh { gennormals = true; }", 2},
       {small, 3},
       {large, 0},
       {small + large, 0},
-      {large + "material { name = a; }", 3},
+      {large + "material { name = a; }", 0},
+      {large + "camera { quaternion = (0, 0, 0, 1); }", 0},
       {"material = { }" + small, 0},
       {"polymesh { gennormals; }" + small, 0},
       {"camera { quaternian = (0, 0, 0, 1); }" + small, 0},

@@ -1,0 +1,17 @@
+// What the lines of a material file of an OBJ say that its reader, tinyobj, passes over in silence.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "formats/textures.h"
+#include "formats/warnings.h"
+
+namespace trace {
+
+/// Notes all textures, and warns of lines that are not known, of what should be a number and is none, and of
+/// numbers out of their range. Linear in the text.
+void checkMtlLines(const std::string& file, std::string_view text, Textures& textures,
+                   WarningsByKind& warnings);
+
+}  // namespace trace

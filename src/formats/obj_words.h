@@ -1,0 +1,56 @@
+// The words of a line of an OBJ or MTL file.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "base/text.h"
+
+namespace trace {
+
+/// One word after the other; refers to the line.
+class LineWords {
+ public:
+  explicit LineWords(std::string_view line) : rest_(line) {}
+
+  /// Empty at the end.
+  std::string_view next() {
+    skip();
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlank));
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+  std::string_view peek() const { return LineWords(*this).next(); }
+  /// All that is left, without the blanks around it.
+  std::string_view rest() {
+    skip();
+    return rest_.substr(0, rest_.find_last_not_of(kBlank) + 1);
+  }
+
+ private:
+  static constexpr std::string_view kBlank = " \t\r";
+  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlank), rest_.size())); }
+
+  std::string_view rest_;
+};
+
+/// Is the whole word a number that a float can hold?
+inline bool isFloat(std::string_view word) {
+  const auto number = parseNumber(word);
+  return number && number->length == word.size() &&
+         std::abs(number->value) <= std::numeric_limits<float>::max();
+}
+
+/// Calls visit(line) for each line of the text.
+template <class Visit>
+void forEachLine(std::string_view text, Visit&& visit) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    visit(text.substr(start, end - start));
+    start = end + 1;
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,677 @@
+// Files that are broken in one place each, and what must be said of it: nothing that is wrong in a file may
+// pass in silence. A row of the table is a file; `expected` begins with "warning" or "error", and a part of
+// the message follows.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/file.h"
+#include "formats/format.h"
+#include "support/folder.h"
+
+namespace trace {
+namespace {
+
+struct Broken {
+  const char* file;  ///< whose suffix tells the format
+  std::string text;
+  const char* expected;
+};
+
+/// What reading says, a message a line: `error: ...` or `warning: ...`.
+std::string said(const std::string& file, const std::string& bytes) {
+  Messages messages;
+  std::string text;
+  const auto add = [&](const Message& m) {
+    text += (m.severity == Message::Severity::error ? "error: " : "warning: ") + m.what +
+            (m.hint.empty() ? "" : " [" + m.hint + "]") + "\n";
+  };
+  try {
+    readScene(file, bytes, messages);
+    for (const Message& m : messages.all()) add(m);
+  } catch (const Error& error) {
+    for (const Message& m : error.messages()) add(m);
+  }
+  return text;
+}
+
+/// Is there a line that begins with the severity and holds the rest of `expected`?
+bool holds(const std::string& lines, std::string_view expected) {
+  const std::size_t space = expected.find(' ');
+  const std::string severity(expected.substr(0, space));
+  const std::string_view part = expected.substr(space + 1);
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = lines.find('\n', at);
+    const std::string_view line = std::string_view(lines).substr(at, end - at);
+    if (line.starts_with(severity + ": ") && line.find(part) != line.npos) return true;
+    at = end + 1;
+  }
+  return false;
+}
+
+void expectSaid(const std::vector<Broken>& rows, const std::string& folder = {}) {
+  for (const Broken& row : rows) {
+    const std::string lines = said(folder + row.file, row.text);
+    EXPECT_TRUE(holds(lines, row.expected)) << row.text << "\nshould give: " << row.expected << "\ngave:\n"
+                                            << lines;
+  }
+}
+
+// --- .ray
+// ---------------------------------------------------------------------------------------------------
+
+std::string ray(const std::string& rest) {
+  return "SBT-raytracer 1.0\ncamera { position = (0, 0, 5); }\nambient_light { color = (1, 1, 1); }\n" + rest;
+}
+
+TEST(BrokenFiles, Ray) {
+  const std::string glass = "material = { name = \"glass\"; transmissive = (0.9, 0.9, 0.9); index = 1.5; }\n";
+  expectSaid({
+      {"a.ray", "SBT-raytracer -1.0\nsphere { }", "error expected version 1.1 or older"},
+      {"a.ray", ray("sphere { material = { index = 0; } }"),
+       "warning index of material: expected a number above 0"},
+      {"a.ray", ray("sphere { material = { index = -1; } }"),
+       "warning index of material: expected at least 0"},
+      {"a.ray", ray("sphere { material = { diffuse = (1, 0, 0); diffuse = (0, 1, 0); } }"),
+       "warning diffuse of material given again; the last counts"},
+      {"a.ray", ray("sphere { material = { diffuse = (255, 0, 0); } }"),
+       "warning diffuse of material: expected 0 to 1"},
+      {"a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }"),
+       "warning the texture \"wood.png\" is not rendered yet"},
+      {"a.ray", ray("sphere { name = a; name = b; }"), "warning name of sphere given again"},
+      {"a.ray", ray("lathe { profile = ((1, 0), (1, 1)); }"),
+       "warning profile: expected at least 4 points for the spline bezier, found 2"},
+      {"a.ray", ray("lathe { profile = ((1, 0)); spline = linear; }"),
+       "warning profile: expected at least 2 points"},
+      {"a.ray", ray("lathe { profile = ((1, 0), (2, 1), (1, 2), (1, 3), (0, 4), (0, 5)); }"),
+       "warning 4, 7, 10 or so on points for the spline bezier, found 6; the last two are ignored"},
+      {"a.ray", ray("prism { outline = ((0, 0), (1, 1)); spline = linear; }"),
+       "warning outline: expected at least 3 points"},
+      {"a.ray", ray("prism { outline = ((0, 0), (1, 0), (0, 1)); spline = linear; height = 0; }"),
+       "warning prism: nothing of it can be seen, for it has no volume"},
+      {"a.ray", ray("sphere_sweep { points = ((0, 0, 0, 1)); spline = linear; }"),
+       "warning points: expected at least 2 points"},
+      {"a.ray", ray("sweep { points = ((0, 0, 0, 1), (1, 0, 0, 1)); spline = catmull; }"),
+       "warning points: expected at least 4"},
+      {"a.ray", ray("isosurface { formula = \"log(-1)\"; }"), "warning formula: it has no value anywhere"},
+      {"a.ray", ray("isosurface { formula = \"x / 0\"; }"), "warning formula: it has no value anywhere"},
+      {"a.ray", ray("height_field { formula = \"log(-1 - x * x)\"; }"),
+       "warning formula: it has no value anywhere"},
+      {"a.ray", ray("isosurface { low = (1, 1, 1); high = (-1, 2, 2); }"), "warning low is above high in x"},
+      {"a.ray", ray("quadric { low = (2, 2, 2); high = (1, 1, 1); }"),
+       "warning low is above high in x, y, z"},
+      {"a.ray", ray("quadric { low = (1, 1, 1); high = (1, 2, 2); }"),
+       "warning quadric: nothing of it can be seen"},
+      {"a.ray", ray("isosurface { formula = \"x^1000\"; }"),
+       "error expected an exponent from -64 to 64, found 1000"},
+      {"a.ray", ray("isosurface { formula = \"2^x\"; }"),
+       "error expected a number as exponent, found a formula"},
+      {"a.ray", ray("metaballs { balls = (); }"), "warning metaballs: nothing of it can be seen"},
+      {"a.ray", ray("ellipsoid { radii = (1, 0, 1); }"), "warning ellipsoid: nothing of it can be seen"},
+      {"a.ray", ray("disk { radius = 0; }"), "warning disk: nothing of it can be seen"},
+      {"a.ray", ray("torus { major_radius = -1; }"), "warning major_radius of torus: expected at least 0"},
+      {"a.ray", ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); }"), "warning it has no faces"},
+      {"a.ray", ray("polymesh { points = ((0,0,0)); points = ((1,1,1)); }"),
+       "warning points of polymesh given again"},
+      {"a.ray", ray("union { }"), "warning union without objects is empty"},
+      {"a.ray", ray("difference { sphere { } }"), "warning difference of one object changes nothing"},
+      {"a.ray", ray("intersection { sphere { } }"), "warning intersection of one object changes nothing"},
+      {"a.ray", ray("camera { fov = 30; } sphere { }"), "warning there are several cameras; the last counts"},
+      {"a.ray", ray("camera { fov = 30; fov = 40; } sphere { }"), "warning fov of camera given again"},
+      {"a.ray", ray("camera { near = 5; far = 2; } sphere { }"),
+       "warning camera: expected near to be less than far"},
+      {"a.ray", ray("camera { near = -5; } sphere { }"), "warning near of camera: expected at least 0"},
+      {"a.ray", ray("camera { fov = 30; horizontal_fov = 50; } sphere { }"),
+       "warning fov is ignored, since horizontal_fov"},
+      {"a.ray", ray("camera { focaldistance = 4; } sphere { }"),
+       "warning focaldistance of camera is ignored: everything"},
+      {"a.ray", ray("settings { depth = 2; depth = 3; } sphere { }"),
+       "warning depth of settings given again"},
+      {"a.ray",
+       ray("spot_light { position = (0,0,5); direction = (0,0,-1); color = (1,1,1); angle = 10; full_angle = "
+           "20; }"),
+       "warning spot_light: expected a full_angle of at most the angle"},
+      {"a.ray", ray("point_light { position = (0,0,5); color = (-1,1,1); }"),
+       "warning color of point_light: expected at least 0"},
+      {"a.ray", ray("background { color = (-1, 0, 0); }"),
+       "warning background: expected colors of at least 0"},
+      {"a.ray", ray("background { colors = ((1,0,0), (0,1,0)); limits = (3); }"),
+       "warning background: expected limits from 0 to 1"},
+      {"a.ray", ray("csg { primitiveNumber = 2; }"),
+       "warning \"csg\" is not rendered yet [Trace has union, intersection"},
+      {"a.ray", ray("metaball { size = 3; }"),
+       "warning \"metaball\" is not rendered yet [Trace has metaballs"},
+      {"a.ray", ray(glass + "sphere { material = { diffuse = (1, 0, 0); } }"),
+       "warning this material inherits the transmissive of \"glass\", which it starts as a copy of"},
+      {"a.ray",
+       ray(glass + "material { name = \"gold\"; diffuse = (1, 0.8, 0); } sphere { material = \"gold\"; }"),
+       "warning this material inherits the transmissive of \"glass\""},
+      {"a.ray", ray("mesh { file = \"none.ply\"; }"), "error cannot read"},
+  });
+  EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { diffuse = 1; transmissive = 0; } }")), "");
+  EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { shininess = 30; } }")), "");
+}
+
+// --- British Columbia
+// ---------------------------------------------------------------------------------------
+
+std::string ubc(const std::string& rest) {
+  return "Dimensions 64 48\nPerspective 45 1.33 1 100\nLookAt 0 0 5 0 0 0 0 1 0\n"
+         "Material \"m\" \"diffuse\" [1 1 1]\nPointLight 0 5 5 \"diffuse\" [1 1 1]\n" +
+         rest;
+}
+
+TEST(BrokenFiles, Ubc) {
+  expectSaid({
+      {"a.ray", ubc("PushMatrix\nSphere 1 \"m\""), "warning PushMatrix without a PopMatrix after it: 1"},
+      {"a.ray", ubc("PopMatrix"), "error PopMatrix without a PushMatrix"},
+      {"a.ray", ubc("Sphere -1 \"m\""), "warning a radius: expected at least 0, found -1"},
+      {"a.ray", ubc("Sphere 0 \"m\""), "warning an object is left out"},
+      {"a.ray", ubc("Conic -1 1 0 1 \"m\""), "warning a radius: expected at least 0"},
+      {"a.ray", ubc("Rotate 90 0 0 0\nSphere 1 \"m\""), "warning Rotate: expected an axis of length 1"},
+      {"a.ray", ubc("Supersampling 0\nSphere 1 \"m\""), "warning Supersampling: expected 1 to 65536"},
+      {"a.ray", ubc("Perspective 45 1 100 1\nSphere 1 \"m\""), "warning expected near to be less than far"},
+      {"a.ray", ubc("Material \"n\" \"reflect\" 3\nSphere 1 \"n\""),
+       "warning reflect of a material: expected 0 to 1"},
+      {"a.ray", ubc("Material \"n\" \"shininess\" -3\nSphere 1 \"n\""), "warning shininess of a material"},
+      {"a.ray", ubc("Material \"n\" \"diffuse\" [-1 0 0]\nSphere 1 \"n\""), "warning diffuse of a material"},
+      {"a.ray", ubc("Material \"n\" \"refract\" 1 \"rfrIndex\" 0\nSphere 1 \"n\""),
+       "warning the index of refraction of a material: expected a number above 0"},
+      {"a.ray", ubc("Material \"n\" \"diffuse\" [1 0 0] \"diffuse\" [0 1 0]\nSphere 1 \"n\""),
+       "warning \"diffuse\" is given again"},
+      {"a.ray", ubc("Material \"n\" \"texture\" \"wood.bmp\"\nSphere 1 \"n\""),
+       "warning the texture \"wood.bmp\" is not rendered yet"},
+      {"a.ray", ubc("PointLight 0 0 5 \"attenuation\" [-1 0 0]\nSphere 1 \"m\""),
+       "warning attenuation: expected numbers"},
+      {"a.ray", ubc("PointLight 0 0 5 \"diffuse\" [-1 0 0]\nSphere 1 \"m\""),
+       "warning PointLight: expected colours"},
+      {"a.ray", ubc("Mesh \"m\" [3] [0 1 2 0 1] \"P\" [0 0 0 1 0 0 0 1 0]"),
+       "warning Mesh: the list has more indices"},
+      {"a.ray", ubc("Sphere 1 \"other\""), "error expected the name of a material"},
+      {"a.ray", "Dimensions 64 48\nMaterial \"m\"\nSphere 1 \"m\"",
+       "warning no light: everything will be black"},
+      {"a.ray", "Resolution 64 48\nCamera 0 0 5 0 0 0 0 1 0 45 1 1 100\n", "warning no object"},
+      {"a.ray",
+       "Resolution 64 48\nCamera 0 0 5 0 0 0 0 1 0 45 1 9 3\nMaterial 1  0 0 0 1 1 1 0 0 0 0 0 0 5 0 "
+       "0\nSphere 1 0 0 0 1\n",
+       "warning expected near to be less than far"},
+      {"a.ray",
+       "Resolution 64 48\nCamera 0 0 5 0 0 0 0 1 0 45 1 1 30\nMaterial 1  0 0 0 1 1 1 0 0 0 0 0 0 5 0 "
+       "7\nSphere 1 0 0 0 1\n",
+       "warning reflect of a material: expected 0 to 1"},
+  });
+}
+
+// --- the composer
+// -------------------------------------------------------------------------------------------
+
+std::string composer(const std::string& rest) {
+  return "Composer format 2.1 ascii\n"
+         "camera { position 0 0 5 viewDirection 0 0 -1 orthoUp 0 1 0 verticalFOV 0.7 }\n"
+         "point_light { position 0 0 5 color 1 1 1 }\n" +
+         rest;
+}
+std::string polygons(const std::string& fields) {
+  return composer("poly_set { name NULL\n numMaterials 0 " + fields + " }");
+}
+const char* const kTriangle = "poly { numVertices 3 pos 0 0 0 pos 1 0 0 pos 0 1 0 }";
+
+std::string word(float value) {
+  char bytes[4];
+  std::memcpy(bytes, &value, 4);
+  return {bytes, 4};
+}
+std::string word(std::int32_t value) {
+  char bytes[4];
+  std::memcpy(bytes, &value, 4);
+  return {bytes, 4};
+}
+/// A camera and nothing else, as binary.
+std::string composerBinary(float fov) {
+  std::string text = "Composer format 2.1 binary\n" + word(123456789) + word(3.1415926f);
+  for (float n : {0.f, 0.f, 5.f, 0.f, 0.f, -1.f, 5.f, 0.f, 1.f, 0.f, fov}) text += word(n);
+  return text + word(0) + word(0);
+}
+
+TEST(BrokenFiles, Composer) {
+  const std::string ball = "sphere { name NULL\n numMaterials 1 material { diffColor 1 1 1 ";
+  expectSaid({
+      {"a.out", "Composer format -3 ascii\n", "error expected version 2.1 or older"},
+      {"a.out", composer("camera { position 1 1 1 }\nsphere { name NULL\n numMaterials 0 }"),
+       "warning there are several cameras"},
+      {"a.out", composer(""), "warning no object"},
+      {"a.out", composer("sphere { name NULL\n numMaterials 3 }"),
+       "warning numMaterials says 3, but the file has 0"},
+      {"a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }"),
+       "warning the texture \"wood.png\" is not rendered"},
+      {"a.out", composer("sphere { name \"bump=dents.png\" numMaterials 0 }"),
+       "warning the texture \"dents.png\" is not rendered"},
+      {"a.out", composer("sphere { name \"ior=banana\" numMaterials 0 }"),
+       "warning expected a number, found \"banana\""},
+      {"a.out", composer("sphere { name NULL\n numMaterials 0 radius 0 }"),
+       "warning an object without size is left out"},
+      {"a.out", composer("sphere { name NULL\n numMaterials 0 wobble 3 }"),
+       "warning \"wobble\" is not known"},
+      {"a.out", composer(ball + "ktran 2 } }"), "warning ktran of a material: expected 0 to 1, found 2"},
+      {"a.out", composer(ball + "shininess -1 } }"),
+       "warning shininess of a material: expected 0 to 1, found -1"},
+      {"a.out", composer(ball + "specColor 9 0 0 } }"), "warning specColor of a material"},
+      {"a.out", composer("point_light { position 0 0 1 color -1 0 0 }"), "warning color of a light"},
+      {"a.out", composer("spot_light { position 0 0 1 direction 0 0 -1 color 1 1 1 cutOffAngle 7 }"),
+       "warning cutOffAngle"},
+      {"a.out", composer("directional_light { direction 0 0 0 color 1 1 1 }"),
+       "warning a light without a direction"},
+      {"a.out", polygons("numPolys 2 " + std::string(kTriangle)),
+       "warning numPolys says 2, but the file has 1"},
+      {"a.out", polygons("numPolys 1 poly { numVertices 4 pos 0 0 0 pos 1 0 0 pos 0 1 0 }"),
+       "warning numVertices says 4, but the file has 3"},
+      {"a.out", polygons("type BANANA numPolys 1 " + std::string(kTriangle)),
+       "warning type: expected POLYSET_TRI_MESH"},
+      {"a.out", polygons("hasTextureCoords TRUE numPolys 1 " + std::string(kTriangle)),
+       "warning poly: expected s and t"},
+      {"a.out", polygons("normType PER_VERTEX_NORMAL numPolys 1 " + std::string(kTriangle)),
+       "warning poly: expected a norm"},
+      {"a.out", polygons("numPolys 1 poly { numVertices 2 pos 0 0 0 pos 1 0 0 }"),
+       "warning fewer than 3 vertices"},
+      {"a.out", composerBinary(0.7f) + "more", "warning bytes after the last object are ignored: 4"},
+      {"a.out", composerBinary(9.f), "error expected a camera"},
+  });
+}
+
+// --- Inventor and VRML
+// --------------------------------------------------------------------------------------
+
+TEST(BrokenFiles, Inventor) {
+  const auto iv = [](const std::string& text) { return "#Inventor V2.1 ascii\nSeparator { " + text + " }"; };
+  const auto vrml1 = [](const std::string& text) { return "#VRML V1.0 ascii\nSeparator { " + text + " }"; };
+  const auto vrml2 = [](const std::string& geometry, const std::string& look = "") {
+    return "#VRML V2.0 utf8\nShape { " + look + " geometry " + geometry + " }";
+  };
+  const std::string points = "Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } ";
+  expectSaid({
+      {"a.iv", iv("Sphere { radius banana }"),
+       "warning radius of Sphere: expected a number, found \"banana\""},
+      {"a.wrl", vrml2("Sphere { radius banana }"), "warning radius of Sphere: expected a number"},
+      {"a.iv", iv("Sphere { radius -1 }"), "warning radius of Sphere: expected a number above 0, found -1"},
+      {"a.iv", iv("Sphere { radius 1 2 }"), "warning radius of Sphere: expected a number, found 2"},
+      {"a.iv", iv("Sphere { radios 2 }"),
+       "warning unknown field \"radios\" of Sphere is ignored [did you mean \"radius\"?]"},
+      {"a.wrl", vrml2("Box { size 1 2 }"), "warning size of Box: expected 3 numbers, found 2"},
+      {"a.wrl", vrml2("Box { size 1 2 0 }"), "warning size of Box: expected a number above 0, found 0"},
+      {"a.wrl", vrml2("Cone { bottom banana }"), "warning bottom of Cone: expected TRUE or FALSE"},
+      {"a.iv", iv("Cone { parts BANANA }"),
+       "warning parts of Cone: expected SIDES, TOP, BOTTOM, ALL, found \"BANANA\""},
+      {"a.iv", iv("Material { diffuseColor 1 0 } Sphere { }"),
+       "warning diffuseColor of Material: expected lists of 3 numbers"},
+      {"a.iv", iv("Material { transparency 5 } Sphere { }"),
+       "warning transparency of Material: expected 0 to 1, found 5"},
+      {"a.iv", iv("Material { shininess -1 } Sphere { }"),
+       "warning shininess of Material: expected 0 to 1, found -1"},
+      {"a.iv", iv("MaterialBinding { value BANANA } Sphere { }"),
+       "warning value of MaterialBinding: expected DEFAULT"},
+      {"a.iv", iv("ShapeHints { vertexOrdering LEFT } Sphere { }"),
+       "warning vertexOrdering of ShapeHints: expected"},
+      {"a.iv", iv("LightModel { model BANANA } Sphere { }"), "warning model of LightModel"},
+      {"a.iv", iv("Units { units CUBITS } Sphere { }"), "warning units of Units"},
+      {"a.iv", iv("Rotation { rotation 0 0 0 1 } Sphere { }"), "warning an axis of length 0"},
+      {"a.iv", iv("Rotation { rotation 0 1 0 } Sphere { }"),
+       "warning rotation of Rotation: expected 4 numbers, found 3"},
+      {"a.iv", iv("MatrixTransform { matrix 1 0 0 } Sphere { }"),
+       "warning matrix of MatrixTransform: expected 16 numbers"},
+      {"a.iv", iv("Switch { whichChild 9 Sphere { } }"),
+       "warning Switch: expected the number of one of its 1 children"},
+      {"a.iv", iv("PointLight { on banana } Sphere { }"), "warning on of PointLight: expected TRUE or FALSE"},
+      {"a.iv", iv("PointLight { intensity -1 } Sphere { }"),
+       "warning intensity of PointLight: expected at least 0"},
+      {"a.iv", iv("DirectionalLight { direction 0 0 0 } Sphere { }"),
+       "warning direction of DirectionalLight: expected a direction"},
+      {"a.iv", iv("SpotLight { cutOffAngle 9 } Sphere { }"), "warning cutOffAngle of SpotLight"},
+      {"a.iv", iv("PerspectiveCamera { heightAngle 9 } Sphere { }"),
+       "warning heightAngle of PerspectiveCamera"},
+      {"a.iv", iv("PerspectiveCamera { aspectRatio -1 } Sphere { }"),
+       "warning aspectRatio of PerspectiveCamera"},
+      {"a.iv", iv(points + "IndexedFaceSet { coordIndex [ 0, 1, 99, -1 ] }"), "warning 1 faces are left out"},
+      {"a.iv", iv("Coordinate3 { point [ 0 0 0, 1 0 ] } Sphere { }"),
+       "warning point of Coordinate3: expected lists of 3 numbers"},
+      {"a.iv", iv(points + "FaceSet { numVertices [ 3, 3 ] }"), "warning 1 faces are left out"},
+      {"a.iv",
+       iv(points + "Material { diffuseColor [ 1 0 0, 0 1 0 ] } MaterialBinding { value PER_FACE_INDEXED } "
+                   "IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] materialIndex [ 9 ] }"),
+       "warning corners use materials, colours or texture coordinates that are not there"},
+      {"a.wrl", vrml1("Texture2 { filename \"wood.png\" } Sphere { }"),
+       "warning the texture \"wood.png\" is not rendered"},
+      {"a.iv", iv("Texture2 { image 1 1 3 0xff0000 } Sphere { }"),
+       "warning the texture \"Texture2 (inside the file)\""},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture ImageTexture { url \"wood.png\" } }"),
+       "warning the texture \"wood.png\" is not rendered yet"},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture PixelTexture { image 1 1 1 0xff } }"),
+       "warning the texture \"PixelTexture (inside the file)\""},
+      {"a.wrl", "#VRML V2.0 utf8\nBackground { frontUrl \"sky.png\" }", "warning the texture \"sky.png\""},
+      {"a.wrl", "#VRML V2.0 utf8\nFog { color 1 1 1 }", "warning \"Fog\" is not rendered"},
+      {"a.wrl", "#VRML V2.0 utf8\nInline { }", "warning Inline names no file"},
+      {"a.wrl", vrml2("Extrusion { spine [ 0 0 0 ] }"),
+       "warning an Extrusion needs a crossSection and a spine"},
+      {"a.wrl", vrml2("ElevationGrid { xDimension 2 zDimension 2 height [ 1 ] }"),
+       "warning an ElevationGrid needs"},
+      {"a.iv", iv("DrawStyle { style INVISIBLE } Sphere { }"), "warning DrawStyle INVISIBLE is not rendered"},
+      {"a.iv", iv("USE nothing Sphere { }"), "warning USE nothing: expected a name"},
+  });
+}
+
+// --- OBJ and MTL
+// --------------------------------------------------------------------------------------------
+
+TEST(BrokenFiles, Obj) {
+  const test::Folder folder;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
+  expectSaid(
+      {
+          {"a.obj", triangle + "usemtl gold\n" + face, "warning the material \"gold\" is not defined"},
+          {"a.obj", "mtllib none.mtl\n" + triangle + face, "warning materials: cannot read"},
+          {"a.obj", triangle + "banana 1 2\n" + face, "warning \"banana\" is not known and is skipped"},
+          {"a.obj", triangle + "l 1 2\n" + face, "warning points and lines are left out"},
+          {"a.obj", triangle + "cstype bezier\ncurv 0 1 1 2\n" + face,
+           "warning curves and surfaces are left out"},
+          {"a.obj", triangle + "f 1 2\n" + face, "warning a face of fewer than 3 points is left out"},
+          {"a.obj", triangle + "f 1/9 2/9 3/9\n", "warning normals or uv that the file does not have"},
+          {"a.obj", triangle + "v 0 0 0 1 2\n" + face, "warning v: expected 3 numbers, found 5"},
+          {"a.obj", triangle + "vn 0 0 1 4\n" + face, "warning vn: expected at most 3 numbers"},
+          {"a.obj", triangle + "usemtl\n" + face, "warning usemtl: expected the name of a material"},
+          {"a.obj", triangle, "warning the file has no triangle that can be seen"},
+          {"a.obj", triangle + "f 1 2 9\n", "error uses point 9"},
+      },
+      folder.path() + "/");
+
+  const std::pair<const char*, const char*> materials[] = {
+      {"Kd red 0 0", "warning Kd: expected a number, found \"red\""},
+      {"Kd 1 0", "warning Kd: expected 3 numbers, found 2"},
+      {"Kd 255 0 0", "warning Kd: expected 0 to 1, found 255"},
+      {"Ns -5", "warning Ns: expected at least 0, found -5"},
+      {"Ni 0", "warning Ni: expected at least 0.001, found 0"},
+      {"d 5", "warning d: expected 0 to 1, found 5"},
+      {"illum 99", "warning illum: expected 0 to 10, found 99"},
+      {"banana 1", "warning \"banana\" is not known and is skipped"},
+      {"map_Kd", "warning map_Kd: expected the name of a picture"},
+      {"map_Kd wood.png", "warning the texture \"wood.png\" is not rendered yet"},
+      {"map_Ns -s 2 2 2 shine.png", "warning the texture \"shine.png\" is not rendered yet"},
+      {"bump -bm 0.5 dents.png", "warning the texture \"dents.png\" is not rendered yet"},
+      {"disp deep.png", "warning the texture \"deep.png\" is not rendered yet"},
+      {"norm normals.png", "warning the texture \"normals.png\" is not rendered yet"},
+      {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
+      {"map_d holes.png", "warning the texture \"holes.png\" is not rendered yet"},
+      {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
+       "warning the textures \"a.png\", \"b.png\", \"c.png\" and 2 more are not rendered yet"},
+  };
+  for (const auto& [line, expected] : materials) {
+    writeFile(folder.path() + "/a.mtl", std::string("newmtl gold\n") + line + "\n");
+    expectSaid({{"a.obj", "mtllib a.mtl\n" + triangle + "usemtl gold\n" + face, expected}},
+               folder.path() + "/");
+  }
+  writeFile(folder.path() + "/a.mtl", "Kd 1 0 0\n");
+  expectSaid(
+      {{"a.obj", "mtllib a.mtl\n" + triangle + face, "warning expected \"newmtl\" before the first line"}},
+      folder.path() + "/");
+}
+
+// --- PLY, OFF, STL
+// ------------------------------------------------------------------------------------------
+
+TEST(BrokenFiles, Meshes) {
+  const auto ply = [](const std::string& header, const std::string& more = "") {
+    return "ply\nformat ascii 1.0\n" + header +
+           "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + more +
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expectSaid({
+      {"a.ply", "ply\nformat ascii 9.0\nelement vertex 0\nend_header\n",
+       "error expected version 1.0 of the format"},
+      {"a.ply", ply("") + body + "banana\n", "warning bytes after the last element are ignored: 7"},
+      {"a.ply", ply("comment TextureFile wood one.png\n") + body,
+       "warning the texture \"wood one.png\" is not rendered yet"},
+      {"a.ply", ply("", "property float x\n") + "0 0 0 0\n1 0 0 0\n0 1 0 0\n3 0 1 2\n",
+       "error expected each property once"},
+      {"a.ply", ply("", "property float nx\n") + "0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n",
+       "warning expected all of nx, ny and nz of a vertex, found 1"},
+      {"a.ply",
+       ply("", "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
+           "0 0 0 900 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n",
+       "warning colours that are not from 0 to 255: 1"},
+      {"a.ply", ply("") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", "error a number that no point has"},
+      {"a.ply", ply("") + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "warning faces of fewer than 3 points"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n",
+       "warning colours of faces are left out: 1"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 banana\n",
+       "error expected a colour after its points"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\nbanana\n",
+       "warning what follows the last face is ignored"},
+      {"a.off", "OFF\n3 1 -4\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "error expected the number of edges"},
+      {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "warning faces of fewer than 3 points"},
+      {"a.stl", "solid a\nendsolid a\n", "warning the file has no triangle"},
+      {"a.stl",
+       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 "
+       "0\nendloop\nendfacet\nendsolid\n",
+       "error expected \"endloop\""},
+      {"a.stl",
+       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 2 0 "
+       "0\nendloop\nendfacet\nendsolid\n",
+       "warning triangles without area"},
+  });
+}
+
+// --- glTF
+// ---------------------------------------------------------------------------------------------------
+
+/// A triangle; `change` is what is replaced by `by`.
+std::string gltf(const std::string& change = {}, const std::string& by = {}) {
+  std::string text = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0, "rotation": [0, 0, 0, 1]}],
+ "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}, "alphaMode": "OPAQUE"}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "mode": 4}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  if (change.empty()) return text;
+  const std::size_t at = text.find(change);
+  EXPECT_NE(at, text.npos) << change;
+  return text.replace(at, change.size(), by);
+}
+std::string gltfWith(const std::string& property) {
+  return gltf("\"scene\": 0", "\"scene\": 0, " + property);
+}
+std::string gltfMaterial(const std::string& property) { return gltf("\"alphaMode\": \"OPAQUE\"", property); }
+std::string gltfLight(const std::string& light) {
+  return gltfWith(
+      "\"extensionsUsed\": [\"KHR_lights_punctual\"], \"extensions\": {\"KHR_lights_punctual\": {\"lights\": "
+      "[{" +
+      light + "}]}}");
+}
+
+TEST(BrokenFiles, Gltf) {
+  EXPECT_EQ(said("a.gltf", gltf()), "");
+  const std::string draco =
+      "\"extensions\": {\"KHR_draco_mesh_compression\": {\"bufferView\": 0, \"attributes\": {\"POSITION\": "
+      "0}}}, ";
+  expectSaid({
+      {"a.gltf", gltf("\"2.0\"", "\"3.0\""), "error expected glTF of version 2.0, found version 3"},
+      {"a.gltf", gltf("\"2.0\"", "\"1.0\""), "error expected glTF of version 2.0, found version 1"},
+      {"a.gltf", gltf("\"2.0\"", "\"2.0\", \"minVersion\": \"2.9\""),
+       "error expected glTF of version 2.0, found version 2.9"},
+      {"a.gltf", gltf("\"version\": \"2.0\"", "\"copyright\": \"me\""), "error asset.version"},
+      {"a.gltf", gltfWith("\"extensionsRequired\": [\"XYZ_banana\"]"),
+       "error requires the extension \"XYZ_banana\""},
+      {"a.gltf", gltfWith("\"extensionsUsed\": [\"XYZ_banana\"]"),
+       "warning extensions that are not read: \"XYZ_banana\""},
+      {"a.gltf", gltfWith("\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]"),
+       "error compressed meshes (KHR_draco_mesh_compression) are not read"},
+      {"a.gltf",
+       gltf("\"attributes\": {\"POSITION\": 0}, ", "\"attributes\": {\"POSITION\": 0}, " + draco)
+           .replace(gltf("\"attributes\": {\"POSITION\": 0}, ", "\"attributes\": {\"POSITION\": 0}, " + draco)
+                        .find("{\"bufferView\": 0, \"componentType\""),
+                    17, "{"),
+       "error compressed meshes (KHR_draco_mesh_compression) are not read"},
+      {"a.gltf", gltf("\"material\": 0", "\"material\": 99"),
+       "error material: expected a number of one of the 1 materials, found 99"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 5"), "error nodes[0].mesh"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 0, \"camera\": 3"),
+       "error nodes[0].camera: expected a number of one of the 0 cameras"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 0, \"skin\": 3"), "error nodes[0].skin"},
+      {"a.gltf", gltf("\"scene\": 0", "\"scene\": 7"),
+       "error scene: expected a number of one of the 1 scenes"},
+      {"a.gltf",
+       gltf("\"mesh\": 0", "\"mesh\": 0, \"extensions\": {\"KHR_lights_punctual\": {\"light\": 4}}"),
+       "error one of the 0 lights"},
+      {"a.gltf", gltf("[0, 0, 0, 1]", "[0, 0, 0, 0]"),
+       "warning nodes[0].rotation: expected a quaternion of length 1"},
+      {"a.gltf", gltf("[0, 0, 0, 1]", "[0, 0, 1]"), "error nodes[0].rotation: expected 4 numbers"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 0, \"matrix\": [1, 0]"),
+       "error nodes[0].matrix: expected 16 numbers"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 0, \"scale\": [0, 1, 1]"),
+       "warning objects are left out whose transform makes them flat"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"mesh\": 0, \"translaton\": [0, 1, 1]"),
+       "warning unknown property \"translaton\" of nodes[0] is ignored [did you mean \"translation\"?]"},
+      {"a.gltf", gltf("\"metallicFactor\": 0", "\"metallicFactor\": 5"),
+       "warning metallicFactor: expected 0 to 1, found 5"},
+      {"a.gltf", gltf("\"metallicFactor\": 0", "\"metallicFactor\": \"shiny\""),
+       "error metallicFactor: expected a number, found \"shiny\""},
+      {"a.gltf", gltf("\"metallicFactor\": 0", "\"baseColorFactor\": [1, 0, 0]"),
+       "error baseColorFactor: expected 4 numbers"},
+      {"a.gltf", gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 3}"),
+       "error one of the 0 textures"},
+      {"a.gltf", gltfMaterial("\"alphaMode\": \"BANANA\""),
+       "error alphaMode: expected one of OPAQUE, MASK, BLEND"},
+      {"a.gltf", gltfMaterial("\"emissiveFactor\": [9, 0, 0]"), "warning emissiveFactor: expected 0 to 1"},
+      {"a.gltf", gltfMaterial("\"extensions\": {\"KHR_materials_ior\": {\"ior\": 0.5}}"),
+       "warning ior: expected at least 1"},
+      {"a.gltf", gltf("\"mode\": 4", "\"mode\": 9"), "error mode: expected 0 to 6"},
+      {"a.gltf", gltf("\"mode\": 4", "\"mode\": 1"), "warning points and lines are left out"},
+      {"a.gltf", gltf("\"POSITION\": 0", "\"NORMAL\": 0"), "warning has no POSITION"},
+      {"a.gltf", gltf("\"POSITION\": 0", "\"POSITION\": 8"),
+       "error POSITION: expected a number of one of the 1 accessors"},
+      {"a.gltf", gltf("\"count\": 3", "\"count\": 2"), "warning make no whole triangle"},
+      {"a.gltf", gltf("\"type\": \"VEC3\"", "\"type\": \"VEC9\""), "error accessors[0].type"},
+      {"a.gltf", gltfLight("\"type\": \"banana\""), "error type: expected one of directional, point, spot"},
+      {"a.gltf", gltfLight("\"type\": \"point\", \"intensity\": -3"),
+       "warning intensity: expected at least 0"},
+      {"a.gltf", gltfLight("\"type\": \"spot\", \"spot\": {\"innerConeAngle\": 1, \"outerConeAngle\": 0.5}"),
+       "warning an innerConeAngle below"},
+      {"a.gltf", gltfWith("\"animations\": [{}]"), "warning animations are not played: 1"},
+      {"a.gltf",
+       gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 0}")
+           .insert(1, "\"textures\": [{\"source\": 0}], \"images\": [{\"uri\": \"wood.png\"}], "),
+       "warning the texture \"wood.png\" is not rendered yet"},
+      {"a.gltf",
+       gltfMaterial("\"normalTexture\": {\"index\": 0}")
+           .insert(1,
+                   "\"textures\": [{\"source\": 0}], \"images\": [{\"bufferView\": 0, \"mimeType\": "
+                   "\"image/png\", \"name\": \"dents\"}], "),
+       "warning the texture \"dents (inside the file)\" is not rendered yet"},
+  });
+}
+
+// --- all formats
+// --------------------------------------------------------------------------------------------
+
+std::size_t warningsOfTextures(const std::string& file, const std::string& text) {
+  Messages messages;
+  readScene(file, text, messages);
+  return static_cast<std::size_t>(
+      std::count_if(messages.all().begin(), messages.all().end(),
+                    [](const Message& m) { return m.what.find("not rendered yet") != m.what.npos; }));
+}
+
+TEST(BrokenFiles, TexturesOfEveryFormatAreNamedOnce) {
+  const test::Folder folder;
+  std::string mtl, obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n", scene, course, out, iv, vrml, materials,
+                   textures, images;
+  for (int i = 0; i < 100; ++i) {
+    const std::string n = std::to_string(i), picture = "picture" + n + ".png", comma = i ? ", " : "";
+    mtl += "newmtl m" + n + "\nmap_Kd " + picture + "\nbump " + picture + "\n";
+    obj += "usemtl m" + n + "\nf 1 2 3\n";
+    scene += "sphere { material = { diffuse = map(\"" + picture + "\"); } }\n";
+    course += "Material \"m" + n + "\" \"texture\" \"" + picture + "\" Sphere 1 \"m" + n + "\"\n";
+    out += "sphere { name \"texture=" + picture + "\" numMaterials 0 }\n";
+    iv += "Texture2 { filename \"" + picture + "\" } Sphere { }\n";
+    vrml += "Shape { appearance Appearance { texture ImageTexture { url \"" + picture +
+            "\" } } geometry Sphere { } }\n";
+    materials += comma + "{\"normalTexture\": {\"index\": " + n + "}}";
+    textures += comma + "{\"source\": " + n + "}";
+    images += comma + "{\"uri\": \"" + picture + "\"}";
+  }
+  writeFile(folder / "a.mtl", mtl);
+  EXPECT_EQ(warningsOfTextures(folder / "a.obj", obj), 1u);
+  EXPECT_EQ(warningsOfTextures("a.ray", ray(scene)), 1u);
+  EXPECT_EQ(warningsOfTextures("a.ray", ubc(course)), 1u);
+  EXPECT_EQ(warningsOfTextures("a.out", composer(out)), 1u);
+  EXPECT_EQ(warningsOfTextures("a.iv", "#Inventor V2.1 ascii\n" + iv), 1u);
+  EXPECT_EQ(warningsOfTextures("a.wrl", "#VRML V2.0 utf8\n" + vrml), 1u);
+  const std::string list = gltf(R"([{"pbrMetallicRoughness": {"metallicFactor": 0}, "alphaMode": "OPAQUE"}])",
+                                "[" + materials + "]");
+  std::string named = list;
+  named.insert(1, "\"textures\": [" + textures + "], \"images\": [" + images + "], ");
+  EXPECT_EQ(warningsOfTextures("a.gltf", named), 1u);
+}
+
+TEST(BrokenFiles, KeepTheNamesOfTheirTextures) {
+  const test::Folder folder;
+  writeFile(folder / "a.mtl", "newmtl m\nmap_Kd wood.png\nmap_Ns shine.png\n");
+  Messages messages;
+  const auto maps = [&](const std::string& file, const std::string& text) {
+    const Scene read = readScene(file, text, messages);
+    return read.materials.at(read.objects.at(0).material).maps;
+  };
+  EXPECT_EQ(maps(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"),
+            (std::vector<FieldMap>{{"diffuse", "wood.png"}, {"shininess", "shine.png"}}));
+  const std::vector<FieldMap> wood{{"diffuse", "wood.png"}};
+  EXPECT_EQ(maps("a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }")), wood);
+  EXPECT_EQ(maps("a.ray", ubc("Material \"n\" \"texture\" \"wood.png\" Sphere 1 \"n\"")), wood);
+  EXPECT_EQ(maps("a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }")), wood);
+  EXPECT_EQ(maps("a.iv", "#Inventor V2.1 ascii\nTexture2 { filename \"wood.png\" } Sphere { }"), wood);
+}
+
+TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {
+  EXPECT_EQ(said("a.iv",
+                 "#Inventor V2.1 ascii\nSeparator { Complexity { value ~ textureQuality 0.2 } "
+                 "Material { diffuseColor 1 0 0 ~ transparency ~ } Sphere { radius 2 } }"),
+            "");
+}
+
+[[noreturn]] void readWithLittleMemory(const std::string& file) {
+  constexpr rlim_t kLittle = 100'000'000;
+  const rlimit limit{kLittle, kLittle};
+  setrlimit(RLIMIT_AS, &limit);
+  Messages messages;
+  try {
+    readScene(file, messages);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s", error.what());
+    std::_Exit(static_cast<int>(error.fault()));
+  }
+  std::_Exit(0);
+}
+
+// A stand-in for a machine without memory: nothing may be taken beyond a bound.
+TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep terabytes of addresses";
+#endif
+  const test::Folder folder;
+  const std::string file = folder / "large.ray";
+  // 50 million triangles of a subdivided one take gigabytes.
+  writeFile(file, ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0), (1,1,0)); faces = ((0,1,2), (1,3,2)); "
+                      "subdivide = 10; }"));
+  EXPECT_EXIT(readWithLittleMemory(file), testing::ExitedWithCode(static_cast<int>(Fault::limit)),
+              "large.ray.*not enough memory");
+}
+
+}  // namespace
+}  // namespace trace
