@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "base/match.h"
+#include "base/nesting.h"
 #include "base/text.h"
 #include "formats/ray_background.h"
 #include "formats/ray_camera.h"
@@ -160,6 +162,8 @@ std::string_view repair(Conic& conic, Affine&) {
 
 // --- the reader -----------------------------------------------------------------------------------------
 
+/// What is nested is read by recursion. Functions on its way keep little on the stack (base/nesting.h): what
+/// is large lies on the heap, and steps without recursion, [[gnu::noinline]], have frames of their own.
 class Reader {
  public:
   Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time)
@@ -258,19 +262,48 @@ class Reader {
 
   /// Materials set in a group hold up to its end.
   void group(const Item& block, const Affine& worldFromObject) {
-    const Material outside = materials_.current;
+    const NestedSolid nested(*this, block, solids_ > 0);
+    if (!nested) return;
+    const auto outside = std::make_unique<Material>(materials_.current);
     for (const Item item : block) {
       if (!item.keyed() || item.key() != Phong::kKeyword)
         object(item, worldFromObject);
-      else if (item.is(Kind::call))
-        namedMaterial(item);
       else
-        materials_.current = materials_.read(item.value(), materials_.current);
+        setMaterial(item);
     }
-    materials_.current = outside;
+    materials_.current = *outside;
   }
 
-  void noObject(const Item& item) {
+  [[gnu::noinline]] void setMaterial(const Item& item) {
+    if (item.is(Kind::call)) return namedMaterial(item);
+    materials_.current = materials_.read(item.value(), materials_.current);
+  }
+
+  /// One level more of solids in solids, if `counts`. Converts to false, after a report, where it is one too
+  /// many.
+  class NestedSolid {
+   public:
+    NestedSolid(Reader& reader, const Item& item, bool counts) : reader_(reader), counts_(counts) {
+      if (counts_ && ++reader_.solids_ > kMostNestedSolids) reader_.tooDeep(item);
+    }
+    ~NestedSolid() { reader_.solids_ -= counts_; }
+    NestedSolid(const NestedSolid&) = delete;
+    NestedSolid& operator=(const NestedSolid&) = delete;
+    explicit operator bool() const { return reader_.solids_ <= kMostNestedSolids; }
+
+   private:
+    Reader& reader_;
+    const bool counts_;
+  };
+
+  [[gnu::noinline]] void tooDeep(const Item& item) {
+    findings_.error(item,
+                    "expected at most " + std::to_string(kMostNestedSolids) +
+                        " levels of solids or particles in one another, found more",
+                    "put more solids into one union in place of unions in unions");
+  }
+
+  [[gnu::noinline]] void noObject(const Item& item) {
     std::string hint;
     if (item.is(Kind::word)) {
       const std::string near = nearest(item.text(), knownWords());
@@ -282,7 +315,7 @@ class Reader {
     findings_.error(item, "expected an object, found " + describe(item), std::move(hint));
   }
 
-  void otherNode(const Item& call, const Affine& worldFromObject) {
+  [[gnu::noinline]] void otherNode(const Item& call, const Affine& worldFromObject) {
     const std::string_view key = call.key();
     if (key == Particles::kKeyword) return particles(call, worldFromObject);
     const bool topLevelOnly = withKeyword<Light>(key, [](auto*) {}) || key == Camera::kKeyword ||
@@ -296,8 +329,8 @@ class Reader {
 
   /// Multiplies the transform of the node to `worldFromObject`. Returns what it transforms; nothing, after a
   /// report, if the node is not of its form.
-  std::optional<Item> applyTransform(const Item& call, const TransformForm& transform,
-                                     Affine& worldFromObject) {
+  [[gnu::noinline]] std::optional<Item> applyTransform(const Item& call, const TransformForm& transform,
+                                                       Affine& worldFromObject) {
     std::vector<Item> items;
     if (call.value().is(Kind::tuple))
       for (const Item item : call.value()) items.push_back(item);
@@ -357,7 +390,7 @@ class Reader {
   }
 
   template <class S>
-  void shape(const Item& call, Affine worldFromObject) {
+  void shape(const Item& call, const Affine& worldFromObject) {
     // Solids of solids are also written as union(a, b).
     const bool list = requires { S{}.objects; }
     &&call.value().is(Kind::tuple);
@@ -369,7 +402,7 @@ class Reader {
       analyticShape<S>(call, *block, worldFromObject);
   }
 
-  void mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
+  [[gnu::noinline]] void mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
     if (namesMeshFile(block)) {
       for (Object& part : meshFiles_.read(block))
         add(call, std::move(part.name), std::move(part.shape), worldFromObject * part.worldFromObject,
@@ -380,29 +413,51 @@ class Reader {
     if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
   }
 
+  /// A shape as its block describes it.
   template <class S>
-  void analyticShape(const Item& call, const Item& block, Affine worldFromObject) {
+  struct Described {
     S shape;
     std::string name;
-    Material material = materials_.current;
-    const std::size_t errors = findings_.errors();
-    constexpr bool kOfObjects = requires { shape.objects; };
+    Material material;
+    std::size_t errorsBefore;
+  };
+
+  template <class S>
+  void analyticShape(const Item& call, const Item& block, const Affine& worldFromObject) {
+    constexpr bool kOfObjects = requires(S s) { s.objects; };
+    const auto described = std::make_unique<Described<S>>();
+    readFields(call, block, *described);
+    if constexpr (kOfObjects)
+      described->shape.objects = operands(call, block, described->material, std::is_same_v<S, Clip>);
+    addDescribed(call, block, *described, worldFromObject);
+  }
+
+  template <class S>
+  [[gnu::noinline]] void readFields(const Item& call, const Item& block, Described<S>& described) {
+    described.material = materials_.current;
+    described.errorsBefore = findings_.errors();
+    constexpr bool kOfObjects = requires(S s) { s.objects; };
     for (const Item item : block) {
       if (kOfObjects && (isObject(item) || isListOfObjects(item))) continue;
       if (!isField(item, call.key())) continue;
       if (item.key() == Phong::kKeyword) {
         if (item.is(Kind::call)) findings_.sureSignOf2001(item);
-        material = materials_.read(item.value(), materials_.current);
+        described.material = materials_.read(item.value(), materials_.current);
       } else if (item.key() == "name") {
-        rayfile::read(findings_, "name", item.value(), name);
-      } else if (readMaterials(shape, item, material)) {
-      } else if (!assignField(findings_, shape, item)) {
+        rayfile::read(findings_, "name", item.value(), described.name);
+      } else if (readMaterials(described.shape, item, described.material)) {
+      } else if (!assignField(findings_, described.shape, item)) {
         findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
       }
     }
-    if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
+  }
+
+  template <class S>
+  [[gnu::noinline]] void addDescribed(const Item& call, const Item& block, Described<S>& described,
+                                      Affine worldFromObject) {
+    S& shape = described.shape;
     if constexpr (requires { shape.prepared(); }) {
-      if (findings_.errors() != errors) return;  // what is wrong is said
+      if (findings_.errors() != described.errorsBefore) return;  // what is wrong is said
       try {
         shape.prepared();
       } catch (const Error& error) {
@@ -413,7 +468,7 @@ class Reader {
     if (!reason.empty()) return findings_.warn(call, std::string(reason));
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
-    add(call, std::move(name), shape, worldFromObject, material);
+    add(call, std::move(described.name), shape, worldFromObject, described.material);
   }
 
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
@@ -433,55 +488,87 @@ class Reader {
     return false;
   }
 
+  /// A system of particles as its block describes it, and its objects in each shade that they take.
+  struct Shower {
+    static constexpr int kShades = 32;
+
+    Particles system;
+    Material material;
+    std::vector<Item> shown;
+    std::vector<Particle> alive;
+    std::array<std::vector<Object>, kShades + 1> shades;
+  };
+
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.
   void particles(const Item& call, const Affine& worldFromObject) {
-    const std::optional<Item> block = blockOf(call);
-    if (!block) return;
-    Particles system;
-    Material material = materials_.current;
-    std::vector<Item> shown;
-    for (const Item item : *block) {
-      if (isObject(item)) {
-        shown.push_back(item);
-      } else if (!isField(item, call.key())) {
-        continue;
-      } else if (item.key() == Phong::kKeyword) {
-        material = materials_.read(item.value(), materials_.current);
-      } else if (assignField(findings_, system, item)) {
-        checkRange(findings_, system, item);
-      } else {
-        findings_.unknownField(Particles::kKeyword, item, keywords<Particles>({"material"}));
-      }
-    }
-    std::vector<Particle> alive;
-    try {
-      alive = particlesAt(system, time_);
-    } catch (const Error& error) {
-      return findings_.error(call, error.messages().front().what, error.messages().front().hint);
-    }
-    // The objects are read once for each shade, so that they take it as they take the material.
-    constexpr int kShades = 32;
-    std::array<std::vector<Object>, kShades + 1> shades;
-    const Material outside = materials_.current;
-    for (const Particle& particle : alive) {
-      const auto shade = static_cast<std::size_t>(std::lround(particle.age * kShades));
-      std::vector<Object>& objects = shades[shade];
+    const NestedSolid nested(*this, call, true);
+    if (!nested) return;
+    const auto shower = std::make_unique<Shower>();
+    if (!readShower(call, *shower)) return;
+    const auto outside = std::make_unique<Material>(materials_.current);
+    for (const Particle& particle : shower->alive) {
+      std::vector<Object>& objects = shower->shades[shadeOf(particle)];
       if (objects.empty()) {
-        materials_.current = material;
-        tint(materials_.current, lerp(static_cast<Real>(shade) / kShades, system.color, system.endColor));
+        setShade(*shower, particle);
         std::vector<Object> found = std::exchange(scene_.objects, {});
-        for (const Item& item : shown) object(item, {});
-        if (shown.empty()) add(call, {}, Sphere{}, {}, materials_.current);
+        for (const Item& item : shower->shown) object(item, {});
+        if (shower->shown.empty()) addSphere(call);
         found.swap(scene_.objects);
         objects = std::move(found);
         if (objects.empty()) break;  // nothing to show, and that is reported
       }
-      const Real size = system.size + particle.age * (system.endSize - system.size);
-      const Affine place = Affine::translation(particle.place) * Affine::scaling({size, size, size});
-      for (const Object& o : objects)
-        add(call, o.name, o.shape, worldFromObject * place * o.worldFromObject, o.material);
+      addParticle(call, worldFromObject, *shower, particle);
     }
-    materials_.current = outside;
+    materials_.current = *outside;
+  }
+
+  /// False after a report.
+  [[gnu::noinline]] bool readShower(const Item& call, Shower& shower) {
+    const std::optional<Item> block = blockOf(call);
+    if (!block) return false;
+    shower.material = materials_.current;
+    for (const Item item : *block) {
+      if (isObject(item)) {
+        shower.shown.push_back(item);
+      } else if (!isField(item, call.key())) {
+        continue;
+      } else if (item.key() == Phong::kKeyword) {
+        shower.material = materials_.read(item.value(), materials_.current);
+      } else if (assignField(findings_, shower.system, item)) {
+        checkRange(findings_, shower.system, item);
+      } else {
+        findings_.unknownField(Particles::kKeyword, item, keywords<Particles>({"material"}));
+      }
+    }
+    try {
+      shower.alive = particlesAt(shower.system, time_);
+    } catch (const Error& error) {
+      findings_.error(call, error.messages().front().what, error.messages().front().hint);
+      return false;
+    }
+    return true;
+  }
+
+  static std::size_t shadeOf(const Particle& particle) {
+    return static_cast<std::size_t>(std::lround(particle.age * Shower::kShades));
+  }
+
+  /// The objects are read once for each shade, so that they take it as they take the material.
+  [[gnu::noinline]] void setShade(const Shower& shower, const Particle& particle) {
+    const Real share = static_cast<Real>(shadeOf(particle)) / Shower::kShades;
+    materials_.current = shower.material;
+    tint(materials_.current, lerp(share, shower.system.color, shower.system.endColor));
+  }
+
+  [[gnu::noinline]] void addSphere(const Item& call) { add(call, {}, Sphere{}, {}, materials_.current); }
+
+  [[gnu::noinline]] void addParticle(const Item& call, const Affine& worldFromObject, const Shower& shower,
+                                     const Particle& particle) {
+    const Particles& system = shower.system;
+    const Real size = system.size + particle.age * (system.endSize - system.size);
+    const Affine place = Affine::translation(particle.place) * Affine::scaling({size, size, size});
+    for (const Object& o : shower.shades[shadeOf(particle)])
+      add(call, o.name, o.shape, worldFromObject * place * o.worldFromObject, o.material);
   }
 
   static void tint(Material& material, const Color& color) {
@@ -502,7 +589,9 @@ class Reader {
   /// The objects of a block, which may stand in objects = { } as well. They have the material of the whole if
   /// they do not say another.
   Operands operands(const Item& call, const Item& block, const Material& material, bool clips) {
-    const Material outside = std::exchange(materials_.current, material);
+    const NestedSolid nested(*this, call, true);
+    if (!nested) return {};
+    const auto outside = std::make_unique<Material>(std::exchange(materials_.current, material));
     std::vector<Operand> operands;
     const auto readAll = [&](const Item& items) {
       for (const Item item : items)
@@ -511,9 +600,13 @@ class Reader {
     readAll(block);
     for (const Item item : block)
       if (isListOfObjects(item)) readAll(item.value());
-    materials_.current = outside;
-    if (operands.empty()) findings_.warn(call, std::string(call.key()) + " without objects is empty");
+    materials_.current = *outside;
+    if (operands.empty()) warnOfNothing(call);
     return Operands(std::move(operands));
+  }
+
+  [[gnu::noinline]] void warnOfNothing(const Item& call) {
+    findings_.warn(call, std::string(call.key()) + " without objects is empty");
   }
 
   /// A group is one operand: the union of its objects.
@@ -521,6 +614,11 @@ class Reader {
     std::vector<Object> found = std::exchange(scene_.objects, {});
     object(item, {});
     found.swap(scene_.objects);
+    addOperand(item, mayBeOpen, std::move(found), operands);
+  }
+
+  [[gnu::noinline]] void addOperand(const Item& item, bool mayBeOpen, std::vector<Object> found,
+                                    std::vector<Operand>& operands) {
     std::vector<Operand> parts;
     for (Object& o : found) {
       if (!mayBeOpen && !Placed(o.shape, {}).solid())
@@ -644,6 +742,7 @@ class Reader {
   Materials materials_;
   MeshFiles meshFiles_;
   SharedMeshes sharedMeshes_;
+  int solids_ = 0;  ///< how many solids or particles what is read is nested in
 };
 
 }  // namespace

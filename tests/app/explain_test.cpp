@@ -187,7 +187,7 @@ TEST(Drawing, CoversPixelsByArea) {
 
 TEST(Drawing, SvgEscapesWords) {
   const Drawing drawing{9, 9, {DrawnWords{{0, 0}, "a<b & \"c\"\x01", Color(0)}}};
-  EXPECT_NE(toSvg(drawing).find(">a&lt;b &amp; \"c\"</text>"), std::string::npos);
+  EXPECT_NE(toSvg(drawing).find(">a&lt;b &amp; \"c\"_</text>"), std::string::npos);
 }
 
 }  // namespace

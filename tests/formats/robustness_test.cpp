@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/file.h"
+#include "formats/format.h"
+#include "formats/ray_writer.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 
@@ -56,6 +58,100 @@ TEST(Robustness, ReadsItsCorpus) {
     for (const SceneFormat& format : sceneFormats())
       EXPECT_EQ(format.recognises(file.bytes), format.name == file.format) << file.name;
   }
+}
+
+/// Every sound scene of the corpus, of .ray too.
+std::vector<Scene> scenes() {
+  std::vector<File> files = corpus();
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/ray"))
+    files.push_back({entry.path().string(), "ray", readFile(entry.path().string()),
+                     entry.path().filename() == "damaged.ray"});
+  std::vector<Scene> all;
+  for (const File& file : files) {
+    Messages messages;
+    if (!file.broken) all.push_back(readScene(file.name, file.bytes, messages));
+  }
+  return all;
+}
+
+/// The names of everything are this one.
+Scene named(Scene scene, const std::string& name) {
+  for (Object& object : scene.objects) object.name = name;
+  for (Material& material : scene.materials) material.name = name;
+  return scene;
+}
+
+std::size_t lines(const std::vector<NamedBytes>& files) {
+  std::size_t count = 0;
+  for (const NamedBytes& file : files)
+    count += static_cast<std::size_t>(std::count(file.bytes.begin(), file.bytes.end(), '\n'));
+  return count;
+}
+
+std::size_t triangles(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) count += mesh->data->triangles.size();
+  return count;
+}
+
+TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.file);
+    Messages messages;
+    const auto files = writeRay(scene, "out.ray", {}, messages);
+    const Scene back = readScene("out.ray", files.at(0).bytes, messages);
+    ASSERT_EQ(back.objects.size(), scene.objects.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+      EXPECT_EQ(back.objects[i].worldFromObject, scene.objects[i].worldFromObject) << i;
+    EXPECT_EQ(triangles(back), triangles(scene));
+  }
+}
+
+// glTF, VRML and PLY names may hold anything; a writer must not let them become lines of its file.
+TEST(Robustness, NoNameBecomesAStatement) {
+  const std::string kNames[] = {"a\nv 9 9 9\nf 1 2 3",
+                                "b\r\nend_header",
+                                "c\"\n}\nsphere {\n name \"d",
+                                "\"; } sphere { } //",
+                                "# comment",
+                                "/* */",
+                                "tail\\",
+                                "\xff\xfe\x80",
+                                "line\xe2\x80\xa8separator",
+                                "\x1b[31mred",
+                                std::string("zero\0byte", 9),
+                                "\n",
+                                "Jos\u00e9 \u4e2d\u6587"};
+  for (const Scene& scene : scenes())
+    for (const SceneFormat& format : sceneFormats()) {
+      if (!format.write) continue;
+      const std::string file = "out" + std::string(format.suffixes[0]);
+      Messages messages;
+      std::vector<NamedBytes> plain;
+      std::size_t objects = 0, faces = 0;
+      try {
+        plain = format.write(named(scene, "plain"), file, {.ascii = true}, messages);
+        const Scene back = readScene(file, plain.at(0).bytes, messages);
+        objects = back.objects.size(), faces = triangles(back);
+      } catch (const Error&) {
+        continue;  // the format cannot hold the scene
+      }
+      for (const std::string& name : kNames) {
+        SCOPED_TRACE(scene.file + " as " + std::string(format.name) + " with the name " + name);
+        const auto files = format.write(named(scene, name), file, {.ascii = true}, messages);
+        // Lists of materials in a .ray file are wrapped by their length.
+        if (format.name != "ray") {
+          EXPECT_EQ(lines(files), lines(plain));
+        }
+        for (const NamedBytes& written : files)
+          for (char c : written.bytes)
+            ASSERT_TRUE(c == '\n' || c == '\t' || (static_cast<unsigned char>(c) >= ' ' && c != '\x7f'));
+        const Scene back = readScene(file, files.at(0).bytes, messages);
+        EXPECT_EQ(back.objects.size(), objects);
+        EXPECT_EQ(triangles(back), faces);
+      }
+    }
 }
 
 TEST(Robustness, SurvivesTruncationAtEveryByte) {

@@ -1,0 +1,14 @@
+// How deep things may be nested in a file. Whatever reads, builds, traces, writes and destroys them is
+// recursive; within these limits 256 KiB of stack do. A reader refuses what is nested deeper, with its place.
+#pragma once
+
+namespace trace {
+
+/// Brackets of a .ray file, nodes of Inventor and VRML, brackets of glTF.
+inline constexpr int kMostNesting = 128;
+
+/// Solids made of solids, and systems of particles in others; groups within them count too. Each level takes
+/// more of the stack: a ray asks the parts of a solid one within the other.
+inline constexpr int kMostNestedSolids = 64;
+
+}  // namespace trace
