@@ -4,8 +4,9 @@
 
 namespace trace {
 
-/// Brackets of a .ray file, nodes of Inventor and VRML, brackets of glTF.
-inline constexpr int kMostNesting = 128;
+/// Brackets of a .ray file, nodes of Inventor and VRML, brackets of glTF. Room for twice the solids and a
+/// material: what was read is written with a transform for each solid, and read again.
+inline constexpr int kMostNesting = 140;
 
 /// Solids made of solids, and systems of particles in others; groups within them count too. Each level takes
 /// more of the stack: a ray asks the parts of a solid one within the other.

@@ -11,6 +11,7 @@
 #include "formats/format.h"
 #include "formats/ray_writer.h"
 #include "mesh_helpers.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace {
@@ -179,6 +180,24 @@ TEST(Robustness, SurvivesMutation) {
       }
     }
     survives(file.name, bytes);
+  }
+}
+
+// MTL files are read because an OBJ file names them.
+TEST(Robustness, SurvivesDamagedMaterials) {
+  const test::Folder folder;
+  constexpr std::string_view kObject = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  std::mt19937 random(5);
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/mtl")) {
+    const std::string whole = readFile(entry.path().string());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      writeFile(folder / "a.mtl", std::string_view(whole).substr(0, i));
+      survives(folder / "a.obj", kObject);
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(random());
+      writeFile(folder / "a.mtl", damaged);
+      survives(folder / "a.obj", kObject);
+    }
   }
 }
 

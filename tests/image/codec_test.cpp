@@ -18,6 +18,7 @@
 #include "base/file.h"
 #include "image/compare.h"
 #include "support/folder.h"
+#include "support/paths.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -550,6 +551,18 @@ TEST(CodecLimits, AttributesLongerThanTheFileTakeNoMemory) {
     EXPECT_EQ(faultOf(file), Fault::io);
     EXPECT_THROW(format.metadata(file), std::exception);
   }
+}
+
+TEST(CodecCorpus, SoundFilesAreReadAndBrokenOnesRefused) {
+  int sound = 0, broken = 0;
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/pictures")) {
+    const bool isBroken = entry.path().filename().string().starts_with("broken_");
+    const std::string file = readFile(entry.path().string());
+    EXPECT_EQ(faultOf(file).has_value(), isBroken) << entry.path();
+    ++(isBroken ? broken : sound);
+  }
+  EXPECT_GE(sound, static_cast<int>(pictureFormats().size()));
+  EXPECT_GE(broken, static_cast<int>(pictureFormats().size()));
 }
 
 // What a decoder does not write must not be taken for pixels: with other memory underneath, other pixels.
