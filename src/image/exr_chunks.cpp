@@ -46,15 +46,47 @@ class Walker {
   std::uint64_t at_;
 };
 
+/// OpenEXR reads values of these types without a look at the length, and from the wrong place on when it is
+/// another.
+struct FixedLength {
+  std::string_view type;
+  std::size_t bytes;
+};
+constexpr FixedLength kFixedLengths[] = {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+                                         {"compression", 1}, {"double", 8},   {"envmap", 1},
+                                         {"float", 4},       {"int", 4},      {"keycode", 28},
+                                         {"lineOrder", 1},   {"m33f", 36},    {"m44f", 64},
+                                         {"m33d", 72},       {"m44d", 128},   {"rational", 8},
+                                         {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+                                         {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+                                         {"v3f", 12},        {"v3d", 24}};
+
+void checkLength(std::string_view type, std::string_view value) {
+  bool right = true;
+  for (const FixedLength& fixed : kFixedLengths)
+    if (fixed.type == type) right = value.size() == fixed.bytes;
+  Walker inside(value, 0);
+  if (type == "chlist") {
+    constexpr std::uint64_t kChannel = 16;
+    while (!inside.name().empty()) inside.take(kChannel);
+    right = inside.at() == value.size();
+  }
+  if (type == "preview") {
+    const std::uint64_t width = inside.whole(4), height = inside.whole(4);
+    right = width < 65536 && height < 65536 && value.size() == 8 + 4 * width * height;
+  }
+  if (!right) throw std::runtime_error("an attribute of the header has the wrong length");
+}
+
 /// False for the empty header behind the last.
 bool skipHeader(Walker& walker) {
   bool any = false;
   while (!walker.name().empty()) {
     any = true;
-    walker.name();  // of the type
+    const std::string_view type = walker.name();
     const int size = walker.integer();
     if (size < 0) throw std::runtime_error("an attribute of the header has a negative length");
-    walker.take(static_cast<std::uint64_t>(size));
+    checkLength(type, walker.take(static_cast<std::uint64_t>(size)));
   }
   return any;
 }
