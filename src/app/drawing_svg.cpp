@@ -3,6 +3,7 @@
 
 #include "app/drawing.h"
 #include "base/match.h"
+#include "base/names.h"
 #include "image/codec.h"
 
 namespace trace {
@@ -39,12 +40,12 @@ std::string colorOf(const char* name, const Color& c) {
 
 std::string escaped(const std::string& words) {
   std::string text;
-  for (char c : words) {
+  for (char c : onOneLine(words)) {  // XML allows neither control characters nor bytes that are no letters
     if (c == '&')
       text += "&amp;";
     else if (c == '<')
       text += "&lt;";
-    else if (static_cast<unsigned char>(c) >= ' ')  // control characters are not allowed in XML
+    else
       text += c;
   }
   return text;

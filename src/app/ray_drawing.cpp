@@ -82,6 +82,7 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   settings.width = static_cast<int>(width), settings.height = static_cast<int>(height);
   settings.region = {}, settings.spp = 1, settings.timeLimit = 0;
   settings.depth = std::min(settings.depth, 2);
+  settings.passes = {};
   Film film(settings.width, settings.height);
   Job job;
   render(world, settings, film, job);

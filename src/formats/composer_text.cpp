@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/names.h"
 #include "base/text.h"
 #include "formats/composer_file.h"
 #include "formats/tokens.h"
@@ -324,7 +325,7 @@ class TextWriter {
 
   void write(const Object& o) {
     open(o.sphere ? "sphere" : "poly_set");
-    line("name", o.name.empty() ? "NULL" : "\"" + o.name + "\"");
+    line("name", o.name.empty() ? "NULL" : "\"" + onOneLine(onOneLine(o.name, "\"", '\''), "\\", '/') + "\"");
     line("numMaterials", std::to_string(o.materials.size()));
     for (const Material& m : o.materials) {
       open("material");

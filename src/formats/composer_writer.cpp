@@ -111,7 +111,6 @@ class Writer {
     const std::string kind(match(object.shape, [](const auto& shape) { return shape.kKeyword; }));
     cf::Object o;
     o.name = object.name;
-    std::replace(o.name.begin(), o.name.end(), '"', '\'');
     if (std::holds_alternative<Sphere>(object.shape)) {
       o.materials.push_back(material(object.material, o.name));
       o.sphere = sphere(object.worldFromObject);

@@ -15,6 +15,9 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/names.h"
+#include "base/nesting.h"
+#include "base/text.h"
 #include "base/unique.h"
 #include "formats/directions.h"
 #include "formats/gltf_check.h"
@@ -54,10 +57,8 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
   return bytes.substr(20, json);
 }
 
-/// Brackets may be nested this deep: what takes them apart is recursive.
-constexpr int kMostDepth = 100;
-
-void checkDepth(const Place& place, std::string_view json) {
+/// What takes brackets apart is recursive.
+void checkDepth(const Place& place, std::string_view bytes, std::string_view json) {
   int depth = 0;
   bool inString = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
@@ -68,8 +69,10 @@ void checkDepth(const Place& place, std::string_view json) {
     } else if (c == '"') {
       inString = true;
     } else if (c == '{' || c == '[') {
-      if (++depth > kMostDepth)
-        throw Error(Fault::scene, place, "expected at most 100 levels of brackets, found more");
+      if (++depth <= kMostNesting) continue;
+      const bool isText = json.data() == bytes.data();  // lines of a binary file tell a person nothing
+      throw Error(Fault::scene, isText ? placeAt(place.file, json, i) : place,
+                  "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more");
     } else if (c == '}' || c == ']') {
       --depth;
     }
@@ -79,7 +82,7 @@ void checkDepth(const Place& place, std::string_view json) {
 /// Only the first buffer may be the binary chunk, and none may be empty.
 void checkContainer(const Place& place, std::string_view bytes, Messages& messages) {
   const std::string_view text = jsonOf(place, bytes);
-  checkDepth(place, text);
+  checkDepth(place, bytes, text);
   const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw Error(Fault::scene, place, "expected a JSON object");
   checkGltf(json, place, messages);
@@ -347,6 +350,11 @@ class GltfReader {
     if (!isIndex(node.mesh, gltf_.meshes.size())) fail("there is no mesh " + std::to_string(node.mesh));
     const std::string& name =
         node.name.empty() ? gltf_.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
+    if (!invertible(worldFromNode)) {
+      messages_.warn(place_, "the object \"" + onOneLine(name) +
+                                 "\" is left out: its transform makes it flat, or infinitely large or small");
+      return;
+    }
     for (const Object& part : partsOf(node.mesh)) {
       if (!invertible(worldFromNode)) {
         ++flat_;

@@ -18,6 +18,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "base/nesting.h"
 #include "formats/directions.h"
 #include "formats/format.h"
 #include "formats/inventor_binding.h"
@@ -129,9 +130,8 @@ class Reader {
   }
 
   void visit(NodeIn at, State& state) {
-    constexpr int kMostDepth = 600;
     spend(1, *at.node);
-    if (depth_ >= kMostDepth) return warn(*at.node, "nodes that are nested this deep are left out", "depth");
+    if (depth_ >= kMostNesting) return warn(*at.node, "nodes that are nested this deep are left out", "depth");
     ++depth_;
     if (at.node->proto)
       proto(at, state);

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "base/nesting.h"
+
 namespace trace::inventor {
 namespace {
 
@@ -81,7 +83,7 @@ class Parser {
     }
     tokens_.mark('{', "PROTO");
     Node holder;
-    if (++depth_ > Document::kMostDepth) tokens_.fail(name, "expected fewer levels of nodes");
+    if (++depth_ > kMostNesting) tokens_.fail(name, "expected fewer levels of nodes");
     body(holder, name);
     --depth_;
     made->nodes = std::move(holder.children);
@@ -115,9 +117,8 @@ class Parser {
     if (tokens_.skipWord("DEF")) name = tokens_.next().text;
     const Token type = tokens_.word("node");
     if (!tokens_.skipMark('{')) tokens_.expected("node " + std::string(type.text.substr(0, 40)), "\"{\"");
-    if (++depth_ > Document::kMostDepth)
-      tokens_.fail(
-          type, "expected at most " + std::to_string(Document::kMostDepth) + " levels of nodes, found more");
+    if (++depth_ > kMostNesting)
+      tokens_.fail(type, "expected at most " + std::to_string(kMostNesting) + " levels of nodes, found more");
     auto made = std::make_unique<Node>();
     made->type = type.text, made->name = name, made->token = type;
     if (const auto found = protoByName_.find(type.text); found != protoByName_.end())

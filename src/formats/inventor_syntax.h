@@ -48,8 +48,6 @@ struct Proto {
 /// A parsed file; refers to the bytes it was made from.
 class Document {
  public:
-  static constexpr int kMostDepth = 400;
-
   enum class Version { inventor, vrml1, vrml2 };
 
   /// Throws Error(Fault::scene).

@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/match.h"
+#include "base/names.h"
 #include "base/text.h"
 #include "formats/world_meshes.h"
 
@@ -86,18 +88,25 @@ std::uint8_t toByte(double share) {
 
 // --- OBJ ----------------------------------------------------------------------------------------------
 
+/// "#" starts a comment in OBJ, and "\\" at its end joins a line to the next.
+std::string objName(std::string_view name) {
+  std::string clean = onOneLine(name, "#\\");
+  clean.erase(0, std::min(clean.find_first_not_of(' '), clean.size()));
+  clean.erase(clean.find_last_not_of(' ') + 1);
+  return clean;
+}
+
 /// A name without white space for each material that is used, told apart by numbers.
 std::map<std::uint32_t, std::string> materialNames(const Scene& scene, const std::vector<WorldMesh>& meshes) {
   std::map<std::uint32_t, std::string> names;
-  std::map<std::string, int> used;
+  std::set<std::string> used;
   for (const WorldMesh& part : meshes) {
     if (names.count(part.material)) continue;
-    std::string name = scene.materials.at(part.material).name;
-    for (char& c : name)
-      if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    std::string name = onOneLine(objName(scene.materials.at(part.material).name), " ");
     if (name.empty()) name = "material";
-    const int times = ++used[name];
-    names[part.material] = times == 1 ? name : name + "_" + std::to_string(times);
+    std::string fresh = name;
+    for (int times = 2; !used.insert(fresh).second; ++times) fresh = name + "_" + std::to_string(times);
+    names[part.material] = fresh;
   }
   return names;
 }
@@ -203,10 +212,10 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
   ObjWriter materials(options), objects(options);
   for (const auto& [index, name] : names) materials.material(name, phongOf(scene, index));
 
-  objects.line("mtllib", std::filesystem::path(materialFile).filename().string());
+  objects.line("mtllib", onOneLine(std::filesystem::path(materialFile).filename().string()));
   std::size_t colored = 0;
   for (const WorldMesh& part : meshes) {
-    if (!part.name.empty()) objects.line("o", part.name);
+    if (const std::string name = objName(part.name); !name.empty()) objects.line("o", name);
     objects.line("usemtl", names.at(part.material));
     objects.mesh(part.mesh);
     colored += !part.mesh.materials.empty();

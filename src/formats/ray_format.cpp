@@ -18,6 +18,7 @@
 
 #include "base/budget.h"
 #include "base/match.h"
+#include "base/nesting.h"
 #include "base/text.h"
 #include "formats/ray_background.h"
 #include "formats/ray_camera.h"
@@ -262,6 +263,8 @@ class Reader {
 
   /// Materials set in a group hold up to its end.
   void group(const Item& block, const Affine& worldFromObject) {
+    const NestedSolid nested(*this, block, solids_ > 0);
+    if (!nested) return;
     const NotedMaterial outside = materials_.current;
     for (const Item item : block) {
       if (!item.keyed() || item.key() != Phong::kKeyword)
@@ -272,6 +275,30 @@ class Reader {
         materials_.current = materials_.read(item.value(), materials_.current);
     }
     materials_.current = outside;
+  }
+
+  /// One level more of solids in solids, if `counts`. Converts to false, after a report, where it is one too
+  /// many.
+  class NestedSolid {
+   public:
+    NestedSolid(Reader& reader, const Item& item, bool counts) : reader_(reader), counts_(counts) {
+      if (counts_ && ++reader_.solids_ > kMostNestedSolids) reader_.tooDeep(item);
+    }
+    ~NestedSolid() { reader_.solids_ -= counts_; }
+    NestedSolid(const NestedSolid&) = delete;
+    NestedSolid& operator=(const NestedSolid&) = delete;
+    explicit operator bool() const { return reader_.solids_ <= kMostNestedSolids; }
+
+   private:
+    Reader& reader_;
+    const bool counts_;
+  };
+
+  void tooDeep(const Item& item) {
+    findings_.error(item,
+                    "expected at most " + std::to_string(kMostNestedSolids) +
+                        " levels of solids or particles in one another, found more",
+                    "put more solids into one union in place of unions in unions");
   }
 
   void noObject(const Item& item) {
@@ -456,6 +483,8 @@ class Reader {
 
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.
   void particles(const Item& call, const Affine& worldFromObject) {
+    const NestedSolid nested(*this, call, true);
+    if (!nested) return;
     const std::optional<Item> block = blockOf(call);
     if (!block) return;
     Particles system;
@@ -533,6 +562,8 @@ class Reader {
   /// The objects of a block, which may stand in objects = { } as well. They have the material of the whole if
   /// they do not say another.
   Operands operands(const Item& call, const Item& block, const NotedMaterial& material, bool clips) {
+    const NestedSolid nested(*this, call, true);
+    if (!nested) return {};
     const NotedMaterial outside = std::exchange(materials_.current, material);
     std::vector<Operand> operands;
     const auto readAll = [&](const Item& items) {
@@ -688,6 +719,7 @@ class Reader {
   MeshFiles meshFiles_;
   SharedMeshes sharedMeshes_;
   bool hasCamera_ = false;
+  int solids_ = 0;  ///< how many solids or particles what is read is nested in
 };
 
 }  // namespace

@@ -102,7 +102,7 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
 
   Block block{inherited, *std::get_if<Phong>(&inherited.model), false, {}};
   block.material.name.clear();
-  Repeats repeats(findings_, Phong::kKeyword);
+  RepeatedFields repeats(findings_, Phong::kKeyword);
   for (const Item item : value) {
     if (item.keyed()) repeats.note(item);
     field(block, item);

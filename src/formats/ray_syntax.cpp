@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/nesting.h"
 #include "base/text.h"
 
 namespace trace::rayfile {
@@ -164,9 +165,7 @@ class Parser {
 
   void brackets() {
     const std::size_t opened = at_++;
-    if (++depth_ > Syntax::kMostDepth)
-      fail(opened,
-           "expected at most " + std::to_string(Syntax::kMostDepth) + " levels of brackets, found more");
+    if (++depth_ > kMostNesting) failDeep(opened);
     const std::uint32_t node = open(source_[opened] == '(' ? Kind::tuple : Kind::block, opened);
     items(opened, source_[opened] == '(' ? ')' : '}');
     close(node);
@@ -243,6 +242,10 @@ class Parser {
     std::size_t end = source_.size();
     while (end > 0 && isBlank(source_[end - 1])) --end;
     fail(end, "expected " + expected + ", found the end of the file", std::move(hint));
+  }
+  [[noreturn]] void failDeep(std::size_t opened) const {
+    fail(opened, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more",
+         "transforms that follow one another can be one transform( )");
   }
   [[noreturn]] void failUnclosed(std::size_t opened, char closing) const {
     failAtEnd(shown(closing), hintAt(opened) + " is never closed");

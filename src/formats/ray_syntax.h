@@ -43,8 +43,6 @@ class Item;
 /// A parsed file. Refers to the bytes it was made from.
 class Syntax {
  public:
-  /// Items may be nested this deep.
-  static constexpr int kMostDepth = 1000;
   /// A string or identifier may have this many bytes.
   static constexpr std::size_t kLongestWord = 4096;
   /// The call that stands for a value that changes with time (ray_keys.h).

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -19,15 +20,22 @@
 
 namespace trace {
 
-void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes) {
-  // Deflate packs a thousandfold, a byte may hold 8 pixels: beyond this ratio the header lies.
-  constexpr std::int64_t kMostPixelsPerByte = 16384;
-  if (width >= 1 && height >= 1 && width <= kMostPixelsRead && height <= kMostPixelsRead &&
-      width * height <= kMostPixelsRead &&
-      width * height / kMostPixelsPerByte <= static_cast<std::int64_t>(fileBytes))
-    return;
-  throw std::runtime_error("a size of " + std::to_string(width) + "x" + std::to_string(height) +
-                           " pixels is not believable in " + std::to_string(fileBytes) + " bytes");
+void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, double pixelsPerByte,
+                      const PictureLimits& limits) {
+  constexpr double kHarmless = 1 << 22;  // so many pixels may any header claim
+  constexpr double kDecoding = 16;       // bytes a pixel that decoders keep, at most
+  const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
+  const double pixels = static_cast<double>(width) * static_cast<double>(height);
+  const bool believable = pixels <= std::max(kHarmless, pixelsPerByte * static_cast<double>(fileBytes));
+  if (width < 1 || height < 1 || !believable)
+    throw std::runtime_error("a size of " + size + " is not believable in " + std::to_string(fileBytes) +
+                             " bytes");
+  constexpr double kMiB = 1 << 20;
+  const double needed = pixels * (sizeof(Color) + kDecoding);
+  if (needed > static_cast<double>(limits.memory))
+    throw Error(Fault::limit, "a picture of " + size + " needs " + toText(std::ceil(needed / kMiB)) +
+                                  " MiB of memory to be read; allowed are " +
+                                  toText(std::floor(static_cast<double>(limits.memory) / kMiB)));
 }
 
 namespace {
@@ -70,9 +78,9 @@ std::string encodeTga(const Picture& picture, Rounding rounding, const Metadata&
 std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata& metadata) {
   return withJpegComments(encodeJpegByStb(toBytes(picture, rounding)), metadata);
 }
-Picture decodePng(std::string_view bytes) {
+Picture decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);
-  return decodeByStb(bytes);
+  return decodeByStb(bytes, limits);
 }
 Metadata noMetadata(std::string_view) { return {}; }
 
@@ -126,6 +134,8 @@ decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use
       return use(format);
     } catch (const std::bad_alloc&) {
       throw Error(Fault::limit, "cannot read \"" + name + "\": not enough memory for this picture");
+    } catch (const Error& e) {
+      throw Error(e.fault(), "cannot read \"" + name + "\": " + e.messages().front().what);
     } catch (const std::exception& e) {
       throw Error(Fault::io, "cannot read \"" + name + "\" as " + std::string(format.name) + ": " + e.what());
     }
@@ -187,11 +197,13 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
                       [](const PictureFormat& format) -> const PictureFormat& { return format; });
 }
 
-Picture decodePicture(std::string_view bytes, const std::string& name) {
-  return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes); });
+Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes, limits); });
 }
 
-Picture readPicture(const std::string& path) { return decodePicture(readFile(path), path); }
+Picture readPicture(const std::string& path, const PictureLimits& limits) {
+  return decodePicture(readFile(path), path, limits);
+}
 
 Metadata readMetadata(const std::string& path) {
   const std::string bytes = readFile(path);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@
 #include "image/tone.h"
 
 namespace trace {
+
+/// What may be read. Asked of a file's header, before memory is taken for its pixels.
+struct PictureLimits {
+  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, for the picture and what its decoder needs
+};
 
 /// A row of the table. A new format is one more row in codec.cpp.
 struct PictureFormat {
@@ -30,8 +36,9 @@ struct PictureFormat {
   std::string (*encode)(const Picture&, Rounding, const Metadata&);
   /// Whether the bytes begin like a file of this format.
   bool (*recognise)(std::string_view bytes);
-  /// Throws a std::exception whose what() is the reason why the bytes are no sound file.
-  Picture (*decode)(std::string_view bytes);
+  /// Throws a std::exception whose what() is the reason why the bytes are no sound file, Error(Fault::limit)
+  /// if the picture is larger than the limits.
+  Picture (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
 };
@@ -56,11 +63,12 @@ void writePicture(const std::string& path, const Picture& picture, Rounding roun
 const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name);
 
 /// The picture in the bytes; transparency is dropped. `name` is for messages. Throws Error(Fault::io) on
-/// anything that is not a whole, sound file of a known format, Error(Fault::limit) when memory is short.
-Picture decodePicture(std::string_view bytes, const std::string& name);
+/// anything that is not a whole, sound file of a known format, Error(Fault::limit) for a picture larger than
+/// the limits, and when memory is short.
+Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// decodePicture() of a file. Throws Error.
-Picture readPicture(const std::string& path);
+Picture readPicture(const std::string& path, const PictureLimits& limits = {});
 
 /// The words stored with a picture file, in their order; empty where its format has none. Throws Error.
 Metadata readMetadata(const std::string& path);

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "image/codec.h"
 #include "image/codec_parts.h"
+#include "image/exr_chunks.h"
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -21,6 +23,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfTileDescription.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
@@ -84,14 +87,43 @@ Imf::Header headerOf(std::string_view bytes) {
 struct Extent {
   int width, height;
 };
-Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes) {
+Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const PictureLimits& limits) {
   constexpr int kFarthest = 1 << 24;
   for (int corner : {window.min.x, window.min.y, window.max.x, window.max.y})
     if (corner < -kFarthest || corner > kFarthest)
       throw std::runtime_error("a window lies absurdly far away");
   const Extent extent{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
-  checkClaimedSize(extent.width, extent.height, fileBytes);
+  checkClaimedSize(extent.width, extent.height, fileBytes, kPackedPixelsPerByte, limits);
   return extent;
+}
+
+/// Of the part that is read.
+ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
+  ExrLayout layout;
+  const Imath::Box2i& data = header.dataWindow();
+  layout.minX = data.min.x, layout.minY = data.min.y;
+  layout.maxX = data.max.x, layout.maxY = data.max.y;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    layout.channels.push_back(
+        {c.channel().type == Imf::HALF ? 2 : 4, c.channel().xSampling, c.channel().ySampling});
+  if (tiled) {
+    constexpr unsigned kLargestTile = 1 << 16;
+    const Imf::TileDescription& tile = header.tileDescription();
+    if (tile.xSize < 1 || tile.ySize < 1 || tile.xSize > kLargestTile || tile.ySize > kLargestTile)
+      throw std::runtime_error("tiles of 1 to 65536 pixels a side were expected");
+    layout.tileWidth = static_cast<int>(tile.xSize), layout.tileHeight = static_cast<int>(tile.ySize);
+  }
+  using Packing = ExrLayout::Packing;
+  switch (header.compression()) {
+    case Imf::NO_COMPRESSION: layout.packing = Packing::none; break;
+    case Imf::RLE_COMPRESSION: layout.packing = Packing::runs; break;
+    case Imf::ZIPS_COMPRESSION: layout.packing = Packing::deflate; break;
+    case Imf::ZIP_COMPRESSION: layout.packing = Packing::deflate, layout.rows = 16; break;
+    case Imf::PXR24_COMPRESSION: layout.rows = 16; break;
+    case Imf::DWAB_COMPRESSION: layout.rows = 256; break;
+    default: layout.rows = 32; break;
+  }
+  return layout;
 }
 
 }  // namespace
@@ -124,10 +156,14 @@ std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata
   return file;
 }
 
-Picture decodeExr(std::string_view bytes) {
+Picture decodeExr(std::string_view bytes, const PictureLimits& limits) {
+  const ExrHeaders headers = exrHeaders(bytes);
   const Imf::Header header = headerOf(bytes);
   const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
-  const Extent stored = checkedExtent(data, bytes.size()), shown = checkedExtent(display, bytes.size());
+  const Extent stored = checkedExtent(data, bytes.size(), limits);
+  const Extent shown = checkedExtent(display, bytes.size(), limits);
+  const bool tiled = header.hasTileDescription() && (headers.tiled || headers.several);
+  checkExrBlocks(bytes, headers, layoutOf(header, tiled));
 
   MemoryInput stream(bytes);
   Imf::InputFile input(stream, kNoThreads);
@@ -158,6 +194,7 @@ Picture decodeExr(std::string_view bytes) {
 }
 
 Metadata exrMetadata(std::string_view bytes) {
+  exrHeaders(bytes);  // so that no attribute is longer than the file
   const Imf::Header header = headerOf(bytes);
   Metadata metadata;  // in the order of their names: EXR keeps no other
   for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {

@@ -18,28 +18,32 @@ namespace trace {
 /// stb keeps sizes in int and doubles its buffers: 2^29 bytes of levels are the most that is safe.
 inline constexpr std::size_t kMostStbPixels = (std::size_t{1} << 29) / 3;
 
-/// The most pixels read from any file.
-inline constexpr std::int64_t kMostPixelsRead = std::int64_t{1} << 28;
+struct PictureLimits;
 
-/// Throws std::runtime_error for sizes that no sound file of so many bytes can have, before anybody
-/// allocates memory for them.
-void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes);
+/// How many pixels a byte of a file can stand for. Deflate packs a thousandfold; a picture of one colour
+/// comes near that, as PNG and as JPEG.
+inline constexpr double kPackedPixelsPerByte = 1100;
+
+/// To be asked before anybody takes memory for the pixels. Throws std::runtime_error for a size that no sound
+/// file of so many bytes can have, Error(Fault::limit) for one beyond the limits.
+void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, double pixelsPerByte,
+                      const PictureLimits& limits);
 
 std::string encodePngByStb(const Bytes& bytes);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);
 /// PNG, BMP, TGA or JPEG.
-Picture decodeByStb(std::string_view bytes);
+Picture decodeByStb(std::string_view bytes, const PictureLimits& limits);
 
 std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
 /// P2, P3, P5 or P6.
-Picture decodePpm(std::string_view bytes);
+Picture decodePpm(std::string_view bytes, const PictureLimits& limits);
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);
-Picture decodeHdr(std::string_view bytes);
+Picture decodeHdr(std::string_view bytes, const PictureLimits& limits);
 
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
-Picture decodeExr(std::string_view bytes);
+Picture decodeExr(std::string_view bytes, const PictureLimits& limits);
 Metadata exrMetadata(std::string_view bytes);
 
 }  // namespace trace

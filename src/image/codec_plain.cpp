@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "image/codec.h"
 #include "image/codec_parts.h"
 
 namespace trace {
@@ -134,13 +135,14 @@ std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata&
   return file;
 }
 
-Picture decodePpm(std::string_view bytes) {
+Picture decodePpm(std::string_view bytes, const PictureLimits& limits) {
   const bool grey = bytes[1] == '2' || bytes[1] == '5', plain = bytes[1] == '2' || bytes[1] == '3';
   NetpbmReader reader(bytes);
   reader.skip(2);
   const int width = reader.number(), height = reader.number(), most = reader.number();
-  checkClaimedSize(width, height, bytes.size());
   if (most < 1 || most > 65535) throw std::runtime_error("a maximum of 1 to 65535 was expected");
+  const double bytesPerPixel = (plain || most > 255 ? 2 : 1) * (grey ? 1 : 3);
+  checkClaimedSize(width, height, bytes.size(), 1 / bytesPerPixel, limits);
   if (!plain) reader.skip(1);
   const auto next = [&] {
     return (plain ? reader.number() : reader.sample(most > 255 ? 2 : 1)) / double(most);
@@ -165,7 +167,7 @@ std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata
   return file;
 }
 
-Picture decodeHdr(std::string_view bytes) {
+Picture decodeHdr(std::string_view bytes, const PictureLimits& limits) {
   std::string_view rest = bytes;
   for (std::string_view line = takeLine(rest); !line.empty(); line = takeLine(rest))
     if (line.substr(0, 7) == "FORMAT=" && line != "FORMAT=32-bit_rle_rgbe")
@@ -175,7 +177,8 @@ Picture decodeHdr(std::string_view bytes) {
   int width = 0, height = 0;
   if (std::sscanf(size.c_str(), "-Y %9d +X %9d", &height, &width) != 2)
     throw std::runtime_error("a size like \"-Y 300 +X 400\" was expected, found \"" + size + "\"");
-  checkClaimedSize(width, height, bytes.size());
+  constexpr double kPixelsPerByte = 127.0 / 8;  // four runs of 127 values, two bytes each
+  checkClaimedSize(width, height, bytes.size(), kPixelsPerByte, limits);
   Picture picture(width, height);
   RgbeReader reader(rest);
   std::vector<Rgbe> row(static_cast<size_t>(width));

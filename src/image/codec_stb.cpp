@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "image/codec.h"
 #include "image/codec_parts.h"
 
 namespace {
@@ -147,6 +148,13 @@ void checkJpegTables(std::string_view jpeg) {
   }
 }
 
+/// BMP holds 1 bit a pixel or more, TGA runs of 128 pixels.
+double mostPixelsPerByte(std::string_view bytes) {
+  if (bytes.substr(0, 2) == "BM") return 8;
+  const bool packs = bytes.substr(0, 4) == "\x89PNG" || bytes.substr(0, 2) == "\xFF\xD8";
+  return packs ? kPackedPixelsPerByte : 128;
+}
+
 /// Runs one of stb's loaders (8 or 16 bit) and scales its values to colours.
 template <class Value>
 Picture decodeAs(std::string_view bytes, double scale,
@@ -193,7 +201,7 @@ std::string encodeJpegByStb(const Bytes& b) {
   });
 }
 
-Picture decodeByStb(std::string_view bytes) {
+Picture decodeByStb(std::string_view bytes, const PictureLimits& limits) {
   if (bytes.size() > INT_MAX) throw std::runtime_error("files above 2 GiB are not read");
   if (bytes.substr(0, 2) == "\xFF\xD8") checkJpegTables(bytes);
   const auto* start = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -202,7 +210,7 @@ Picture decodeByStb(std::string_view bytes) {
   if (!stbi_info_from_memory(start, size, &width, &height, &channels)) failAsStbSays();
   // The height of a BMP is negative where its rows go from the top down.
   if (height < 0 && height > -INT_MAX) height = -height;
-  checkClaimedSize(width, height, bytes.size());
+  checkClaimedSize(width, height, bytes.size(), mostPixelsPerByte(bytes), limits);
   if (stbi_is_16_bit_from_memory(start, size))
     return decodeAs<stbi_us>(bytes, 65535, stbi_load_16_from_callbacks);
   return decodeAs<stbi_uc>(bytes, 255, stbi_load_from_callbacks);

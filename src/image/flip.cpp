@@ -121,9 +121,13 @@ struct Sensitivity {
   double a, b;
 };
 
-Plane spatiallyFiltered(const Plane& plane, std::initializer_list<Sensitivity> sum, double pixelsPerDegree) {
+int colorRadius(double pixelsPerDegree) {
   constexpr double kWidest = 0.04;  // of all channels' b
-  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
+  return static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
+}
+
+Plane spatiallyFiltered(const Plane& plane, std::initializer_list<Sensitivity> sum, double pixelsPerDegree) {
+  const int radius = colorRadius(pixelsPerDegree);
   Plane result(plane.width, plane.height);
   double all = 0;
   for (const Sensitivity& s : sum) {
@@ -176,11 +180,17 @@ struct Features {
   std::vector<double> edges, points;
 };
 
+/// Of a detector of edges: 0.082 degrees lie between its peak and trough.
+double featureDeviation(double pixelsPerDegree) { return 0.5 * 0.082 * pixelsPerDegree; }
+int featureRadius(double pixelsPerDegree) {
+  return static_cast<int>(std::ceil(3 * featureDeviation(pixelsPerDegree)));
+}
+
 Features features(const Plane& opponentY, double pixelsPerDegree) {
   Plane luminance = opponentY;
   for (double& value : luminance.values) value = (value + 16) / 116;
-  const double deviation = 0.5 * 0.082 * pixelsPerDegree;  // 0.082 degrees from peak to trough
-  const int radius = static_cast<int>(std::ceil(3 * deviation));
+  const double deviation = featureDeviation(pixelsPerDegree);
+  const int radius = featureRadius(pixelsPerDegree);
   const auto gauss = [&](double x) { return std::exp(-x * x / (2 * deviation * deviation)); };
   const Kernel smooth = normalized(kernel(radius, gauss));
   const Kernel first = normalized(kernel(radius, [&](double x) { return -x * gauss(x); }));
@@ -207,13 +217,8 @@ std::array<Plane, 3> opponentPlanes(const Picture& picture) {
   return planes;
 }
 
-}  // namespace
-
-double usualPixelsPerDegree() { return 0.7 * (3840 / 0.7) * (kPi / 180); }
-
-std::vector<double> flipErrors(const Picture& reference, const Picture& test, double pixelsPerDegree) {
-  checkSameSize(reference, test);
-  if (reference.pixels.empty()) return {};
+/// The errors of pictures that fit into memory many times over.
+std::vector<double> errorsOf(const Picture& reference, const Picture& test, double pixelsPerDegree) {
   const auto a = opponentPlanes(reference), b = opponentPlanes(test);
   const std::vector<Vec3> colorsA = seenColors(a, pixelsPerDegree), colorsB = seenColors(b, pixelsPerDegree);
   const Features featuresA = features(a[0], pixelsPerDegree), featuresB = features(b[0], pixelsPerDegree);
@@ -224,6 +229,37 @@ std::vector<double> flipErrors(const Picture& reference, const Picture& test, do
                                     std::abs(featuresA.points[i] - featuresB.points[i]));
     const double exponent = 1 - std::min(1.0, std::sqrt(feature / std::sqrt(2.0)));
     errors.push_back(color > 0 ? std::min(1.0, std::pow(color, exponent)) : 0);
+  }
+  return errors;
+}
+
+/// Rows y0 <= y < y1.
+Picture rowsOf(const Picture& picture, int y0, int y1) {
+  Picture rows(picture.width, y1 - y0);
+  std::copy_n(&picture.at(0, y0), rows.pixels.size(), rows.pixels.begin());
+  return rows;
+}
+
+}  // namespace
+
+double usualPixelsPerDegree() { return 0.7 * (3840 / 0.7) * (kPi / 180); }
+
+std::vector<double> flipErrors(const Picture& reference, const Picture& test, double pixelsPerDegree) {
+  checkSameSize(reference, test);
+  std::vector<double> errors;
+  errors.reserve(reference.pixels.size());
+  // In bands, since a pixel takes 200 bytes while it is worked on. Each has the rows around it that its
+  // filters reach, so that the numbers are those of the whole picture, to the last bit.
+  constexpr int kRows = 256;
+  const int reach = std::max(colorRadius(pixelsPerDegree), featureRadius(pixelsPerDegree));
+  const int height = reference.height;
+  for (int y = 0; y < height && reference.width > 0; y += kRows) {
+    const int end = std::min(y + kRows, height);
+    const int y0 = y - std::min(y, reach), y1 = end + std::min(height - end, reach);
+    const std::vector<double> band =
+        errorsOf(rowsOf(reference, y0, y1), rowsOf(test, y0, y1), pixelsPerDegree);
+    const auto width = static_cast<std::ptrdiff_t>(reference.width);
+    errors.insert(errors.end(), band.begin() + (y - y0) * width, band.begin() + (end - y0) * width);
   }
   return errors;
 }

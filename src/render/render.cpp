@@ -26,7 +26,9 @@ class TileRenderer {
         region_(settings.region),
         film_(film),
         passes_(passesOf(settings)),
-        passSums_(passes_.size()) {}
+        passSums_(passes_.size()) {
+    if (film.layers() != passes_.size()) passes_.clear();
+  }
 
   void render(const Tile& tile) {
     const BudgetScope scope(&budget_);

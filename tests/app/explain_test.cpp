@@ -155,6 +155,22 @@ TEST(Explain, TheDrawingShowsEveryColourOfItsRays) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+// The views of a drawing are small renders of their own, with the settings of the picture.
+TEST(Explain, EveryOptionHasADrawing) {
+  for (const Option& option : options()) {
+    if (option.name == "width" || option.name == "height" || option.name == "time-limit") continue;
+    for (const std::string& value : valuesOf(option)) {
+      SCOPED_TRACE(std::string(option.name) + " = " + value);
+      const std::vector<Choice> choices{{"width", "40", {}}, {std::string(option.name), value, {}}};
+      Session session;
+      session.open(test::sourceFolder() + "/scenes/mesh.ray", choices);
+      session.build();
+      const RayTree tree = session.explain(20, 12, 0).tree;
+      EXPECT_GT(drawRays(session.scene(), session.settings(), session.world(), tree).things.size(), 10u);
+    }
+  }
+}
+
 TEST(Drawing, CoversPixelsByArea) {
   Drawing drawing{9, 9, {DrawnLine{{0, 4.5}, {9, 4.5}, Color(0), 1, false}}};
   const Picture line = toPicture(drawing);
@@ -171,7 +187,7 @@ TEST(Drawing, CoversPixelsByArea) {
 
 TEST(Drawing, SvgEscapesWords) {
   const Drawing drawing{9, 9, {DrawnWords{{0, 0}, "a<b & \"c\"\x01", Color(0)}}};
-  EXPECT_NE(toSvg(drawing).find(">a&lt;b &amp; \"c\"</text>"), std::string::npos);
+  EXPECT_NE(toSvg(drawing).find(">a&lt;b &amp; \"c\"_</text>"), std::string::npos);
 }
 
 }  // namespace

@@ -148,6 +148,15 @@ TEST_F(Explain, FilesGetTheFormatOfTheirName) {
   EXPECT_GT(readPicture(folder / "a.png").width, 1000);
 }
 
+// The scenes of British Columbia ask for the pass depth by themselves.
+TEST_F(Explain, ScenesWithPassesAreDrawnToo) {
+  for (const char* name : {"a.png", "a.svg"}) {
+    out({"explain", kScenes + "cpsc314.ray", "--pixel=200,200", "-o", name});
+    out({"explain", kScenes + "shapes.ray", "--pixel=150,100", "--passes=depth,normal,id", "-o", name});
+  }
+  EXPECT_GT(readPicture(folder / "a.png").width, 1000);
+}
+
 TEST_F(Explain, RefusesWithAReason) {
   const std::string scene = kScenes + "shapes.ray";
   EXPECT_NE(error({"explain", scene}, 2).find("--pixel"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "base/nesting.h"
 #include "ray_helpers.h"
 #include "support/paths.h"
 
@@ -87,7 +88,8 @@ TEST(RayRobustness, SurvivesDeepNesting) {
     EXPECT_FALSE(survives("SBT-raytracer 1.0 " + repeated(opening, 100000))) << opening;
   for (const auto& [opening, closing] : {std::pair{"translate(0,0,0,", ")"}, {"{", "}"}, {"a{", "}"}})
     for (const char* inner : {"sphere{}", "polymesh{points=((0,0,0))}"}) {
-      const int depth = std::string_view(inner).find('(') == std::string_view::npos ? 999 : 997;
+      const int own = std::string_view(inner).find('(') == std::string_view::npos ? 1 : 3;
+      const int depth = kMostNesting - own;
       EXPECT_TRUE(
           survives("SBT-raytracer 1.0 " + repeated(opening, depth) + inner + repeated(closing, depth)))
           << opening;

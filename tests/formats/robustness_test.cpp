@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "base/file.h"
+#include "formats/format.h"
+#include "formats/ray_writer.h"
 #include "mesh_helpers.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace {
@@ -58,6 +61,100 @@ TEST(Robustness, ReadsItsCorpus) {
   }
 }
 
+/// Every sound scene of the corpus, of .ray too.
+std::vector<Scene> scenes() {
+  std::vector<File> files = corpus();
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/ray"))
+    files.push_back({entry.path().string(), "ray", readFile(entry.path().string()),
+                     entry.path().filename() == "damaged.ray"});
+  std::vector<Scene> all;
+  for (const File& file : files) {
+    Messages messages;
+    if (!file.broken) all.push_back(readScene(file.name, file.bytes, messages));
+  }
+  return all;
+}
+
+/// The names of everything are this one.
+Scene named(Scene scene, const std::string& name) {
+  for (Object& object : scene.objects) object.name = name;
+  for (Material& material : scene.materials) material.name = name;
+  return scene;
+}
+
+std::size_t lines(const std::vector<NamedBytes>& files) {
+  std::size_t count = 0;
+  for (const NamedBytes& file : files)
+    count += static_cast<std::size_t>(std::count(file.bytes.begin(), file.bytes.end(), '\n'));
+  return count;
+}
+
+std::size_t triangles(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Object& object : scene.objects)
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) count += mesh->data->triangles.size();
+  return count;
+}
+
+TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.file);
+    Messages messages;
+    const auto files = writeRay(scene, "out.ray", {}, messages);
+    const Scene back = readScene("out.ray", files.at(0).bytes, messages);
+    ASSERT_EQ(back.objects.size(), scene.objects.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+      EXPECT_EQ(back.objects[i].worldFromObject, scene.objects[i].worldFromObject) << i;
+    EXPECT_EQ(triangles(back), triangles(scene));
+  }
+}
+
+// glTF, VRML and PLY names may hold anything; a writer must not let them become lines of its file.
+TEST(Robustness, NoNameBecomesAStatement) {
+  const std::string kNames[] = {"a\nv 9 9 9\nf 1 2 3",
+                                "b\r\nend_header",
+                                "c\"\n}\nsphere {\n name \"d",
+                                "\"; } sphere { } //",
+                                "# comment",
+                                "/* */",
+                                "tail\\",
+                                "\xff\xfe\x80",
+                                "line\xe2\x80\xa8separator",
+                                "\x1b[31mred",
+                                std::string("zero\0byte", 9),
+                                "\n",
+                                "Jos\u00e9 \u4e2d\u6587"};
+  for (const Scene& scene : scenes())
+    for (const SceneFormat& format : sceneFormats()) {
+      if (!format.write) continue;
+      const std::string file = "out" + std::string(format.suffixes[0]);
+      Messages messages;
+      std::vector<NamedBytes> plain;
+      std::size_t objects = 0, faces = 0;
+      try {
+        plain = format.write(named(scene, "plain"), file, {.ascii = true}, messages);
+        const Scene back = readScene(file, plain.at(0).bytes, messages);
+        objects = back.objects.size(), faces = triangles(back);
+      } catch (const Error&) {
+        continue;  // the format cannot hold the scene
+      }
+      for (const std::string& name : kNames) {
+        SCOPED_TRACE(scene.file + " as " + std::string(format.name) + " with the name " + name);
+        const auto files = format.write(named(scene, name), file, {.ascii = true}, messages);
+        // Lists of materials in a .ray file are wrapped by their length.
+        if (format.name != "ray") {
+          EXPECT_EQ(lines(files), lines(plain));
+        }
+        for (const NamedBytes& written : files)
+          for (char c : written.bytes)
+            ASSERT_TRUE(c == '\n' || c == '\t' || (static_cast<unsigned char>(c) >= ' ' && c != '\x7f'));
+        const Scene back = readScene(file, files.at(0).bytes, messages);
+        EXPECT_EQ(back.objects.size(), objects);
+        EXPECT_EQ(triangles(back), faces);
+      }
+    }
+}
+
 TEST(Robustness, SurvivesTruncationAtEveryByte) {
   for (const File& file : corpus())
     for (std::size_t length = 0; length < file.bytes.size(); ++length)
@@ -83,6 +180,24 @@ TEST(Robustness, SurvivesMutation) {
       }
     }
     survives(file.name, bytes);
+  }
+}
+
+// MTL files are read because an OBJ file names them.
+TEST(Robustness, SurvivesDamagedMaterials) {
+  const test::Folder folder;
+  constexpr std::string_view kObject = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  std::mt19937 random(5);
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/mtl")) {
+    const std::string whole = readFile(entry.path().string());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      writeFile(folder / "a.mtl", std::string_view(whole).substr(0, i));
+      survives(folder / "a.obj", kObject);
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(random());
+      writeFile(folder / "a.mtl", damaged);
+      survives(folder / "a.obj", kObject);
+    }
   }
 }
 

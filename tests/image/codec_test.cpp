@@ -3,6 +3,7 @@
 #include "image/codec.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +11,18 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "image/compare.h"
 #include "support/folder.h"
+#include "support/paths.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace trace {
 namespace {
@@ -432,6 +439,165 @@ TEST(CodecErrors, DamagedBytesNeverCrash) {
       }
     }
   }
+}
+
+// --- limits ------------------------------------------------------------------------------------------------
+
+/// The file of a 17 x 5 picture with another size in its header, checksums as they should be.
+std::string claiming(const PictureFormat& format, std::string file, int width, int height) {
+  const auto put = [&](std::size_t at, std::initializer_list<int> bytes) {
+    for (int byte : bytes) file.at(at++) = static_cast<char>(byte);
+  };
+  const auto little = [&](std::size_t at, int n) {
+    put(at, {n & 255, n >> 8 & 255, n >> 16 & 255, n >> 24 & 255});
+  };
+  const auto swap = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = file.find(from);
+    if (at == std::string::npos) throw std::runtime_error("no size in this file");
+    file.replace(at, from.size(), to);
+  };
+  const auto sizes = [](int w, int h) { return std::to_string(w) + " " + std::to_string(h) + "\n"; };
+  if (format.name == "PNG") {
+    file.replace(8, 25,
+                 chunk("IHDR" + big(std::uint32_t(width)) + big(std::uint32_t(height)) + file.substr(24, 5)));
+  } else if (format.name == "BMP") {
+    little(18, width), little(22, height);
+  } else if (format.name == "PPM") {
+    swap(sizes(17, 5), sizes(width, height));
+  } else if (format.name == "JPEG") {
+    const std::size_t at = file.find(text({0xFF, 0xC0}));
+    put(at + 5, {height >> 8 & 255, height & 255, width >> 8 & 255, width & 255});
+  } else if (format.name == "HDR") {
+    swap("-Y 5 +X 17\n", "-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n");
+  } else if (format.name == "EXR") {
+    const std::size_t at = file.find("dataWindow") + std::string("dataWindow.box2i.....").size();
+    little(at + 8, width - 1);
+    little(at + 12, height - 1);
+  } else if (format.name == "TGA") {
+    put(12, {width & 255, width >> 8 & 255, height & 255, height >> 8 & 255});
+  } else {
+    ADD_FAILURE() << "a new format: say where its size stands";
+  }
+  return file;
+}
+
+/// The fault of reading; nothing if it was a picture.
+std::optional<Fault> faultOf(const std::string& file, const PictureLimits& limits = {}) {
+  try {
+    decodePicture(file, "file", limits);
+    return {};
+  } catch (const Error& error) {
+    return error.fault();
+  }
+}
+
+TEST(CodecLimits, EnlargedSizesAreRefused) {
+  constexpr int kSides[][2] = {{170, 50}, {17, 50}, {170, 5}, {1700, 900}, {9000, 9000}, {60000, 60000}};
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string file = encodePicture(format, noisyPicture(17, 5));
+    EXPECT_FALSE(faultOf(claiming(format, file, 17, 5)))
+        << format.name << ": the size is not where it is looked for";
+    for (const auto& [width, height] : kSides) {
+      // Where a JPEG file ends early, its readers agree on grey: only what no file can hold is refused.
+      if (format.name == "JPEG" && width < 9000) continue;
+      EXPECT_TRUE(faultOf(claiming(format, file, width, height)))
+          << format.name << " " << width << " x " << height;
+    }
+  }
+}
+
+TEST(CodecLimits, MemoryIsAskedOfTheHeader) {
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string file = encodePicture(format, noisyPicture(100, 100));
+    EXPECT_EQ(faultOf(file, {.memory = 100 << 10}), Fault::limit) << format.name;
+    EXPECT_EQ(faultOf(file, {.memory = 1 << 20}), std::nullopt) << format.name;
+  }
+}
+
+/// A PNG of one bit a pixel, all black, as small as it gets.
+std::string blackPng(std::uint32_t side) {
+  const std::string rows(std::size_t{side} * (1 + side / 8), '\0');
+  std::string packed(compressBound(rows.size()), '\0');
+  uLongf length = packed.size();
+  compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(rows.data()),
+            rows.size(), 9);
+  return kPngSignature + chunk("IHDR" + big(side) + big(side) + text({1, 0, 0, 0, 0})) +
+         chunk("IDAT" + packed.substr(0, length)) + chunk("IEND");
+}
+
+TEST(CodecLimits, ALittleFileOfAnImmensePictureIsRefused) {
+  const std::string file = blackPng(16384);
+  EXPECT_LT(file.size(), 40'000u);
+  EXPECT_EQ(faultOf(file), Fault::io);
+  EXPECT_EQ(faultOf(blackPng(2048)), std::nullopt);
+}
+
+// A picture of one colour packs best of all.
+TEST(CodecLimits, LargePicturesOfOneColourAreRead) {
+  Picture plain(3000, 2000);
+  std::fill(plain.pixels.begin(), plain.pixels.end(), Color(0.5, 0.25, 1));
+  for (const PictureFormat& format : pictureFormats())
+    EXPECT_EQ(faultOf(encodePicture(format, plain)), std::nullopt) << format.name;
+}
+
+TEST(CodecLimits, AttributesLongerThanTheFileTakeNoMemory) {
+  const PictureFormat& format = formatNamed("EXR");
+  std::string file = encodePicture(format, noisyPicture(17, 5), Rounding::truncate, {{"Key", "words"}});
+  const std::string before = std::string("trace:Key") + '\0' + "string" + '\0';
+  const std::size_t at = file.find(before) + before.size();
+  for (const std::string& length :
+       {text({255, 255, 255, 0x7F}), text({255, 255, 255, 255}), text({0, 0, 0, 0x40})}) {
+    file.replace(at, 4, length);
+    EXPECT_EQ(faultOf(file), Fault::io);
+    EXPECT_THROW(format.metadata(file), std::exception);
+  }
+}
+
+TEST(CodecCorpus, SoundFilesAreReadAndBrokenOnesRefused) {
+  int sound = 0, broken = 0;
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() + "/tests/corpus/pictures")) {
+    const bool isBroken = entry.path().filename().string().starts_with("broken_");
+    const std::string file = readFile(entry.path().string());
+    EXPECT_EQ(faultOf(file).has_value(), isBroken) << entry.path();
+    ++(isBroken ? broken : sound);
+  }
+  EXPECT_GE(sound, static_cast<int>(pictureFormats().size()));
+  EXPECT_GE(broken, static_cast<int>(pictureFormats().size()));
+}
+
+// What a decoder does not write must not be taken for pixels: with other memory underneath, other pixels.
+TEST(CodecErrors, DamagedFilesNeverShowMemory) {
+#if defined(__GLIBC__)
+  std::uint32_t state = 11;
+  const auto random = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
+  const auto read = [](const std::string& file, int fill) {
+    mallopt(M_PERTURB, fill);
+    std::optional<std::vector<double>> values;
+    try {
+      values.emplace();
+      for (const Color& c : decodePicture(file, "damaged").pixels)
+        for (double channel : {c.r, c.g, c.b}) values->push_back(std::isnan(channel) ? -1 : channel);
+    } catch (const Error&) {
+      values.reset();
+    }
+    mallopt(M_PERTURB, 0);
+    return values;
+  };
+  for (const PictureFormat& format : pictureFormats()) {
+    const std::string whole = encodePicture(format, noisyPicture(17, 40));
+    for (int trial = 0; trial < 400; ++trial) {
+      std::string damaged = whole;
+      const std::size_t reach = trial % 2 == 0 ? damaged.size() : std::min<std::size_t>(damaged.size(), 420);
+      for (std::uint32_t changes = 1 + random() % 3; changes > 0; --changes)
+        damaged[random() % reach] = static_cast<char>(random());
+      if (format.name == "EXR" && trial < 60)
+        damaged = claiming(format, whole, 17 + trial % 20, 40 + trial % 3);
+      EXPECT_EQ(read(damaged, 1), read(damaged, 0xA5)) << format.name << " " << trial;
+    }
+  }
+#else
+  GTEST_SKIP() << "memory cannot be filled here";
+#endif
 }
 
 }  // namespace

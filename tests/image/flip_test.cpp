@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/error.h"
@@ -61,6 +62,27 @@ TEST(Flip, OfAPoint) {
   EXPECT_NEAR(errors[15 * 31 + 15], 0.8649064759190234, 1e-9);
   EXPECT_NEAR(errors[20 * 31 + 15], 0.0012604440355614955, 1e-9);
   EXPECT_NEAR(mean(errors), 0.014892378480557987, 1e-9);
+}
+
+// Tall pictures are worked on in bands, which must not show: rows far from the cut do not know of it.
+TEST(Flip, OfAPartIsThatOfTheWholeToTheLastBit) {
+  constexpr int kWidth = 9, kHeight = 700, kCut = 130, kReach = 40;
+  Picture a(kWidth, kHeight), b(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      a.at(x, y) = {(x * 7 + y * 3) % 32 / 31.0, (x * x + 5 * y) % 29 / 28.0, (x + y * y) % 23 / 22.0};
+      b.at(x, y) = {(x * 5 + y * 2) % 32 / 31.0, (x * y) % 29 / 28.0, 0.5};
+    }
+  const auto below = [](const Picture& whole) {
+    Picture part(kWidth, kHeight - kCut);
+    std::copy(whole.pixels.begin() + kCut * kWidth, whole.pixels.end(), part.pixels.begin());
+    return part;
+  };
+  const std::vector<double> whole = flipErrors(a, b), part = flipErrors(below(a), below(b));
+  ASSERT_EQ(whole.size(), std::size_t{kWidth * kHeight});
+  ASSERT_EQ(part.size(), std::size_t{kWidth * (kHeight - kCut)});
+  for (int i = kReach * kWidth; i < kWidth * (kHeight - kCut); ++i)
+    ASSERT_EQ(part[static_cast<std::size_t>(i)], whole[static_cast<std::size_t>(i + kCut * kWidth)]) << i;
 }
 
 TEST(Flip, TakesValuesAsAScreenDoes) {

@@ -61,6 +61,24 @@ TEST(Passes, ChangeNothingInThePicture) {
   EXPECT_EQ(film.picture(), plain);
 }
 
+// Whoever wants the picture alone gives a film of that: a layer that is not there must never be written.
+TEST(Passes, AreMadeOnlyInAFilmThatHasALayerForEach) {
+  const Scene scene = wallOnTheLeft();
+  Settings settings = asking({});
+  const Picture plain = picture(scene, settings);
+  for (const PassRow& row : passRows()) settings.passes.add(row.pass);
+  const World world = build(scene, settings);
+  for (std::size_t count = 0; count < passRows().size(); ++count) {
+    const std::vector<Color> blank(count, Color(0.5));
+    Film film(settings.width, settings.height, blank);
+    Job job;
+    EXPECT_EQ(render(world, settings, film, job).end, End::finished);
+    EXPECT_EQ(film.picture(), plain);
+    ASSERT_EQ(film.layers(), count);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(film.layer(i).at(0, 0), Color(0.5));
+  }
+}
+
 TEST(Passes, SameBitsForAnyNumberOfThreadsAndWithoutHierarchy) {
   Random random(2);
   const Scene scene = randomScene(random, 15);
