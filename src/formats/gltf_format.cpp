@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/names.h"
 #include "base/nesting.h"
 #include "base/text.h"
 #include "base/unique.h"
@@ -129,8 +128,8 @@ struct Files {
   }
 };
 
-tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place,
-                      InputFiles& inputs, Messages& messages) {
+tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place, InputFiles& inputs,
+                      Messages& messages) {
   checkContainer(place, bytes, messages);
   Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
@@ -350,16 +349,12 @@ class GltfReader {
     if (!isIndex(node.mesh, gltf_.meshes.size())) fail("there is no mesh " + std::to_string(node.mesh));
     const std::string& name =
         node.name.empty() ? gltf_.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
+    const std::vector<Object>& parts = partsOf(node.mesh);
     if (!invertible(worldFromNode)) {
-      messages_.warn(place_, "the object \"" + onOneLine(name) +
-                                 "\" is left out: its transform makes it flat, or infinitely large or small");
+      flat_ += parts.size();
       return;
     }
-    for (const Object& part : partsOf(node.mesh)) {
-      if (!invertible(worldFromNode)) {
-        ++flat_;
-        continue;
-      }
+    for (const Object& part : parts) {
       model_.objects.push_back(part);
       model_.objects.back().name = name;
       model_.objects.back().worldFromObject = worldFromNode;
@@ -534,8 +529,9 @@ class GltfReader {
     Material material{from.name, toPhong(m), {}};
     addMap(material, "diffuse", pbr.baseColorTexture.index);
     addMap(material, "emissive", from.emissiveTexture.index);
-    for (int texture : {pbr.metallicRoughnessTexture.index, from.normalTexture.index,
-                        from.occlusionTexture.index})  // of what a material has no field for
+    // A material has no field that these could change.
+    for (int texture :
+         {pbr.metallicRoughnessTexture.index, from.normalTexture.index, from.occlusionTexture.index})
       noteTexture(texture);
     return material;
   }
@@ -573,7 +569,7 @@ class GltfReader {
   Textures textures_;
   std::size_t lines_ = 0;     ///< primitives that are no triangles
   std::size_t leftOver_ = 0;  ///< corners that make no triangle
-  std::size_t flat_ = 0;      ///< objects without volume
+  std::size_t flat_ = 0;      ///< objects that their transform makes flat
 };
 
 }  // namespace
