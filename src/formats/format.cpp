@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/file.h"
 #include "formats/composer_format.h"
 #include "formats/gltf_format.h"
@@ -145,6 +146,13 @@ void forEachQuoted(std::string_view text, Use&& use) {
   }
 }
 
+/// What this thread does, and what inside of it an exception broke off.
+std::string workBrokenOff() {
+  const std::string outer = doingNow();
+  const std::string inner = budgetOfThread.budget ? budgetOfThread.budget->brokenOff() : "";
+  return outer + (outer.empty() || inner.empty() ? "" : ", ") + inner;
+}
+
 /// What read() returns; lack of memory becomes an Error that names the file and its size.
 template <class Read>
 auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) {
@@ -153,9 +161,12 @@ auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) 
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {  // of a vector or string
   }
+  const std::string doing = workBrokenOff();
   throw Error(Fault::limit, Place{.file = file},
-              "not enough memory for what is in this file of " + sizeText(bytes.size()),
-              "a smaller mesh, fewer levels of `subdivide`, or fewer copies need less");
+              "out of memory while " + (doing.empty() ? "reading the scene" : doing) + ", from a file of " +
+                  sizeText(bytes.size()),
+              "--max-memory N allows N MiB; a smaller mesh, fewer levels of `subdivide`, or fewer copies "
+              "need less");
 }
 
 }  // namespace

@@ -670,7 +670,7 @@ TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
   writeFile(file, ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0), (1,1,0)); faces = ((0,1,2), (1,3,2)); "
                       "subdivide = 10; }"));
   EXPECT_EXIT(readWithLittleMemory(file), testing::ExitedWithCode(static_cast<int>(Fault::limit)),
-              "large.ray.*not enough memory");
+              "large.ray: error: out of memory while reading the scene");
 }
 
 }  // namespace
