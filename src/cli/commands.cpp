@@ -45,10 +45,12 @@ int help(const Arguments& arguments, const Console&) {
   return kDone;
 }
 
-std::string whyNothing(const Error& error) {
+/// `understood`: the words of the command line are right.
+std::string whyNothing(const Error& error, bool understood) {
   switch (error.fault()) {
     case Fault::io: return "a file could not be read or written";
-    case Fault::usage: return "the command line is not right; see ray --help";
+    case Fault::usage:
+      return understood ? error.messages().front().what : "the command line is not right; see ray --help";
     case Fault::scene: return "the scene has " + counted(error.messages().size(), "error");
     case Fault::limit: return "a limit of size, memory or time was met";
   }
@@ -74,8 +76,10 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
   Console console;
   std::string why;
   int code = kFailed;
+  bool understood = false;
   try {
     const Arguments arguments = parse(words, command.name);
+    understood = true;
     console = Console(arguments.logLevel, arguments.quiet);
     if (arguments.help) return printResult(page(named ? &command : nullptr, arguments.helpAll)), kDone;
     if (arguments.version) return printResult("Trace " TRACE_VERSION "\n"), kDone;
@@ -83,7 +87,7 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
   } catch (const Error& error) {
     liftMemoryLimit();
     console.error(error);
-    why = whyNothing(error);
+    why = whyNothing(error, understood);
     code = static_cast<int>(error.fault());
   } catch (const ReaderGone&) {
     return kReaderGone;

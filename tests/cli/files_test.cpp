@@ -30,6 +30,7 @@ class FilesTest : public ProgramTest {
     EXPECT_TRUE(contains(r.err, "it is not written over") ||
                 contains(r.err, "what is read is not written over"))
         << r.err;
+    EXPECT_FALSE(contains(r.last, "the command line is not right")) << "a name was refused, no word";
     EXPECT_EQ(bytesOf(file), before) << words[0] << " " << words[1];
   }
 
