@@ -214,6 +214,13 @@ TEST_F(Limits, CountsThatAreKnownAreChecked) {
   const Run extrusion = run({"info", "extrusion.wrl"});
   EXPECT_EQ(extrusion.code, kLimit);
   EXPECT_TRUE(contains(extrusion.err, "an Extrusion of 5000 times 5000 points"));
+  std::string shown;
+  for (int i = 0; i < 100; ++i) shown += "sphere {} ";
+  write("sparks.ray",
+        kBegin + ("particles { rate = 40000; lifetime = 2; lifetime_spread = 0; " + shown + "}"));
+  const Run sparks = run({"info", "sparks.ray", "--time", "2"});
+  EXPECT_EQ(sparks.code, kLimit);
+  EXPECT_TRUE(contains(sparks.err, "of 100 objects are more than"));
 }
 
 }  // namespace
