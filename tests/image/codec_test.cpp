@@ -180,6 +180,14 @@ TEST(CodecKnownAnswer, Bmp) {
   EXPECT_EQ(toBytes(decodePicture(file, "bmp"), Rounding::nearest), kKnown);
 }
 
+TEST(CodecKnownAnswer, BmpWhoseRowsBeginAbove) {
+  constexpr std::size_t kPixels = 54, kRow = 8;
+  std::string file = encodePicture(formatNamed("BMP"), fromBytes(kKnown));
+  file.replace(22, 4, text({254, 255, 255, 255}));  // a height of -2
+  std::swap_ranges(&file[kPixels], &file[kPixels + kRow], &file[kPixels + kRow]);
+  EXPECT_EQ(toBytes(decodePicture(file, "bmp"), Rounding::nearest), kKnown);
+}
+
 TEST(CodecKnownAnswer, Tga) {
   const std::string file =
       text({0, 0, 10, 0,   0,  0,  0, 0, 0, 0, 0, 0, 2, 0, 2, 0, 24, 0,  // run-length colours
