@@ -22,7 +22,7 @@ namespace {
 }  // namespace
 
 std::string readFile(const std::string& path) {
-  constexpr std::size_t kMostUnknown = std::size_t{1} << 30;  // of a pipe, which may have no end
+  constexpr std::size_t kMostUnknown = std::size_t{1} << 30;              // of a pipe, which may have no end
   if (path.find('\0') != path.npos) fail(path, "the name holds a zero");  // and would be another file's
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail(path, "it is a folder");

@@ -97,13 +97,13 @@ int render(const Arguments& arguments, const Console& console) {
   const SavedPicture saved = save(session, files, console);
   if (saved.elsewhere) code = kFailed;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
-    const std::string where = saved.elsewhere        ? " instead of " + output
-                              : saved.path != output ? "; " + keptText(output)
-                                                     : "";
-    console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
-                                    pictureText(session, session.job().fraction()) + ") in " +
-                                    durationText(seconds) + where);
+  if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
+  const std::string where = saved.elsewhere        ? " instead of " + output
+                            : saved.path != output ? "; " + keptText(output)
+                                                   : "";
+  console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
+                                  pictureText(session, session.job().fraction()) + ") in " +
+                                  durationText(seconds) + where);
   return code;
 }
 

@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/text.h"
 #include "base/nesting.h"
+#include "base/text.h"
 #include "formats/directions.h"
 #include "formats/format.h"
 #include "formats/inventor_binding.h"
@@ -131,7 +131,8 @@ class Reader {
 
   void visit(NodeIn at, State& state) {
     spend(1, *at.node);
-    if (depth_ >= kMostNesting) return warn(*at.node, "nodes that are nested this deep are left out", "depth");
+    if (depth_ >= kMostNesting)
+      return warn(*at.node, "nodes that are nested this deep are left out", "depth");
     ++depth_;
     if (at.node->proto)
       proto(at, state);

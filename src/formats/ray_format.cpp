@@ -586,8 +586,8 @@ class Reader {
     object(item, {});
     found.swap(scene_.objects);
     if (Notes* notes = findings_.notes(); notes && !found.empty())
-      notes->operands[whole.offset()].push_back(
-          found.size() > 1 ? Notes::kSeveral : syntax_.offsetOf(found.front().place));
+      notes->operands[whole.offset()].push_back(found.size() > 1 ? Notes::kSeveral
+                                                                 : syntax_.offsetOf(found.front().place));
     std::vector<Operand> parts;
     for (Object& o : found) {
       if (!mayBeOpen && !Placed(o.shape, {}).solid())

@@ -15,8 +15,8 @@ std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, co
 
 namespace rayfile {
 
-/// The value of `material = ` for one of a scene's materials. `whole`: of an operand, which would inherit from
-/// the whole.
+/// The value of `material = ` for one of a scene's materials. `whole`: of an operand, which would inherit
+/// from the whole.
 using MaterialText = std::function<std::string(std::uint32_t material, bool whole)>;
 
 /// Single parts of a scene, as they stand in a file.

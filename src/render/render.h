@@ -38,11 +38,11 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 /// The grid of camera rays of one pixel is n x n, n = ceil(sqrt(spp)).
 int gridSize(const Settings& settings);
 
-/// Renders into `film`, which must be of pictureSize(). Passes are made where the film has a layer for each (makeFilm()
-/// in passes.h); in any other film, such as one without layers, none is. Returns early when job.cancel is set or the time
-/// is over: that of the thread's Budget, or without one the settings' limit from now on. Tiles that were begun are
-/// finished, unless they take longer than the job's patience. What is finished survives a failure too. The same bits for
-/// any number of threads.
+/// Renders into `film`, which must be of pictureSize(). Passes are made where the film has a layer for each
+/// (makeFilm() in passes.h); in any other film, such as one without layers, none is. Returns early when
+/// job.cancel is set or the time is over: that of the thread's Budget, or without one the settings' limit
+/// from now on. Tiles that were begun are finished, unless they take longer than the job's patience. What is
+/// finished survives a failure too. The same bits for any number of threads.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace
