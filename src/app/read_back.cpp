@@ -12,6 +12,7 @@ namespace {
 using rayfile::sameObject;
 using rayfile::sameSettings;
 
+/// Files are named as they are seen from the folder of the scene, which may be another.
 void forgetNames(Shape& shape) {
   match(shape, [](auto& whole) {
     if constexpr (requires { whole.objects.list(); }) {
@@ -22,6 +23,7 @@ void forgetNames(Shape& shape) {
       }
       whole.objects = Operands(std::move(parts));
     }
+    if constexpr (requires { whole.file.grid; }) whole.file.file.clear();
   });
 }
 
@@ -30,7 +32,10 @@ Scene withoutNames(Scene scene) {
     object.name.clear();
     forgetNames(object.shape);
   }
-  for (Material& material : scene.materials) material.name.clear();
+  for (Material& material : scene.materials) {
+    material.name.clear();
+    for (FieldMap& map : material.maps) map.file.clear();
+  }
   return scene;
 }
 

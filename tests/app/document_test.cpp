@@ -8,6 +8,7 @@
 #include "app/folder.h"
 #include "app/preferences.h"
 #include "geometry/csg_tree.h"
+#include "image/codec.h"
 #include "support/paths.h"
 #include "support/scene_files.h"
 
@@ -376,6 +377,17 @@ TEST_F(DocumentTest, OptionsThatSavingWouldWriteCountAsEdits) {
   EXPECT_FALSE(document.edited());
   document.undo();
   EXPECT_TRUE(document.edited());
+}
+
+TEST_F(DocumentTest, HeightsAndMapsDoNotKeepASceneFromAnotherFolder) {
+  fs::create_directories(path("other"));
+  writePicture(path("land.png"), Picture(4, 4));
+  write("land.ray", std::string(kScene) +
+                        "height_field { file = \"land.png\"; }\n"
+                        "sphere { material = { diffuse = map(\"land.png\"); } }\n");
+  Document document;
+  document.open(path("land.ray"));
+  EXPECT_NO_THROW(document.save(path("other/copy.ray")));
 }
 
 // --- small things -------------------------------------------------------------------------------------
