@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/output.h"
+#include "app/read_back.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/format.h"
@@ -27,6 +28,14 @@ std::string placeText(const Place& place) {
 bool keepsText(std::string_view format) {
   return std::any_of(sceneFormats().begin(), sceneFormats().end(),
                      [&](const SceneFormat& row) { return row.name == format && row.rewrite != nullptr; });
+}
+
+/// The choices that a saved scene makes: not those of this machine.
+std::vector<Choice> ofTheScene(const Settings& settings) {
+  std::vector<Choice> choices = changedOptions(settings);
+  std::erase_if(choices,
+                [](const Choice& choice) { return findOption(choice.option).repeats == Repeats::nothing; });
+  return choices;
 }
 
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
@@ -58,7 +67,11 @@ Document::Reading Document::read(const Source& source) {
 }
 
 void Document::take(const Reading& reading, bool anew) {
-  if (anew) moments_.clear();
+  if (anew) {
+    moments_.clear();
+    choicesOnDisk_ =
+        ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices, reading.source.commandLine}));
+  }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene, written_ = reading.written;
   messages_ = reading.messages, fingerprint_ = reading.fingerprint;
@@ -135,7 +148,7 @@ Document::Source Document::source(const Change& change) const {
 bool Document::apply(const Change& change, const Reading& reading) {
   if (reading.source.file != file_ || reading.source.time() != source(change).time()) return false;
   Edition next = with(change);
-  const bool wasEdited = edited();
+  const bool wasEdited = sceneEdited();
   if (change.anew) {
     take(reading, true);
     next.scene = reading.scene, next.text = reading.text;
@@ -185,6 +198,14 @@ void Document::redo() {
   settle();
 }
 
+bool Document::sceneEdited() const {
+  return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_);
+}
+
+bool Document::edited() const {
+  return isOpen() && (sceneEdited() || ofTheScene(settings_) != choicesOnDisk_);
+}
+
 bool Document::changedOnDisk() const {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(file_, error);
@@ -205,11 +226,7 @@ std::vector<Message> Document::save(const std::string& file) {
 }
 
 Document::Saving Document::saving(const std::string& file) const {
-  Saving what{file, sharedScene(), editions_[current_].text, changedOptions(settings_), {}};
-  std::erase_if(what.choices, [](const Choice& choice) {  // of this machine, not of the scene
-    return findOption(choice.option).repeats == Repeats::nothing;
-  });
-  return what;
+  return {file, sharedScene(), editions_[current_].text, ofTheScene(settings_), {}};
 }
 
 Document::Saved Document::write(Saving what) {
@@ -220,16 +237,14 @@ Document::Saved Document::write(Saving what) {
   for (const InputFile& input : scene.inputs.all())
     if (!sameFile(input.path, scene.file)) others.noteNamed(input.path);
   for (const NamedBytes& part : parts) checkIsNoInput(part.file, others);
-  for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
   Saved saved{std::move(what), {}, false, {}};
+  const NamedBytes& own = parts.front();
+  // A picture of the scene has to say what the file is made of. Other formats keep a part of it, and warn.
+  if (keepsText(writableFormatFor(own.file).name))
+    saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
+  for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
   saved.written = timeOf(saved.what.file);
-  saved.changesWithTime = trace::changesWithTime(parts.front().file, parts.front().bytes);
-  try {  // what the file is made of now, which a picture of it has to say
-    Messages again;
-    saved.fingerprint = readScene(saved.what.file, again).inputs.fingerprint();
-  } catch (const Error&) {
-    saved.fingerprint.clear();  // the scene is written all the same
-  }
+  saved.changesWithTime = trace::changesWithTime(own.file, own.bytes);
   return saved;
 }
 
@@ -239,6 +254,7 @@ void Document::noteSaved(const Saved& saved) {
   if (!ours) return;
   file_ = saved.what.file, written_ = saved.written, onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
+  choicesOnDisk_ = saved.what.choices;
   fingerprint_ = saved.fingerprint;
   changesWithTime_ = saved.changesWithTime;
 }

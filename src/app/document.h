@@ -61,10 +61,11 @@ class Document {
   std::string undoName() const { return canUndo() ? editions_[current_].what : ""; }
   std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
 
-  /// The scene differs from the file.
-  bool edited() const { return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_); }
-  /// The fingerprint of what was read; "" if the scene was edited.
-  std::string fileFingerprint() const { return edited() ? "" : fingerprint_; }
+  /// Saving would write something else than what was read or saved last: of the scene, or of the options
+  /// that a scene has, with the command line's over them.
+  bool edited() const;
+  /// The fingerprint of what was read; "" if the scene was edited, whatever was chosen.
+  std::string fileFingerprint() const { return sceneEdited() ? "" : fingerprint_; }
   /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
   bool changedOnDisk() const;
   void noticeDisk();
@@ -75,7 +76,8 @@ class Document {
   bool changesWithTime() const { return changesWithTime_; }
   /// Writes the scene, with the options that differ from the file's, as a .ray file, which is the document's
   /// file from now on: the text that was read, if that was a .ray file, with the edits (formats/ray_patch.h).
-  /// Returns warnings of what was lost. Throws Error; the document then stays.
+  /// Returns warnings of what was lost. Throws Error, also if the file could not be read again as the same
+  /// scene (app/read_back.h); nothing is written then, and the document stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---
@@ -144,6 +146,7 @@ class Document {
   void make(const Change& change);
   void push(Edition edition, bool continues);
   void settle();
+  bool sceneEdited() const;
 
   std::string file_;
   std::filesystem::file_time_type written_{};
@@ -152,6 +155,7 @@ class Document {
   std::size_t current_ = 0;
   std::shared_ptr<const Scene> onDisk_;
   std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
+  std::vector<Choice> choicesOnDisk_;  // that the file makes, and the command line when it was read
   std::string fingerprint_;
   bool changesWithTime_ = false;
   Settings settings_;

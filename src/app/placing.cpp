@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "formats/directions.h"
+
 namespace trace {
 
 Affine turned(const Affine& placed, const Vec3& degrees) {
@@ -20,6 +22,13 @@ Affine stretched(const Affine& placed, const Vec3& factors) {
     return std::isfinite(f) && std::abs(f) <= kMost && std::abs(f) >= 1 / kMost ? f : 1;
   };
   return placed * Affine::scaling({sane(factors.x), sane(factors.y), sane(factors.z)});
+}
+
+bool keepsObject(const Affine& placed) { return isFinite(placed.offset) && invertible(placed); }
+
+bool cameraSees(const Camera& camera) {
+  return camera.fov > 0 && camera.fov < 180 && camera.aspectratio > 0 && isFinite(camera.position) &&
+         canLook(camera.viewdir, camera.updir);
 }
 
 }  // namespace trace

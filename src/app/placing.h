@@ -1,7 +1,8 @@
-// How a person turns and stretches an object, in steps that multiply what is there.
+// How a person turns and stretches an object, in steps that multiply what is there; and what may be typed.
 #pragma once
 
 #include "math/transform.h"
+#include "shading/camera.h"
 
 namespace trace {
 
@@ -11,5 +12,12 @@ Affine turned(const Affine& placed, const Vec3& degrees);
 /// Stretched along the object's own axes. A factor that would leave nothing to see, or to take back, counts
 /// as 1.
 Affine stretched(const Affine& placed, const Vec3& factors);
+
+/// An object that is placed so is still there when the scene is read again: the transform is finite and does
+/// not make it flat.
+bool keepsObject(const Affine& placed);
+
+/// Readers take the camera: its field of view, its aspect ratio and its axes make a picture.
+bool cameraSees(const Camera& camera);
 
 }  // namespace trace

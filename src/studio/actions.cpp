@@ -53,10 +53,15 @@ void savePicture(Studio& studio) {
                      pictureSuffixes(),
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
 }
-void saveScene(Studio& studio) {
+/// With `then`, what waits until the scene is saved; if that fails, it is asked about again.
+void saveSceneAnd(Studio& studio, std::function<void()> then) {
   studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.document.file(), {".ray"},
-                     [&studio](const std::string& file) { studio.workspace.saveScene(file); });
+                     [&studio, then = std::move(then)](const std::string& file) {
+                       studio.workspace.saveScene(file);
+                       if (then) studio.leaving = then;
+                     });
 }
+void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
 void zoomText(Studio& studio, float factor) {
   studio.userScale = std::clamp(studio.userScale * factor, 0.5f, 3.0f);
   studio.themeChanged = true;
@@ -218,7 +223,8 @@ void drawLeaving(Studio& studio) {
     ImGui::CloseCurrentPopup();
     return std::exchange(studio.leaving, nullptr);
   };
-  if (ImGui::Button("Save as...", size)) close(), saveScene(studio);
+  if (ImGui::Button("Save as...", size)) saveSceneAnd(studio, close());
+  landmark("button Save as");
   ImGui::SameLine();
   if (ImGui::Button("Discard it", size)) close()();
   ImGui::SameLine();

@@ -17,7 +17,7 @@ void FileDialog::open(const std::string& title, Purpose purpose, const std::stri
                       std::vector<std::string> suffixes, std::function<void(const std::string&)> chosen) {
   title_ = title, purpose_ = purpose, suffixes_ = std::move(suffixes), chosen_ = std::move(chosen);
   name_ = purpose == Purpose::write ? fs::path(at).filename().string() : "";
-  open_ = appearing_ = true;
+  open_ = appearing_ = focusName_ = true;
   enter(nearestFolder(at));
 }
 
@@ -42,8 +42,8 @@ void FileDialog::choose(const std::string& name) {
   if (purpose_ == Purpose::read && !exists) {
     problem_ = "there is no file \"" + name + "\" here";
   } else if (purpose_ == Purpose::write && exists && !overwrite_) {
-    overwrite_ = true;
-    problem_ = "\"" + name + "\" exists; press the button again to replace it";
+    overwrite_ = focusName_ = true;
+    problem_ = "\"" + name + "\" exists; press the button or Enter again to replace it";
   } else {
     open_ = false;
     ImGui::CloseCurrentPopup();
@@ -101,8 +101,8 @@ void FileDialog::draw(bool escape) {
   ImGui::PopStyleColor();
 
   ImGui::SetNextItemWidth(-1);
-  if (appearing_) ImGui::SetKeyboardFocusHere();
-  appearing_ = false;
+  if (focusName_) ImGui::SetKeyboardFocusHere();
+  appearing_ = focusName_ = false;
   bool done = ImGui::InputTextWithHint("##name", "file name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) overwrite_ = false;
   done |= ImGui::Button(purpose_ == Purpose::read ? "Open"

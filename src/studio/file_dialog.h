@@ -25,6 +25,7 @@ class FileDialog {
   void drawEntries();
 
   bool open_ = false, appearing_ = false, overwrite_ = false;
+  bool focusName_ = false;  ///< in the next frame: Enter in the name presses the button
   Purpose purpose_ = Purpose::read;
   std::string title_, folder_, name_, problem_;
   std::vector<std::string> suffixes_;

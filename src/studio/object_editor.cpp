@@ -27,7 +27,14 @@ bool editThree(const char* name, const char* help, Vec3& value, const NumberLook
 }
 
 /// Moves, turns and scales; what is dragged or typed multiplies what is there. The twelve numbers are below.
-void editTransform(Affine& m, const std::string& name, const Changed& changed) {
+/// What would make the object flat goes back.
+void editTransform(Studio& studio, Affine& m, const std::string& name, const Changed& keep) {
+  const Affine before = m;
+  const auto changed = [&](const std::string& what) {
+    if (keepsObject(m)) return keep(what);
+    m = before;
+    studio.refuse(what + " was not taken: its matrix would make the object flat, or not finite");
+  };
   const double size = std::max({length(m.row[0]), length(m.row[1]), length(m.row[2]), 1e-9});
   if (editThree("move", "where the object's origin lies in what it belongs to", m.offset,
                 {-kAny, kAny, "%.4g", static_cast<float>(size / 50)}))
@@ -155,7 +162,7 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
     }
   });
   if (!beginFields("place")) return;
-  editTransform(placed.transform, name, changed);
+  editTransform(studio, placed.transform, name, changed);
   endFields();
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/edits.h"
+#include "app/placing.h"
 #include "base/match.h"
 #include "studio/field_editor.h"
 #include "studio/object_editor.h"
@@ -203,6 +204,11 @@ void editOnly(Studio& studio, Thing Scene::*member) {
   Thing thing = before;
   editFields(thing, [&](std::string_view key) {
     followEdit(thing, before, key);
+    if constexpr (std::is_same_v<Thing, Camera>)
+      if (!cameraSees(thing)) {
+        thing = before;
+        return studio.refuse("camera: " + std::string(key) + " was not taken: the camera would see nothing");
+      }
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();

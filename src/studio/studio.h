@@ -68,7 +68,12 @@ struct Studio {
     else
       then();
   }
-  std::function<void()> leaving;  ///< waits for an answer
+  std::function<void()> leaving;  ///< waits for an answer, or for a scene that is being saved
+  /// Says in the log why a value that was typed or dragged went back; once while it is dragged on.
+  void refuse(const std::string& why) {
+    const auto& log = workspace.log();
+    if (log.empty() || log.back().text != why) workspace.note(why);
+  }
   void show(const std::string& panel) { layout.ask = panel; }
 };
 

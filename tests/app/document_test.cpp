@@ -8,6 +8,8 @@
 #include "app/folder.h"
 #include "app/preferences.h"
 #include "geometry/csg_tree.h"
+#include "image/codec.h"
+#include "support/paths.h"
 #include "support/scene_files.h"
 
 namespace trace::test {
@@ -104,7 +106,8 @@ TEST_F(DocumentTest, ReadingAgainIsAStepThatKeepsChoicesAndCanBeUndone) {
   EXPECT_FALSE(document.changedOnDisk());
   EXPECT_EQ(document.scene().objects[0].name, "moon");
   EXPECT_EQ(document.settings().width, 60);
-  EXPECT_FALSE(document.edited());
+  EXPECT_NE(document.fileFingerprint(), "") << "the scene is that of the file";
+  EXPECT_TRUE(document.edited()) << "the width is in no file";
   document.undo();
   EXPECT_EQ(document.scene().objects[0].name, "ball");
   EXPECT_TRUE(document.edited());
@@ -174,7 +177,7 @@ TEST_F(DocumentTest, TheOptionTimeReadsTheSceneOfThatMoment) {
   EXPECT_EQ(x(), 0);
   document.choose("time", "1");
   EXPECT_EQ(x(), 0.5);
-  EXPECT_FALSE(document.edited());
+  EXPECT_NE(document.fileFingerprint(), "") << "the scene is that of the file";
   document.choose("time", "2", true);
   EXPECT_EQ(x(), 1);
   document.undo();
@@ -275,6 +278,116 @@ TEST_F(DocumentTest, SavingInAnotherFolderStillFindsTheFilesThatAreNamed) {
   Document again;
   again.open(path("other/deep/copy.ray"));
   EXPECT_EQ(again.scene().objects.at(1).shape, document.scene().objects.at(1).shape);
+}
+
+/// Tries to save what cannot be read again. Returns what the refusal says.
+std::string refusal(Document& document, const std::string& file) {
+  const std::string before = readFile(file), saved = document.file();
+  const auto time = fs::last_write_time(file);
+  std::string said;
+  try {
+    document.save(file);
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(readFile(file), before);
+  EXPECT_EQ(fs::last_write_time(file), time);
+  EXPECT_EQ(document.file(), saved);
+  EXPECT_TRUE(document.edited());
+  return said;
+}
+
+TEST_F(DocumentTest, WhatCouldNotBeReadAgainIsNotSaved) {
+  const auto camera = [&](const std::string& what, auto&& change, const std::string& expected) {
+    write("own.ray", std::string("// a comment\n") + kScene);
+    Document document;
+    document.open(path("own.ray"));
+    Scene scene = document.scene();
+    change(scene.camera);
+    document.edit(what, scene);
+    const std::string said = refusal(document, path("own.ray"));
+    EXPECT_NE(said.find(expected), said.npos) << what << ": " << said;
+    EXPECT_NE(said.find("undo, or correct"), said.npos) << what << ": " << said;
+    document.undo();
+    EXPECT_TRUE(document.save(path("own.ray")).empty());
+  };
+  camera(
+      "fov", [](Camera& c) { c.fov = 180; }, "found 180");
+  camera(
+      "fov", [](Camera& c) { c.fov = 0; }, "found 0");
+  camera(
+      "updir", [](Camera& c) { c.updir = {}; }, "updir");
+  camera(
+      "viewdir", [](Camera& c) { c.viewdir = c.updir; }, "updir");
+  camera(
+      "aspectratio", [](Camera& c) { c.aspectratio = 0; }, "aspectratio");
+}
+
+TEST_F(DocumentTest, WhatWouldBeReadAsFewerObjectsIsNotSaved) {
+  write("own.ray", std::string("// a comment\n") + kScene + "box { name = \"chest\"; }\n");
+  Document document;
+  document.open(path("own.ray"));
+  Scene scene = document.scene();
+  scene.objects[1].worldFromObject.row[0] = {};
+  document.edit("transform chest", scene);
+  const std::string said = refusal(document, path("own.ray"));
+  EXPECT_NE(said.find("chest"), said.npos) << said;
+  EXPECT_NE(said.find("undo, or correct"), said.npos) << said;
+}
+
+/// Whatever can be opened can be saved as .ray, edited or not.
+TEST_F(DocumentTest, EverySoundSceneIsSaved) {
+  for (const char* folder : {"/scenes", "/tests/corpus"})
+    for (const auto& entry : fs::recursive_directory_iterator(test::sourceFolder() + folder)) {
+      if (!entry.is_regular_file()) continue;
+      Document document;
+      try {
+        document.open(entry.path().string());
+      } catch (const Error&) {
+        continue;  // no scene, or a broken one
+      }
+      SCOPED_TRACE(entry.path().string());
+      EXPECT_NO_THROW(document.save(path("copy.ray")));
+      Document again;
+      again.open(path("copy.ray"));
+      EXPECT_EQ(again.scene().objects.size(), document.scene().objects.size());
+      if (again.scene().objects.empty()) continue;
+      again.edit("name", renamed(again.scene(), "a \"name\" // with signs"));
+      EXPECT_NO_THROW(again.save(path("copy.ray")));
+    }
+}
+
+TEST_F(DocumentTest, OptionsThatSavingWouldWriteCountAsEdits) {
+  Document document;
+  document.open(path("scene.ray"), {{"width", "50", {}}});
+  EXPECT_FALSE(document.edited()) << "the command line is no edit";
+  document.choose("threads", "2");
+  EXPECT_FALSE(document.edited()) << "saving leaves the machine's own out";
+  document.choose("spp", "4");
+  EXPECT_TRUE(document.edited());
+  EXPECT_NE(document.fileFingerprint(), "");
+  document.undo();
+  EXPECT_FALSE(document.edited());
+  document.choose("depth", "9");
+  EXPECT_TRUE(document.edited());
+  document.choose("depth", "3");
+  EXPECT_FALSE(document.edited()) << "so says the file";
+  document.choose("depth", "7");
+  document.save(path("scene.ray"));
+  EXPECT_FALSE(document.edited());
+  document.undo();
+  EXPECT_TRUE(document.edited());
+}
+
+TEST_F(DocumentTest, HeightsAndMapsDoNotKeepASceneFromAnotherFolder) {
+  fs::create_directories(path("other"));
+  writePicture(path("land.png"), Picture(4, 4));
+  write("land.ray", std::string(kScene) +
+                        "height_field { file = \"land.png\"; }\n"
+                        "sphere { material = { diffuse = map(\"land.png\"); } }\n");
+  Document document;
+  document.open(path("land.ray"));
+  EXPECT_NO_THROW(document.save(path("other/copy.ray")));
 }
 
 // --- small things -------------------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "shading/camera.h"
+
 namespace trace::test {
 namespace {
 
@@ -29,6 +31,37 @@ TEST(Placing, KeepsTheObjectWhateverIsTyped) {
   const Real infinite = std::numeric_limits<Real>::infinity(), none = std::numeric_limits<Real>::quiet_NaN();
   for (const Real factor : {0.0, infinite, -infinite, none, 1e300, 1e-300})
     EXPECT_EQ(stretched(kPlaced, {factor, 1, 1}), kPlaced) << factor;
+}
+
+TEST(Placing, TakesNoMatrixThatLosesTheObject) {
+  const Real infinite = std::numeric_limits<Real>::infinity(), none = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_TRUE(keepsObject(Affine::scaling({1, 2, 3})));
+  for (const Real x : {0.0, infinite, -infinite, none}) {
+    Affine typed = kPlaced;
+    typed.row[0].x = x;
+    EXPECT_FALSE(keepsObject(typed)) << x;
+  }
+  Affine flat = kPlaced;
+  flat.row[1] = flat.row[0];
+  EXPECT_FALSE(keepsObject(flat));
+  Affine gone = kPlaced;
+  gone.offset.x = infinite;
+  EXPECT_FALSE(keepsObject(gone));
+}
+
+TEST(Placing, TakesNoCameraThatSeesNothing) {
+  const auto sees = [](auto&& change) {
+    Camera camera;
+    change(camera);
+    return cameraSees(camera);
+  };
+  EXPECT_TRUE(sees([](Camera&) {}));
+  EXPECT_TRUE(sees([](Camera& c) { c.fov = 0.001; }));
+  EXPECT_FALSE(sees([](Camera& c) { c.fov = 0; }));
+  EXPECT_FALSE(sees([](Camera& c) { c.fov = 180; }));
+  EXPECT_FALSE(sees([](Camera& c) { c.aspectratio = 0; }));
+  EXPECT_FALSE(sees([](Camera& c) { c.updir = {}; }));
+  EXPECT_FALSE(sees([](Camera& c) { c.viewdir = c.updir; }));
 }
 
 }  // namespace

@@ -32,6 +32,13 @@ step                                       # 9: Esc closed it
 step                                       # 10: options are looked for
 step 'set width 200' wait rays             # 11: the pixel keeps its place
 step 'open other.ray' wait rays            # 12: pinned rays went
+step 'set spp 3' 'drop scene.ray'          # 13: an option that a scene keeps was changed: it is asked
+step                                       # 14: Save as... was clicked
+step                                       # 15: Enter: the file exists
+step                                       # 16: Enter replaces it, and the scene that was dropped is opened
+step 'panel Scene' 'select camera 0'       # 17: a field of view was typed that sees nothing
+step 'select object 0'                     # 18: and a matrix that makes the ball flat
+step                                       # 19: it was typed
 "$studio" scene.ray --script script >log 2>&1 &
 program=$!
 
@@ -50,7 +57,7 @@ line() { grep -- "^$1 " "$now" | cut -d' ' -f"$(($(wc -w <<<"$1") + 1))-" || tru
 is() { [[ "$(line "$1")" == "$2" ]] || fail "step $now: $1 is \"$(line "$1")\", expected \"$2\": $3"; }
 goTo() {
   local at
-  at="$(grep -- "^at [0-9-]* [0-9-]* $*\$" "$now" | cut -d' ' -f2,3)"
+  at="$(grep -- "^at [0-9-]* [0-9-]* $*\$" "$now" | cut -d' ' -f2,3 || true)"
   [[ -n "$at" ]] || fail "step $now: the window does not show \"$*\""
   # shellcheck disable=SC2086
   xdotool mousemove $at
@@ -111,6 +118,43 @@ is traced '101 101' "its rays are shown"
 next
 is pinned no "another scene was opened"
 is pixel '' "another scene was opened"
+next
+
+# Another scene is opened after what was changed is saved, with Enter alone in the dialog.
+is edited yes "spp was chosen"
+is file other.ray "it is asked first"
+is popup open "it is asked"
+goTo button Save as
+xdotool click 1
+next
+is popup open "the dialog asks where"
+xdotool key Return
+next
+is popup open "the file exists"
+! grep -q spp other.ray || fail "the file was replaced unasked"
+xdotool key Return
+sleep 1
+next
+grep -q 'spp = 3' other.ray || fail "a second Enter does not replace the file"
+is file scene.ray "what was interrupted goes on once the scene is saved"
+is popup none "nothing is asked any more"
+next
+
+# What would lose the camera or the object goes back, and the log says so.
+goTo field fov number 0
+doubleClickAndType 180
+xdotool key Return
+logged="$(line log)"
+next
+is edited no "a field of view of 180 degrees is not taken"
+(($(line log) > logged)) || fail "the log does not say that a field of view was not taken"
+goTo field matrix x number 0
+doubleClickAndType 0
+xdotool key Return
+logged="$(line log)"
+next
+is edited no "a matrix that makes the ball flat is not taken"
+(($(line log) > logged)) || fail "the log does not say that a matrix was not taken"
 touch "go-$now"
 wait $program || fail "the script failed"
 program=''
