@@ -6,6 +6,13 @@
 
 #include "base/budget.h"
 #include "base/match.h"
+#include "geometry/cone.h"
+#include "geometry/cube.h"
+#include "geometry/disk.h"
+#include "geometry/mesh.h"
+#include "geometry/plane.h"
+#include "geometry/square.h"
+#include "geometry/traced.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -29,13 +36,8 @@ class Faces {
   explicit Faces(const Scene& scene) {
     for (const Object& object : scene.objects) {
       if (!invertible(object.worldFromObject)) continue;
-      match(object.shape,
-            Overloaded{[&](const Mesh& mesh) { all_.extend(object.worldFromObject * bounds(*mesh.data)); },
-                       [&](const Plane&) {},
-                       [&](const auto& shape) {
-                         if constexpr (requires { shape.bounds(); })
-                           all_.extend(object.worldFromObject * shape.bounds());
-                       }});
+      const Box3 box = prepare(object.shape).bounds();
+      if (!box.unbounded()) all_.extend(object.worldFromObject * box);
     }
     all_.extend(scene.camera.position);
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
@@ -77,41 +79,41 @@ class Faces {
       }
       face(std::move(corners), sheet, kExact);
     };
-    match(object.shape,
-          Overloaded{[&](const Square&) {
-                       square({}, {0.5, 0, 0}, {0, 0.5, 0}, true);
-                     },
-                     [&](const Cube&) {
-                       for (int axis = 0; axis < 3; ++axis)
-                         for (const Real side : {-0.5, 0.5}) {
-                           Vec3 middle, x, y;
-                           middle[axis] = side, x[(axis + 1) % 3] = 0.5, y[(axis + 2) % 3] = side;
-                           square(middle, x, y, false);
-                         }
-                     },
-                     [&](const Plane&) {
-                       const Vec3 m = inverse(object.worldFromObject) * middle();
-                       const Box3 box = inverse(object.worldFromObject) * all_;
-                       const Real far = 2 * length(box.size());
-                       square({m.x, m.y, 0}, {far, 0, 0}, {0, far, 0}, false);
-                     },
-                     [&](const Disk& disk) {
-                       if (disk.innerRadius == 0) round(0, disk.radius, true, true);
-                     },
-                     [&](const Cylinder& c) {
-                       if (c.capped) round(0, 1, false, false), round(1, 1, true, false);
-                     },
-                     [&](const Cone& c) {
-                       if (c.capped)
-                         round(0, c.bottomRadius, false, false), round(c.height, c.topRadius, true, false);
-                     },
-                     [&](const Mesh& mesh) {
-                       for (std::uint32_t i = 0; i < mesh.data->triangles.size(); ++i) {
-                         const Corners c = corners(*mesh.data, i);
-                         face({c.a, c.b, c.c}, mesh.data->twoSided, kFloat);
-                       }
-                     },
-                     [](const auto&) {}});
+    visitAs<Square, Cube, Plane, Disk, Cylinder, Cone, Mesh>(
+        object.shape, Overloaded{[&](const Square&) {
+                                   square({}, {0.5, 0, 0}, {0, 0.5, 0}, true);
+                                 },
+                                 [&](const Cube&) {
+                                   for (int axis = 0; axis < 3; ++axis)
+                                     for (const Real side : {-0.5, 0.5}) {
+                                       Vec3 middle, x, y;
+                                       middle[axis] = side, x[(axis + 1) % 3] = 0.5, y[(axis + 2) % 3] = side;
+                                       square(middle, x, y, false);
+                                     }
+                                 },
+                                 [&](const Plane&) {
+                                   const Vec3 m = inverse(object.worldFromObject) * middle();
+                                   const Box3 box = inverse(object.worldFromObject) * all_;
+                                   const Real far = 2 * length(box.size());
+                                   square({m.x, m.y, 0}, {far, 0, 0}, {0, far, 0}, false);
+                                 },
+                                 [&](const Disk& disk) {
+                                   if (disk.innerRadius == 0) round(0, disk.radius, true, true);
+                                 },
+                                 [&](const Cylinder& c) {
+                                   if (c.capped) round(0, 1, false, false), round(1, 1, true, false);
+                                 },
+                                 [&](const Cone& c) {
+                                   if (c.capped)
+                                     round(0, c.bottomRadius, false, false),
+                                         round(c.height, c.topRadius, true, false);
+                                 },
+                                 [&](const Mesh& mesh) {
+                                   for (std::uint32_t i = 0; i < mesh.data->triangles.size(); ++i) {
+                                     const Corners c = corners(*mesh.data, i);
+                                     face({c.a, c.b, c.c}, mesh.data->twoSided, kFloat);
+                                   }
+                                 }});
   }
 
   Box3 all_;

@@ -10,7 +10,10 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ray_format.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {
@@ -60,7 +63,7 @@ template <class Visit>
 void forEachMesh(const LintScene& s, Visit&& visit) {
   std::set<const MeshData*> seen;
   for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i)
-    if (const auto* mesh = std::get_if<Mesh>(&s.scene.objects[i].shape))
+    if (const auto* mesh = s.scene.objects[i].shape.as<Mesh>())
       if (seen.insert(mesh->data.get()).second) visit(i, *mesh->data);
 }
 
@@ -164,18 +167,11 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
 // --- materials ----------------------------------------------------------------------------------------
 
 void addMaterials(const Shape& shape, std::set<std::uint32_t>& used) {
-  match(shape, Overloaded{[&](const Mesh& mesh) {
-                            used.insert(mesh.data->materials.begin(), mesh.data->materials.end());
-                          },
-                          [&](const auto& s) {
-                            if constexpr (requires { s.materials.indices; })
-                              used.insert(s.materials.indices.begin(), s.materials.indices.end());
-                            if constexpr (requires { s.objects.list(); })
-                              for (const Operand& operand : s.objects.list()) {
-                                used.insert(operand.material);
-                                addMaterials(operand.shape, used);
-                              }
-                          }});
+  used.insert(materialsOf(shape).begin(), materialsOf(shape).end());
+  for (const Operand& operand : shape.operands().list()) {
+    used.insert(operand.material);
+    addMaterials(operand.shape, used);
+  }
 }
 
 /// Some readers keep the materials that the file names and leave to nothing in the scene, others beside it.
@@ -238,19 +234,13 @@ bool isBare(const Material& material) {
 
 /// Whether the shape, or a part of it, would be of that material and it is bare.
 bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
-  return match(shape, [&](const auto& form) {
-    if constexpr (requires { form.objects.list(); }) {
-      std::span<const Operand> parts = form.objects.list();
-      if constexpr (std::is_same_v<decltype(form), const Clip&>) parts = parts.first(1);  // others only cut
-      return std::any_of(parts.begin(), parts.end(),
-                         [&](const Operand& part) { return isBare(s, part.shape, part.material); });
-    }
-    if constexpr (requires { form.materials.indices; })
-      if (!form.materials.indices.empty()) return false;
-    if constexpr (requires { form.data->materials; })
-      if (!form.data->materials.empty()) return false;
-    return isBare(s.scene.materials[material]);
-  });
+  if (shape.type().ofObjects) {
+    std::span<const Operand> parts = shape.operands().list();
+    if (shape.is<Clip>() && !parts.empty()) parts = parts.first(1);  // others only cut
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Operand& part) { return isBare(s, part.shape, part.material); });
+  }
+  return materialsOf(shape).empty() && isBare(s.scene.materials[material]);
 }
 
 void noMaterial(const LintScene& s, Findings& findings) {

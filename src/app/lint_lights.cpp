@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "app/lint_checks.h"
+#include "base/match.h"
 #include "base/text.h"
 #include "geometry/csg_tree.h"
+#include "geometry/traced.h"
 #include "math/box.h"
 
 namespace trace::lint_checks {
@@ -37,17 +39,8 @@ Blockers::const_iterator mostIn(const Blockers& blockers) {
                           [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
-/// A box around the object in the world; where its own is dear to find, one around all objects.
-Box3 boxAround(const LintScene& s, const Object& object) {
-  return match(object.shape,
-               Overloaded{[&](const Mesh& mesh) { return object.worldFromObject * bounds(*mesh.data); },
-                          [&](const auto& shape) {
-                            if constexpr (requires { shape.bounds(); })
-                              return object.worldFromObject * shape.bounds();
-                            else
-                              return s.world.bounds();
-                          }});
-}
+/// A box around the object in the world.
+Box3 boxAround(const Object& object) { return object.worldFromObject * prepare(object.shape).bounds(); }
 
 /// Some side of the picture, or the plane of the eye, has the whole box beyond it.
 bool isOutside(const CameraFrame& camera, const Box3& box) {
@@ -207,7 +200,7 @@ void cameraLooksAway(const LintScene& s, Findings& findings) {
   }
   Box3 all;
   for (const Object& object : s.scene.objects) {
-    const Box3 box = boxAround(s, object);
+    const Box3 box = boxAround(object);
     if (box.empty() || box.unbounded()) continue;  // what has no end is met if it is in sight
     if (!isOutside(camera, box)) return;           // it may be small
     all.extend(box);

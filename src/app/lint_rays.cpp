@@ -5,6 +5,8 @@
 #include <cstdlib>
 
 #include "base/budget.h"
+#include "base/match.h"
+#include "geometry/mesh.h"
 #include "image/tone.h"
 #include "render/pixel.h"
 

@@ -127,8 +127,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     row("Hit", "");
     row("object", objectName(scene, hit.object));
     if (object.place.line > 0) row("defined at", shortPlace(object.place));
-    row("shape, part", std::string(match(object.shape, [](const auto& s) { return s.kKeyword; })) + ", " +
-                           std::to_string(hit.part));
+    row("shape, part", std::string(object.shape.keyword()) + ", " + std::to_string(hit.part));
     row("material", materialNames(scene, node.materials));
     row("distance", text(hit.t));
     row("point", text(hit.surface.point));

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "base/match.h"
 #include "formats/ray_same.h"
 #include "geometry/csg_tree.h"
+#include "geometry/height_field.h"
 
 namespace trace {
 namespace {
@@ -14,17 +14,16 @@ using rayfile::sameSettings;
 
 /// Files are named as they are seen from the folder of the scene, which may be another.
 void forgetNames(Shape& shape) {
-  match(shape, [](auto& whole) {
-    if constexpr (requires { whole.objects.list(); }) {
-      std::vector<Operand> parts = whole.objects.list();
-      for (Operand& part : parts) {
-        part.name.clear();
-        forgetNames(part.shape);
-      }
-      whole.objects = Operands(std::move(parts));
+  if (shape.type().ofObjects) {
+    std::vector<Operand> parts = shape.operands().list();
+    for (Operand& part : parts) {
+      part.name.clear();
+      forgetNames(part.shape);
     }
-    if constexpr (requires { whole.file.grid; }) whole.file.file.clear();
-  });
+    shape.setOperands(Operands(std::move(parts)));
+  }
+  if (const auto* field = shape.as<HeightField>(); field && field->file.grid)
+    shape.edit<HeightField>()->file.file.clear();
 }
 
 Scene withoutNames(Scene scene) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/match.h"
+#include "geometry/mesh.h"
 #include "geometry/tessellate.h"
 
 namespace trace {
@@ -44,7 +45,7 @@ Box3 frameOf(const Scene& scene) {
 
 SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& within,
                                               std::vector<Made>& kept) const {
-  const bool lasts = !drawnBounds(shape, kEverywhere).unbounded() && !std::holds_alternative<Mesh>(shape);
+  const bool lasts = !drawnBounds(shape, kEverywhere).unbounded() && !shape.is<Mesh>();
   if (lasts) {
     const auto in = [&](const std::vector<Made>& list) {
       const auto found =

@@ -9,11 +9,14 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/match.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/scene_facts.h"
 #include "cli/terminal.h"
 #include "formats/format.h"
+#include "formats/ray_format.h"
 #include "formats/revolve.h"
+#include "geometry/mesh.h"
 
 namespace trace::cli {
 namespace {
@@ -32,11 +35,11 @@ void setMaterial(Scene& scene, const Material& material) {
   scene.materials = {material};
   for (Object& object : scene.objects) {
     object.material = 0;
-    auto* mesh = std::get_if<Mesh>(&object.shape);
+    const auto* mesh = object.shape.as<Mesh>();
     if (!mesh || mesh->data->materials.empty()) continue;
     MeshData plain = *mesh->data;
     plain.materials.clear();
-    mesh->data = std::make_shared<const MeshData>(std::move(plain));
+    object.shape = Mesh{std::make_shared<const MeshData>(std::move(plain))};
   }
 }
 
@@ -77,6 +80,13 @@ int convert(const Arguments& arguments, const Console& console) {
   Messages messages;
   Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
                                    : readScene(in, bytes, messages);
+  if (!conversion.revolve && changesWithTime(in, bytes)) {
+    const Real time = resolve({scene.choices}).time;  // the file chooses the moment
+    messages = {};
+    scene = readScene(in, bytes, messages, time);
+    messages.warn(Place{.file = in}, "what changes with time is written as it is at " + toText(time) + " s",
+                  "settings { time = ...; } in the scene chooses another moment");
+  }
   reading.reset();
   change(scene, conversion, console);
   const std::vector<NamedBytes> files =
@@ -85,9 +95,10 @@ int convert(const Arguments& arguments, const Console& console) {
   console.warnings(messages.all());
 
   std::string names;
-  for (const NamedBytes& file : files) {
+  for (const NamedBytes& file : files) {  // all of them before any is written
     checkDistinct(in, file.file);
     checkIsNoInput(file.file, scene.inputs);
+    checkWritable(file.file);
   }
   for (const NamedBytes& file : files) {
     writeFile(file.file, file.bytes);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/match.h"
+#include "geometry/materials.h"
+
 namespace trace::cli {
 namespace {
 
@@ -76,7 +79,7 @@ class Writer {
                         {"weight", share.weight}});
     return {{"index", index},
             {"name", o.name},
-            {"shape", match(o.shape, [](const auto& s) { return s.kKeyword; })},
+            {"shape", o.shape.keyword()},
             {"place", toJson(o.place)},
             {"material", shares[static_cast<std::size_t>(most - materials.begin())]["name"]},
             {"materials", shares}};

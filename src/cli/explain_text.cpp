@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/console.h"
+#include "geometry/mesh.h"
 
 namespace trace::cli {
 namespace {
@@ -89,12 +90,12 @@ class TreeText {
 
   void hit(const Hit& hit, const std::vector<MaterialShare>& materials) {
     const Object& object = scene_.objects[hit.object];
-    const std::string shape = match(object.shape, [](const auto& s) { return std::string(s.kKeyword); });
+    const std::string shape(object.shape.keyword());
     std::string what = "hits ";
     if (!object.name.empty()) what += "\"" + object.name + "\", ";
     what += shape;
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
-    const bool mesh = std::holds_alternative<Mesh>(object.shape);
+    const bool mesh = object.shape.is<Mesh>();
     line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
                    materialNames(scene_, materials) + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;

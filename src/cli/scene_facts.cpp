@@ -3,22 +3,10 @@
 #include <algorithm>
 
 #include "base/match.h"
+#include "geometry/mesh.h"
 
 namespace trace::cli {
 namespace {
-
-template <class Variant, class Items, class Get>
-Counts countKinds(const Items& items, Get&& get) {
-  Counts counts;
-  size_t kind = 0;
-  forEachType<Variant>([&]<class T>(T*) {
-    size_t n = 0;
-    for (const auto& item : items) n += get(item).index() == kind;
-    if (n > 0) counts.emplace_back(T::kKeyword, n);
-    ++kind;
-  });
-  return counts;
-}
 
 /// Who gave the option its value, by the rules of settingsFor().
 std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
@@ -47,18 +35,31 @@ std::string chooser(const Option& option, const Scene& scene, std::span<const Ch
 }  // namespace
 
 Counts countShapes(const Scene& scene) {
-  return countKinds<Shape>(scene.objects, [](const Object& object) -> const Shape& { return object.shape; });
+  Counts counts;
+  for (const ShapeType& type : shapeTypes()) {
+    std::size_t n = 0;
+    for (const Object& object : scene.objects) n += &object.shape.type() == &type;
+    if (n > 0) counts.emplace_back(type.keyword, n);
+  }
+  return counts;
 }
 
 Counts countLights(const Scene& scene) {
-  return countKinds<Light>(scene.lights,
-                           [](const LightSource& source) -> const Light& { return source.light; });
+  Counts counts;
+  std::size_t kind = 0;
+  forEachType<Light>([&]<class T>(T*) {
+    std::size_t n = 0;
+    for (const LightSource& source : scene.lights) n += source.light.index() == kind;
+    if (n > 0) counts.emplace_back(T::kKeyword, n);
+    ++kind;
+  });
+  return counts;
 }
 
 std::size_t countTriangles(const Scene& scene) {
   std::size_t n = 0;
   for (const Object& object : scene.objects)
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) n += mesh->data->triangles.size();
+    if (const auto* mesh = object.shape.as<Mesh>()) n += mesh->data->triangles.size();
   return n;
 }
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string_view>
 
-#include "base/match.h"
 #include "base/parallel.h"
 
 namespace trace::cli {
@@ -25,11 +24,8 @@ std::string_view nameOf(End end) {
 /// Calls visit(keyword, tests, hits) for each shape of the list.
 template <class Visit>
 void forEachShape(const Statistics& statistics, Visit&& visit) {
-  size_t i = 0;
-  forEachType<Shape>([&]<class S>(S*) {
-    visit(S::kKeyword, statistics.tests[i], statistics.hits[i]);
-    ++i;
-  });
+  for (const ShapeType& type : shapeTypes())
+    visit(type.keyword, statistics.tests[type.index], statistics.hits[type.index]);
 }
 
 std::optional<double> raysPerSecond(const Run& run) {

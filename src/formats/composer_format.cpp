@@ -18,7 +18,9 @@
 #include "formats/model.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
+#include "geometry/sphere.h"
 
 namespace trace {
 namespace {

@@ -7,6 +7,8 @@
 #include "base/text.h"
 #include "formats/composer_file.h"
 #include "formats/composer_format.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
 #include "geometry/tessellation.h"
 #include "scene/options.h"
 
@@ -108,13 +110,13 @@ class Writer {
 
   void add(const Object& object) {
     if (!invertible(object.worldFromObject)) return;
-    const std::string kind(match(object.shape, [](const auto& shape) { return shape.kKeyword; }));
+    const std::string kind(object.shape.keyword());
     cf::Object o;
     o.name = object.name;
-    if (std::holds_alternative<Sphere>(object.shape)) {
+    if (object.shape.is<Sphere>()) {
       o.materials.push_back(material(object.material, o.name));
       o.sphere = sphere(object.worldFromObject);
-    } else if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
+    } else if (const auto* mesh = object.shape.as<Mesh>()) {
       add(o, mesh->data->generateNormals ? withGeneratedNormals(*mesh->data, true) : *mesh->data, object);
     } else if (const auto surface = tessellated(object.shape)) {
       warn("shapes other than spheres and meshes become triangles");

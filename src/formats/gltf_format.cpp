@@ -22,6 +22,7 @@
 #include "formats/gltf_check.h"
 #include "formats/gltf_material.h"
 #include "formats/textures.h"
+#include "geometry/mesh.h"
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_EXTERNAL_IMAGE

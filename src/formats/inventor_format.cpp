@@ -28,6 +28,10 @@
 #include "formats/inventor_transform.h"
 #include "formats/model.h"
 #include "formats/textures.h"
+#include "geometry/cone.h"
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
 
 namespace trace {
 namespace inventor {

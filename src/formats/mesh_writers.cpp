@@ -15,6 +15,7 @@
 #include "base/names.h"
 #include "base/text.h"
 #include "formats/world_meshes.h"
+#include "geometry/mesh.h"
 
 namespace trace {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/match.h"
 #include "geometry/csg_tree.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 #include "geometry/traced.h"
 
@@ -81,11 +82,11 @@ std::vector<Object> placed(const Model& model, const Material& base,
     auto& number = numbers[none ? model.materials.size() : own];
     if (!number) number = index(none ? base : model.materials[own]);
     object.material = *number;
-    auto* mesh = std::get_if<Mesh>(&object.shape);
+    const auto* mesh = object.shape.as<Mesh>();
     if (!mesh || mesh->data->materials.empty()) continue;
     const auto [found, fresh] = colored.try_emplace({mesh->data.get(), own});
     if (fresh) found->second = withMaterials(*mesh->data, model, none ? base : model.materials[own], index);
-    *mesh = found->second;
+    object.shape = found->second;
   }
   return objects;
 }
@@ -119,10 +120,7 @@ Material plainMaterial() {
 Box3 bounds(const Scene& scene) {
   Box3 box;
   for (const Object& object : scene.objects)
-    box.extend(object.worldFromObject *
-               match(object.shape,
-                     Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
-                                [](const auto& shape) { return Box3(formOf(prepare(shape)).bounds()); }}));
+    box.extend(object.worldFromObject * prepare(object.shape).bounds());
   return box;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh.h"
 #include "math/box.h"
 #include "scene/scene.h"
 

@@ -21,6 +21,7 @@
 #include "formats/obj_words.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/unique.h"
 #include "formats/words.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {

@@ -10,6 +10,7 @@
 #include "base/unique.h"
 #include "formats/ply_syntax.h"
 #include "formats/textures.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace {

@@ -1,7 +1,12 @@
 #include "formats/ray_edits.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+
+#include "base/match.h"
+#include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
 
 namespace trace::rayfile {
 namespace {
@@ -226,6 +231,29 @@ std::string TextEdits::broken(std::string_view text) const {
       result += c;
   }
   return result;
+}
+
+void sayField(TextEdits& edits, const Item& block, std::string_view keyword, const std::string& text) {
+  const std::optional<Item> field = fieldOf(block, keyword);
+  if (field && text.empty())
+    edits.erase(*field);
+  else if (field)
+    edits.change(field->value(), text);
+  else if (!text.empty())
+    edits.addField(block, std::string(keyword) + " = " + text);
+}
+
+void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to) {
+  const std::vector<AnyField> was = fieldsOf(from), is = fieldsOf(to);
+  for (std::size_t i = 0; i < is.size(); ++i)
+    match(is[i].value, [&]<class Value>(const Value& value) {
+      const Value& before = *std::get_if<Value>(&was[i].value);
+      if constexpr (std::is_same_v<Value, EnumValue>) {
+        if (before.index() != value.index()) changeField(edits, block, is[i].keyword, value);
+      } else if constexpr (!std::is_same_v<Value, Operands*> && !std::is_same_v<Value, MaterialList*>) {
+        if (*before != *value) changeField(edits, block, is[i].keyword, *value);
+      }
+    });
 }
 
 }  // namespace trace::rayfile

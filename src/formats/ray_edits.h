@@ -72,27 +72,24 @@ class TextEdits {
   std::vector<std::size_t> lostKeys_;
 };
 
+/// Makes the field of the block say the text, or adds it; erases it where the text is empty.
+void sayField(TextEdits& edits, const Item& block, std::string_view keyword, const std::string& text);
+template <class Value>
+void changeField(TextEdits& edits, const Item& block, std::string_view keyword, const Value& value) {
+  if constexpr (std::is_same_v<Value, Real>)
+    if (value == kNoLimit) return sayField(edits, block, keyword, {});  // what there is without it
+  sayField(edits, block, keyword, written(value, 0));
+}
+
 /// Changes the fields of a block in which two structs differ. Objects and materials are changed elsewhere.
 template <class Struct>
 void changeFields(TextEdits& edits, const Item& block, const Struct& from, const Struct& to) {
   forEachField<Struct>([&](const auto& f) {
     const auto& value = to.*f.member;
-    if constexpr (
-        !requires { value.list(); } && !requires { value.indices; }) {
-      if (from.*f.member == value) return;
-      const std::optional<Item> field = fieldOf(block, f.keyword);
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
-        if (value == kNoLimit) {  // which is what there is without the field
-          if (field) edits.erase(*field);
-          return;
-        }
-      const std::string text = written(value, 0);
-      if (field)
-        edits.change(field->value(), text);
-      else
-        edits.addField(block, std::string(f.keyword) + " = " + text);
-    }
+    if (from.*f.member != value) changeField(edits, block, f.keyword, value);
   });
 }
+/// The same of shapes of one type.
+void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to);
 
 }  // namespace trace::rayfile

@@ -66,6 +66,44 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
   return true;
 }
 
+bool read(Findings& findings, std::string_view name, const Item& value, EnumValue& to) {
+  const auto all = to.names();
+  std::string list;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (value.is(Kind::word) && value.text() == all[i]) {
+      to.set(i);
+      return true;
+    }
+    list += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
+  }
+  findings.expected(value, name, list, value.is(Kind::word) ? didYouMean(value.text(), all) : "");
+  return false;
+}
+
+bool assignField(Findings& findings, Shape& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  bool found = false;
+  editEachField(target, [&](const AnyField& f, auto& value) {
+    if (f.keyword != key) return;
+    found = true;
+    read(findings, f.keyword, field.value(), value);
+  });
+  return found;
+}
+
+void checkRange(Findings& findings, const Shape& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  forEachField(target, [&](const AnyField& f, const auto& value) {
+    if (f.keyword == key) checkRange(findings, target.keyword(), f, value, field);
+  });
+}
+
+std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more) {
+  std::vector<std::string_view> words(more);
+  for (const AnyField& field : fieldsOf(shape)) words.push_back(field.keyword);
+  return words;
+}
+
 std::string written(Real value, int digits) {
   if (!std::isfinite(value))
     throw Error(Fault::scene, "a number that is not finite cannot be written to a .ray file");

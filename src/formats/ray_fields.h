@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
+#include "geometry/field_value.h"
 #include "geometry/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
@@ -38,9 +39,10 @@ std::string written(const Vec3& value, int digits);
 std::string written(const Color& value, int digits);
 std::string written(const std::string& value, int digits);
 std::string written(const Heights& value, int digits);
+inline std::string written(const EnumValue& value, int) { return std::string(value.name()); }
 template <class Enum>
-requires std::is_enum_v<Enum> std::string written(Enum value, int) {
-  return std::string(names(Enum{})[static_cast<std::size_t>(value)]);
+requires std::is_enum_v<Enum> std::string written(Enum value, int digits) {
+  return written(EnumValue(value), digits);
 }
 template <class Sequence>
 std::string writtenList(const Sequence& values, int digits);
@@ -59,18 +61,13 @@ std::string writtenList(const Sequence& values, int digits) {
   return text.empty() ? "()" : text + ")";
 }
 
-/// One of an enum's names, which names(Enum) lists.
+/// One of the names of an enum.
+bool read(Findings& findings, std::string_view name, const Item& value, EnumValue& to);
 template <class Enum>
 requires std::is_enum_v<Enum>
 bool read(Findings& findings, std::string_view name, const Item& value, Enum& to) {
-  const auto all = names(Enum{});
-  std::string list;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (value.is(Kind::word) && value.text() == all[i]) return to = static_cast<Enum>(i), true;
-    list += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
-  }
-  return findings.expected(value, name, list, value.is(Kind::word) ? didYouMean(value.text(), all) : ""),
-         false;
+  EnumValue any(to);
+  return read(findings, name, value, any);
 }
 
 /// What an element of a list looks like.
@@ -112,6 +109,10 @@ bool numbers(const Item& tuple, Real* to, int count);
 /// The keyword that `word` is a synonym of, or `word`.
 std::string_view canonical(std::string_view word);
 
+/// Objects are read as objects, materials as materials.
+inline bool read(Findings&, std::string_view, const Item&, Operands&) { return true; }
+inline bool read(Findings&, std::string_view, const Item&, MaterialList&) { return true; }
+
 /// Reads `field`'s value into the member of that keyword. False if Struct has no such field.
 template <class Struct>
 bool assignField(Findings& findings, Struct& target, const Item& field) {
@@ -120,38 +121,46 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   forEachField<Struct>([&](const auto& f) {
     if (f.keyword != key) return;
     found = true;
-    // Objects are read as objects, materials as materials.
-    if constexpr (
-        !requires { (target.*f.member).list(); } && !requires { (target.*f.member).indices; })
-      read(findings, f.keyword, field.value(), target.*f.member);
+    read(findings, f.keyword, field.value(), target.*f.member);
   });
   return found;
 }
+bool assignField(Findings& findings, Shape& target, const Item& field);
 
 /// Warns, as for a person, that a number is outside its range.
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
                  double value, const Item& at);
 
+/// Warns if a number of the value is outside the range of the field `f`.
+template <class Field, class Value>
+void checkRange(Findings& findings, std::string_view owner, const Field& f, const Value& value,
+                const Item& at) {
+  const auto check = [&](Real number) {
+    if (number < f.least || number > f.most)
+      warnOfRange(findings, owner, f.keyword, f.least, f.most, number, at);
+  };
+  if constexpr (requires { value.x; }) {
+    check(value.x);
+    check(value.y);
+    check(value.z);
+  } else if constexpr (requires { value.r; }) {
+    check(value.r);
+    check(value.g);
+    check(value.b);
+  } else if constexpr (std::is_same_v<Value, Real> || std::is_same_v<Value, int>) {
+    check(value);
+  }
+}
+
 /// Warns if the field of that keyword is outside its range; the value stays.
 template <class Struct>
 void checkRange(Findings& findings, const Struct& target, const Item& field) {
   const std::string_view key = canonical(field.key());
-  const auto check = [&](const auto& f, Real number) {
-    if (number < f.least || number > f.most)
-      warnOfRange(findings, Struct::kKeyword, f.keyword, f.least, f.most, number, field);
-  };
   forEachField<Struct>([&](const auto& f) {
-    if (f.keyword != key) return;
-    const auto& value = target.*f.member;
-    if constexpr (requires { value.x; })
-      check(f, value.x), check(f, value.y), check(f, value.z);
-    else if constexpr (requires { value.r; })
-      check(f, value.r), check(f, value.g), check(f, value.b);
-    else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real> ||
-                       std::is_same_v<std::remove_cvref_t<decltype(value)>, int>)
-      check(f, value);
+    if (f.keyword == key) checkRange(findings, Struct::kKeyword, f, target.*f.member, field);
   });
 }
+void checkRange(Findings& findings, const Shape& target, const Item& field);
 
 /// The keywords of Struct's fields, and more.
 template <class Struct>
@@ -160,5 +169,6 @@ std::vector<std::string_view> keywords(std::initializer_list<std::string_view> m
   forEachField<Struct>([&](const auto& f) { words.push_back(f.keyword); });
   return words;
 }
+std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more = {});
 
 }  // namespace trace::rayfile

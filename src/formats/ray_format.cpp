@@ -31,7 +31,16 @@
 #include "formats/ray_notes.h"
 #include "formats/ray_shape_checks.h"
 #include "formats/ray_syntax.h"
+#include "geometry/blend.h"
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
+#include "geometry/julia.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
+#include "geometry/traced.h"
 #include "scene/options.h"
 #include "scene/particles.h"
 
@@ -83,7 +92,7 @@ std::vector<std::string_view> knownWords() {
   std::vector<std::string_view> words{
       "trimesh",          "mesh", Camera::kKeyword, Phong::kKeyword, Background::kKeyword, kSettings,
       Particles::kKeyword};
-  addKeywords<Shape>(words);
+  for (const ShapeType& type : shapeTypes()) words.push_back(type.keyword);
   addKeywords<Light>(words);
   for (const TransformForm& transform : kTransforms) words.push_back(transform.name);
   return words;
@@ -132,11 +141,7 @@ std::string transformed(const Affine& m, std::string_view text) {
 
 // --- shapes that need more than their fields ------------------------------------------------------------
 
-/// Makes a shape with its transform one that can be traced. Returns why it cannot be, or "".
-template <class S>
-std::string_view repair(S&, Affine&) {
-  return {};
-}
+// Each makes a shape with its transform one that can be traced. Returns why it cannot be, or "".
 
 /// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of
 /// less than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h:
@@ -156,9 +161,15 @@ std::string_view repair(Cone& cone, Affine& worldFromObject) {
   return {};
 }
 
-std::string_view repair(Conic& conic, Affine&) {
+std::string_view repair(const Conic& conic) {
   if (conic.zMin == conic.zMax) return "a conic of height 0 is left out";
   if (conic.bottomRadius == 0 && conic.topRadius == 0) return "a conic of radius 0 is left out";
+  return {};
+}
+
+std::string_view repair(Shape& shape, Affine& worldFromObject) {
+  if (auto* cone = shape.edit<Cone>()) return repair(*cone, worldFromObject);
+  if (const auto* conic = shape.as<Conic>()) return repair(*conic);
   return {};
 }
 
@@ -257,7 +268,9 @@ class Reader {
     }
     if (item.is(Kind::block)) return group(item, worldFromObject);
     if (!item.is(Kind::call)) return noObject(item);
-    if (!withKeyword<Shape>(canonical(item.key()), [&]<class S>(S*) { shape<S>(item, worldFromObject); }))
+    if (const ShapeType* type = findShapeType(canonical(item.key())))
+      shape(*type, item, worldFromObject);
+    else
       otherNode(item, worldFromObject);
   }
 
@@ -387,18 +400,16 @@ class Reader {
     return m;
   }
 
-  template <class S>
-  void shape(const Item& call, Affine worldFromObject) {
+  void shape(const ShapeType& type, const Item& call, const Affine& worldFromObject) {
     // Solids of solids are also written as union(a, b).
-    const bool list = requires { S{}.objects; }
-    &&call.value().is(Kind::tuple);
+    const bool list = type.ofObjects && call.value().is(Kind::tuple);
     const std::optional<Item> block = list ? call.value() : blockOf(call);
     if (!block) return;
     if (Notes* notes = findings_.notes()) notes->inForce.try_emplace(call.offset(), materials_.current);
-    if constexpr (std::is_same_v<S, Mesh>)
+    if (type.keyword == Mesh::kKeyword)
       mesh(call, *block, worldFromObject);
     else
-      analyticShape<S>(call, *block, worldFromObject);
+      analyticShape(Shape(type), call, *block, worldFromObject);
   }
 
   void mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
@@ -412,16 +423,15 @@ class Reader {
     if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
   }
 
-  template <class S>
-  void analyticShape(const Item& call, const Item& block, Affine worldFromObject) {
-    S shape;
+  /// Precondition: the shape has the defaults of its type.
+  void analyticShape(Shape shape, const Item& call, const Item& block, Affine worldFromObject) {
     std::string name;
     NotedMaterial material = materials_.current;
     const std::size_t errors = findings_.errors();
-    constexpr bool kOfObjects = requires { shape.objects; };
-    RepeatedFields repeats(findings_, S::kKeyword);
+    const bool ofObjects = shape.type().ofObjects;
+    RepeatedFields repeats(findings_, shape.keyword());
     for (const Item item : block) {
-      if (kOfObjects && (isObject(item) || isListOfObjects(item))) continue;
+      if (ofObjects && (isObject(item) || isListOfObjects(item))) continue;
       if (!isField(item, call.key())) continue;
       repeats.note(item);
       if (item.key() == Phong::kKeyword) {
@@ -430,52 +440,44 @@ class Reader {
         rayfile::read(findings_, "name", item.value(), name);
       } else if (readMaterials(shape, item, material)) {
       } else if (!assignField(findings_, shape, item)) {
-        findings_.unknownField(S::kKeyword, item, keywords<S>({"material", "name"}));
+        findings_.unknownField(shape.keyword(), item, keywords(shape, {"material", "name"}));
       }
     }
-    if constexpr (kOfObjects) shape.objects = operands(call, block, material, std::is_same_v<S, Clip>);
-    if constexpr (requires { shape.prepared(); })
-      if (findings_.errors() != errors) return;  // what is wrong is said
+    if (ofObjects) shape.setOperands(operands(call, block, material, shape.is<Clip>()));
+    if (findings_.errors() != errors) return;  // what is wrong is said
     const Tell tell = [&](std::string what, std::string hint) {
       findings_.warn(call, std::move(what), std::move(hint));
     };
     try {
       const std::string_view reason = repair(shape, worldFromObject);
       if (!reason.empty()) return findings_.warn(call, std::string(reason));
-      const auto form = prepare(shape);
-      if (!isEmpty(shape)) checkShape(shape, form, tell);
+      const TracedShape form = prepare(shape);
+      const bool isEmpty = ofObjects && shape.operands().list().empty();  // which is said
+      if (!isEmpty) checkShape(shape, form, tell);
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
       return findings_.error(call, error.messages().front().what, error.messages().front().hint);
     }
     for (const Item item : block)
       if (item.keyed()) checkRange(findings_, shape, item);
-    if constexpr (requires { shape.excess(); })
-      if (const std::string excess = shape.excess(); !excess.empty()) findings_.warn(call, excess);
+    if (const auto* julia = shape.as<Julia>())
+      if (const std::string excess = julia->excess(); !excess.empty()) findings_.warn(call, excess);
     add(call, std::move(name), shape, worldFromObject, material);
   }
 
-  /// Solids made of no objects, of which that is said.
-  template <class S>
-  static bool isEmpty(const S& shape) {
-    if constexpr (requires { shape.objects.list(); })
-      return shape.objects.list().empty();
-    else
-      return false;
-  }
-
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.
-  template <class S>
-  bool readMaterials(S& shape, const Item& item, const NotedMaterial& own) {
-    if constexpr (requires { shape.materials.indices; }) {
-      if (item.key() != "materials") return false;
+  bool readMaterials(Shape& shape, const Item& item, const NotedMaterial& own) {
+    if (item.key() != "materials") return false;
+    for (const AnyField& field : shape.editFields()) {
+      const auto* materials = std::get_if<MaterialList*>(&field.value);
+      if (!materials) continue;
       std::vector<std::uint32_t> list;
       if (!item.value().is(Kind::tuple))
         findings_.expected(item.value(), "materials",
                            "a list of materials, as in (gold, { diffuse = (1, 0, 0); })");
       else
         for (const Item one : item.value()) list.push_back(materials_.index(materials_.read(one, own)));
-      shape.materials.indices = std::move(list);
+      (*materials)->indices = std::move(list);
       return true;
     }
     return false;
@@ -553,7 +555,7 @@ class Reader {
   /// Not a field of the block it stands in.
   bool isObject(const Item& item) {
     if (item.is(Kind::block) || findTransform(item)) return true;
-    return item.is(Kind::call) && withKeyword<Shape>(canonical(item.key()), [](auto*) {});
+    return item.is(Kind::call) && findShapeType(canonical(item.key()));
   }
   static bool isListOfObjects(const Item& item) {
     return item.is(Kind::entry) && item.key() == "objects" && item.value().is(Kind::block);

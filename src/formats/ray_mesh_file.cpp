@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "formats/format.h"
 #include "formats/ray_fields.h"
+#include "geometry/mesh.h"
 
 namespace trace::rayfile {
 namespace {
@@ -101,7 +102,7 @@ void MeshFiles::change(std::vector<Object>& objects, bool generate, const MeshOp
                        const Place& place) {
   std::map<const MeshData*, Mesh> changed;
   for (Object& object : objects) {
-    auto* mesh = std::get_if<Mesh>(&object.shape);
+    const auto* mesh = object.shape.as<Mesh>();
     if (!mesh) continue;
     const auto [found, fresh] = changed.try_emplace(mesh->data.get());
     if (fresh) {
@@ -110,7 +111,7 @@ void MeshFiles::change(std::vector<Object>& objects, bool generate, const MeshOp
       if (!operations.none()) data = operations.apply(data, place);
       found->second.data = std::make_shared<const MeshData>(std::move(data));
     }
-    *mesh = found->second;
+    object.shape = found->second;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "formats/ray_fields.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 
 namespace trace::rayfile {

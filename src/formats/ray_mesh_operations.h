@@ -10,6 +10,7 @@
 
 #include "formats/ray_findings.h"
 #include "formats/ray_syntax.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_smooth.h"
 #include "geometry/mesh_uv.h"
 

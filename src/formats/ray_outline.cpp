@@ -19,18 +19,9 @@ std::optional<TransformStep::Kind> formOf(const Item& item) {
   return {};
 }
 
-struct ShapeKind {
-  bool shape = false, solidOfSolids = false;
-};
-ShapeKind shapeKind(const Item& item) {
-  ShapeKind kind;
-  if (!item.is(Kind::call)) return kind;
-  forEachType<Shape>([&]<class S>(S*) {
-    if (S::kKeyword != canonical(item.key())) return;
-    kind.shape = true;
-    kind.solidOfSolids = requires(S shape) { shape.objects.list(); };
-  });
-  return kind;
+/// Null if it is no shape.
+const ShapeType* shapeType(const Item& item) {
+  return item.is(Kind::call) ? findShapeType(canonical(item.key())) : nullptr;
 }
 
 bool saysMaterial(const Item& item) { return item.keyed() && item.key() == Phong::kKeyword; }
@@ -85,11 +76,11 @@ void Outline::walk(const Item& item, PlacedCall around) {
     return walk(childOf(item), std::move(around));
   }
   if (item.is(Kind::block)) return walkAll(item, around);
-  const ShapeKind kind = shapeKind(item);
-  if (!kind.shape) return;
+  const ShapeType* const type = shapeType(item);
+  if (!type) return;
   around.call = item;
   calls_.try_emplace(item.offset(), around);
-  if (!kind.solidOfSolids) return;
+  if (!type->ofObjects) return;
   for (const Item part : item.value()) {
     if (part.is(Kind::entry) && part.key() == "objects")
       for (const Item inner : part.value()) walk(inner, {.call = inner});

@@ -129,21 +129,13 @@ class MaterialMap {
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) pair(from[i], to[i]);
   }
   void pairAll(const Shape& from, const Shape& to) {
-    if (from.index() != to.index()) return;
-    match(from, [&]<class S>(const S& shape) {
-      const S& other = *std::get_if<S>(&to);
-      if constexpr (std::is_same_v<S, Mesh>) {
-        pairAll(shape.data->materials, other.data->materials);
-      } else if constexpr (requires { shape.materials.indices; }) {
-        pairAll(shape.materials.indices, other.materials.indices);
-      } else if constexpr (requires { shape.objects.list(); }) {
-        const auto &a = shape.objects.list(), &b = other.objects.list();
-        for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-          pair(a[i].material, b[i].material);
-          pairAll(a[i].shape, b[i].shape);
-        }
-      }
-    });
+    if (&from.type() != &to.type()) return;
+    pairAll(materialsOf(from), materialsOf(to));
+    const auto &a = from.operands().list(), &b = to.operands().list();
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+      pair(a[i].material, b[i].material);
+      pairAll(a[i].shape, b[i].shape);
+    }
   }
 
   const Scene &from_, &to_;
@@ -217,11 +209,8 @@ class Patch {
 
   static void addMaterials(const Shape& shape, std::uint32_t material, std::set<std::uint32_t>& used) {
     used.insert(material);
-    match(shape, [&](const auto& whole) {
-      if constexpr (requires { whole.objects.list(); })
-        for (const Operand& operand : whole.objects.list())
-          addMaterials(operand.shape, operand.material, used);
-    });
+    for (const Operand& operand : shape.operands().list())
+      addMaterials(operand.shape, operand.material, used);
   }
 
   void noteUnused(const Scene& edited, std::size_t known) {

@@ -12,6 +12,8 @@
 #include "formats/ray_same.h"
 #include "formats/ray_writer.h"
 #include "geometry/csg_tree.h"
+#include "geometry/height_field.h"
+#include "geometry/mesh.h"
 
 namespace trace::rayfile {
 namespace {
@@ -27,9 +29,7 @@ Part partOf(const Object& o) { return {o.name, o.shape, o.worldFromObject, o.mat
 Part partOf(const Operand& o) { return {o.name, o.shape, o.wholeFromOperand, o.material}; }
 
 /// Numbers from files, which are not to be copied into the scene.
-bool isBulk(const Shape& shape) {
-  return std::holds_alternative<Mesh>(shape) || std::holds_alternative<HeightField>(shape);
-}
+bool isBulk(const Shape& shape) { return shape.is<Mesh>() || shape.is<HeightField>(); }
 
 class Round {
  public:
@@ -144,7 +144,7 @@ class Round {
   /// False if only writing it anew helps.
   bool change(const PlacedCall& placed, const Part& was, const Part& is) {
     const Item& call = placed.call;
-    if (was.shape.index() != is.shape.index()) return false;
+    if (&was.shape.type() != &is.shape.type()) return false;
     if (was.name != is.name) {
       const std::optional<Item> name = fieldOf(call.value(), "name");
       const std::string text = written(is.name, 0);
@@ -156,14 +156,9 @@ class Round {
         edits_.addField(call.value(), "name = " + text);
     }
     materials_.want(call, was.material, from_.materials.at(was.material), to_.materials.at(is.material));
-    const bool shaped = match(was.shape, [&]<class S>(const S& shape) {
-      const S& other = *std::get_if<S>(&is.shape);
-      changeFields(edits_, call.value(), shape, other);
-      if constexpr (requires { shape.objects.list(); })
-        return operands(call, shape.objects.list(), other.objects.list());
-      else
-        return true;
-    });
+    changeFields(edits_, call.value(), was.shape, is.shape);
+    const bool shaped = !was.shape.type().ofObjects ||
+                        operands(call, was.shape.operands().list(), is.shape.operands().list());
     return shaped && place(placed, was.placed, is.placed);
   }
 

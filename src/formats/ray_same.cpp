@@ -5,6 +5,8 @@
 #include "base/match.h"
 #include "formats/ray_transform.h"
 #include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh.h"
 
 namespace trace::rayfile {
 namespace {
@@ -30,24 +32,23 @@ bool sameMesh(const Scene& a, const MeshData& x, const Scene& b, const MeshData&
          sameMaterials(a, x.materials, b, y.materials);
 }
 
+/// Without what is made of numbers of materials, which differ from scene to scene.
+Shape withoutNumbers(Shape shape) {
+  if (shape.type().ofObjects) shape.setOperands({});
+  if (!materialsOf(shape).empty())
+    editEachField(shape, []<class Value>(const AnyField&, Value& value) {
+      if constexpr (std::is_same_v<Value, MaterialList>) value = {};
+    });
+  return shape;
+}
+
 }  // namespace
 
 bool sameShape(const Scene& a, const Shape& x, const Scene& b, const Shape& y) {
-  if (x.index() != y.index()) return false;
-  return match(x, [&]<class S>(const S& shape) {
-    const S& other = *std::get_if<S>(&y);
-    if constexpr (std::is_same_v<S, Mesh>) {
-      return sameMesh(a, *shape.data, b, *other.data);
-    } else if constexpr (requires { shape.objects.list(); }) {
-      return sameOperands(a, shape.objects.list(), b, other.objects.list());
-    } else if constexpr (requires { shape.materials.indices; }) {
-      S p = shape, q = other;
-      p.materials = {}, q.materials = {};
-      return p == q && sameMaterials(a, shape.materials.indices, b, other.materials.indices);
-    } else {
-      return shape == other;
-    }
-  });
+  if (&x.type() != &y.type()) return false;
+  if (const auto* mesh = x.as<Mesh>()) return sameMesh(a, *mesh->data, b, *y.as<Mesh>()->data);
+  return sameOperands(a, x.operands().list(), b, y.operands().list()) &&
+         sameMaterials(a, materialsOf(x), b, materialsOf(y)) && withoutNumbers(x) == withoutNumbers(y);
 }
 
 bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y) {

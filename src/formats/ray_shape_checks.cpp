@@ -3,10 +3,19 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "geometry/height_field.h"
+#include "geometry/isosurface.h"
+#include "geometry/lathe.h"
+#include "geometry/prism.h"
+#include "geometry/quadric.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/sweep.h"
 #include "math/expression.h"
 
 namespace trace::rayfile {
+namespace {
 
+/// The same number in each kind of curve: 4 for `bezier`, 2 for `linear`.
 void checkCurve(const Tell& tell, std::string_view list, std::size_t points, Spline spline, bool closed) {
   const auto say = [&](const std::string& expected, const std::string& end) {
     tell(std::string(list) + ": expected " + expected + " points for the spline " +
@@ -34,6 +43,7 @@ void checkBox(const Tell& tell, const Vec3& low, const Vec3& high) {
   if (!axes.empty()) tell("low is above high in " + axes + "; they change places there", {});
 }
 
+/// Is the formula a number anywhere between the corners?
 void checkFormula(const Tell& tell, const std::string& formula, const Vec3& low, const Vec3& high) {
   constexpr int kSteps = 7;
   const Expression expression(formula);
@@ -57,6 +67,29 @@ void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, b
     tell(
         std::string(keyword) + ": nothing of it can be seen, for it has no " + (solid ? "volume" : "surface"),
         {});
+}
+
+}  // namespace
+
+void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
+  if (const auto* lathe = shape.as<Lathe>())
+    checkCurve(tell, "profile", lathe->profile.size(), lathe->spline, false);
+  if (const auto* prism = shape.as<Prism>()) {
+    checkCurve(tell, "outline", prism->outline.size(), prism->spline, true);
+    for (const auto& hole : prism->holes) checkCurve(tell, "a hole", hole.size(), prism->spline, true);
+  }
+  if (const auto* sweep = shape.as<Sweep>()) {
+    checkCurve(tell, "profile", sweep->profile.size(), sweep->profileSpline, sweep->closed);
+    checkCurve(tell, "points", sweep->points.size(), sweep->spline, false);
+  }
+  if (const auto* sweep = shape.as<SphereSweep>())
+    checkCurve(tell, "points", sweep->points.size(), sweep->spline, false);
+  visitAs<Quadric, Isosurface>(shape, [&](const auto& cut) { checkBox(tell, cut.low, cut.high); });
+  if (const auto* surface = shape.as<Isosurface>())
+    checkFormula(tell, surface->formula, surface->low, surface->high);
+  if (const auto* field = shape.as<HeightField>(); field && field->file.file.empty())
+    checkFormula(tell, field->formula, {-1, -1, 0}, {1, 1, 0});
+  checkSize(tell, shape.keyword(), form.bounds(), form.solid());
 }
 
 }  // namespace trace::rayfile

@@ -17,6 +17,8 @@
 #include "formats/ray_fields.h"
 #include "formats/ray_transform.h"
 #include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh.h"
 
 namespace trace {
 namespace rayfile {
@@ -54,19 +56,16 @@ class Writer {
   }
 
  private:
+  /// A number that is infinite stands for no limit, which is what there is without the field.
   template <class Value>
   void field(std::string_view keyword, const Value& value) {
+    if constexpr (std::is_same_v<Value, Real>)
+      if (value == kNoLimit) return;
     out_ += "  " + std::string(keyword) + " = " + written(value, digits_) + ";\n";
   }
-  /// A number that is infinite stands for no limit, which is what there is without the field.
   template <class Struct>
   void fields(const Struct& from) {
-    forEachField<Struct>([&](const auto& f) {
-      const auto& value = from.*f.member;
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
-        if (value == kNoLimit) return;
-      field(f.keyword, value);
-    });
+    forEachField<Struct>([&](const auto& f) { field(f.keyword, from.*f.member); });
   }
   /// They stand in the block, after the material, which they would inherit.
   void field(std::string_view, const Operands&) {}
@@ -78,21 +77,14 @@ class Writer {
   /// The objects that the shape is made of; none for most.
   template <class Visit>
   static void forEachOperand(const Shape& shape, Visit&& visit) {
-    match(shape, [&](const auto& whole) {
-      if constexpr (requires { whole.objects.list(); })
-        for (const Operand& operand : whole.objects.list()) visit(operand);
-    });
+    for (const Operand& operand : shape.operands().list()) visit(operand);
   }
 
   void count(const Shape& shape, std::uint32_t material) {
     ++materialUses_[material];
-    match(shape, Overloaded{[&](const Mesh& mesh) {
-                              if (++uses_[mesh.data.get()] == 1) count(mesh.data->materials);
-                            },
-                            [&](const auto& other) {
-                              if constexpr (requires { other.materials.indices; })
-                                count(other.materials.indices);
-                            }});
+    const auto* mesh = shape.as<Mesh>();
+    const bool again = mesh && ++uses_[mesh->data.get()] > 1;
+    if (!again) count(materialsOf(shape));
     forEachOperand(shape, [&](const Operand& operand) { count(operand.shape, operand.material); });
   }
   void count(const std::vector<std::uint32_t>& materials) {
@@ -229,13 +221,14 @@ class Writer {
       out_ += head(step, digits_);
       if (step.kind == TransformStep::Kind::matrix) out_.back() = '\n';
     }
-    match(object.shape, Overloaded{[&](const Mesh& mesh) { writeMesh(object, *mesh.data); },
-                                   [&](const auto& shape) {
-                                     out_ += std::string(shape.kKeyword) + " {\n";
-                                     writeName(object);
-                                     fields(shape);
-                                     writeOwnMaterial(object);
-                                   }});
+    if (const auto* mesh = object.shape.as<Mesh>()) {
+      writeMesh(object, *mesh->data);
+    } else {
+      out_ += std::string(object.shape.keyword()) + " {\n";
+      writeName(object);
+      forEachField(object.shape, [&](const AnyField& f, const auto& value) { field(f.keyword, value); });
+      writeOwnMaterial(object);
+    }
     const bool outside = std::exchange(inWhole_, true);
     forEachOperand(object.shape, [&](const Operand& operand) {
       writeObject({.name = operand.name,

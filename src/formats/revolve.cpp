@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/words.h"
+#include "geometry/mesh.h"
 
 namespace trace {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "formats/model.h"
+#include "geometry/mesh.h"
 #include "math/vec.h"
 
 namespace trace {

@@ -7,6 +7,7 @@
 
 #include "base/unique.h"
 #include "formats/words.h"
+#include "geometry/mesh.h"
 
 namespace trace {
 namespace {

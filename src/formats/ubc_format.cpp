@@ -20,6 +20,10 @@
 #include "formats/tokens.h"
 #include "formats/ubc_scene.h"
 #include "formats/warnings.h"
+#include "geometry/conic.h"
+#include "geometry/mesh.h"
+#include "geometry/plane.h"
+#include "geometry/sphere.h"
 
 namespace trace {
 namespace ubc {
@@ -330,7 +334,7 @@ class Reader {
       tokens_.fail(name, error.messages().front().what);
     }
     for (Object& object : found->second) {
-      MeshData mesh = *std::get<Mesh>(object.shape).data;
+      MeshData mesh = *object.shape.as<Mesh>()->data;
       mesh.normals.clear(), mesh.materials.clear();
       mesh.generateNormals = false, mesh.twoSided = true;
       object.shape = Mesh{std::make_shared<const MeshData>(std::move(mesh))};

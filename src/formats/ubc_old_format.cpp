@@ -6,6 +6,8 @@
 #include "formats/tokens.h"
 #include "formats/ubc_format.h"
 #include "formats/ubc_scene.h"
+#include "geometry/plane.h"
+#include "geometry/sphere.h"
 
 namespace trace::ubc {
 namespace {

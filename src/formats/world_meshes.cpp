@@ -6,6 +6,7 @@
 
 #include "base/budget.h"
 #include "base/match.h"
+#include "geometry/mesh.h"
 #include "geometry/tessellation.h"
 
 namespace trace {
@@ -37,13 +38,13 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   for (const Object& object : scene.objects) {
     work.reached(done++);
     std::optional<MeshData> triangles;
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    const auto* mesh = object.shape.as<Mesh>();
     if (!mesh) triangles = tessellated(object.shape), sampled |= triangles.has_value();
     if ((mesh || triangles) && invertible(object.worldFromObject))
       meshes.push_back({object.name, object.material,
                         transformed(mesh ? *mesh->data : *triangles, object.worldFromObject)});
     else
-      ++leftOut[std::string(match(object.shape, [](const auto& shape) { return shape.kKeyword; }))];
+      ++leftOut[std::string(object.shape.keyword())];
   }
   std::string kinds;
   for (const auto& [kind, count] : leftOut)

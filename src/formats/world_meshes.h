@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/mesh.h"
 #include "scene/scene.h"
 
 namespace trace {

@@ -5,8 +5,17 @@
 
 #include "base/error.h"
 #include "base/small_list.h"
+#include "geometry/cone.h"
+#include "geometry/conic.h"
 #include "geometry/csg_tree.h"
+#include "geometry/cube.h"
 #include "geometry/interval_search.h"
+#include "geometry/plane.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
+#include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/torus.h"
 
 namespace trace {
 
@@ -41,9 +50,10 @@ PlacedForm capsule(const Vec3& a, const Vec3& b, Real radius) {
   return {{Kind::capsule, {0, 0, l}, radius, 0, {}, 1}, place};
 }
 
-/// The forms whose union the shape is; none if its distance is not known.
+using Forms = std::vector<PlacedForm>;
+
+/// The forms whose union a shape is; none if the distance is not known of one like this.
 struct FormsOf {
-  using Forms = std::vector<PlacedForm>;
   Forms operator()(const Sphere&) const { return {{{Kind::ball, {}, 1, 0, {}, 1}, {}}}; }
   Forms operator()(const Cube&) const { return {{{Kind::box, {0.5, 0.5, 0.5}, 0, 0, {}, 1}, {}}}; }
   Forms operator()(const RoundedBox& s) const {
@@ -74,11 +84,14 @@ struct FormsOf {
     }
     return forms;
   }
-  template <class Other>
-  Forms operator()(const Other&) const {
-    return {};
-  }
 };
+
+Forms formsOf(const Shape& shape) {
+  Forms forms;
+  visitAs<Sphere, Cube, RoundedBox, Cylinder, Cone, Conic, Torus, Ellipsoid, Plane, SphereSweep>(
+      shape, [&](const auto& s) { forms = FormsOf()(s); });
+  return forms;
+}
 
 /// What a length of the part is in the whole, on the average of all directions.
 Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
@@ -132,31 +145,28 @@ Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<O
 
 Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Real near) {
   const Affine wholeFromShape = wholeFromOutside * operand.wholeFromOperand;
-  const auto nested = [&](BlendOperation operation, Real radius, const Operands& objects) {
-    return add(operation, radius, objects.list(), wholeFromShape, near);
+  const Shape& shape = operand.shape;
+  const auto nested = [&](BlendOperation operation, Real radius) {
+    return add(operation, radius, shape.operands().list(), wholeFromShape, near);
   };
-  const auto single = [&](const auto& shape) {
-    const std::vector<PlacedForm> forms = FormsOf()(shape);
-    if (forms.empty())
-      throw Error(
-          Fault::scene,
-          "no distance is known from a " + std::string(shape.kKeyword) + " like this, as a blend needs it",
-          "known are sphere, box, rounded_box, closed cylinder, cone and conic, torus, ellipsoid, plane, a "
-          "sphere_sweep of lines and one radius, and unions, intersections, differences and blends of them");
-    Box3 box;
-    for (std::size_t i = 0; i < forms.size(); ++i) {
-      box.extend(add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm, near));
-      if (i > 0) steps_.push_back({false, 0, BlendOperation::unite, 0});
-    }
-    return box;
-  };
-  return match(
-      operand.shape,
-      Overloaded{[&](const Blend& b) { return nested(b.operation, std::abs(b.radius), b.objects); },
-                 [&](const Union& u) { return nested(BlendOperation::unite, 0, u.objects); },
-                 [&](const Intersection& u) { return nested(BlendOperation::intersect, 0, u.objects); },
-                 [&](const Difference& u) { return nested(BlendOperation::subtract, 0, u.objects); },
-                 [&](const auto& shape) { return single(shape); }});
+  if (const auto* blend = shape.as<Blend>()) return nested(blend->operation, std::abs(blend->radius));
+  if (shape.is<Union>()) return nested(BlendOperation::unite, 0);
+  if (shape.is<Intersection>()) return nested(BlendOperation::intersect, 0);
+  if (shape.is<Difference>()) return nested(BlendOperation::subtract, 0);
+
+  const Forms forms = formsOf(shape);
+  if (forms.empty())
+    throw Error(
+        Fault::scene,
+        "no distance is known from a " + std::string(shape.keyword()) + " like this, as a blend needs it",
+        "known are sphere, box, rounded_box, closed cylinder, cone and conic, torus, ellipsoid, plane, a "
+        "sphere_sweep of lines and one radius, and unions, intersections, differences and blends of them");
+  Box3 box;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    box.extend(add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm, near));
+    if (i > 0) steps_.push_back({false, 0, BlendOperation::unite, 0});
+  }
+  return box;
 }
 
 // --- its distance ---------------------------------------------------------------------------------------

@@ -187,30 +187,20 @@ SurfacePoint CsgTree::surface(const Ray& ray, const Crossing& crossing) const {
 MaterialMix CsgTree::material(std::int64_t part, std::uint32_t) const {
   const auto count = static_cast<std::int64_t>(operands_.size());
   const auto operand = static_cast<std::size_t>(part % count);
-  const std::uint32_t own = materials_[operand];
-  return match(operands_[operand].shape(), [&](const auto& form) -> MaterialMix {
-    if constexpr (requires { formOf(form).material(part, own); })
-      return formOf(form).material(part / count, own);
-    else
-      return MaterialMix::only(own);
-  });
+  return operands_[operand].shape().material(part / count, materials_[operand]);
 }
 
 void CsgTree::addMaterials(std::vector<std::uint32_t>& materials) const {
   for (std::size_t i = 0; i < operands_.size(); ++i) {
     materials.push_back(materials_[i]);
-    match(operands_[i].shape(), [&](const auto& form) {
-      if constexpr (requires { formOf(form).addMaterials(materials); }) formOf(form).addMaterials(materials);
-    });
+    operands_[i].shape().addMaterials(materials);
   }
 }
 
 void CsgTree::addMeshTrees(MeshTrees& trees) const {
   for (const Placed& operand : operands_) {
-    match(operand.shape(), [&](const auto& form) {
-      if constexpr (requires { formOf(form).addMeshTrees(trees); }) formOf(form).addMeshTrees(trees);
-    });
-    if (operand.meshTree()) trees[std::get<Mesh>(operand.shape()).data.get()] = operand.meshTree();
+    operand.shape().addMeshTrees(trees);
+    if (operand.meshTree()) trees[operand.shape().mesh().get()] = operand.meshTree();
   }
 }
 

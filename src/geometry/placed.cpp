@@ -3,19 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "geometry/csg_tree.h"
-
 namespace trace {
-
-// Here, where every form is complete.
-static_assert([] {
-  bool all = true;
-  forEachType<TracedShape>([&]<class T>(T*) {
-    if constexpr (!std::is_same_v<T, Mesh>)
-      all = all && Traceable<std::remove_cvref_t<decltype(formOf(std::declval<T>()))>>;
-  });
-  return all;
-}());
 
 namespace {
 
@@ -51,49 +39,25 @@ std::shared_ptr<const MeshTree> treeOf(std::shared_ptr<const MeshData> data) {
 
 Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made)
     : shape_(prepare(shape, made)), placement_(outFromIn) {
-  const Box3 box = match(shape_, Overloaded{[&](const Mesh& mesh) {
-                                              const auto known = made.find(mesh.data.get());
-                                              mesh_ = known == made.end() ? treeOf(mesh.data) : known->second;
-                                              return trace::bounds(mesh_->data());
-                                            },
-                                            [](const auto& form) { return formOf(form).bounds(); }});
-  approach_ = Approach(box);
+  if (const auto data = shape_.mesh()) {
+    const auto known = made.find(data.get());
+    mesh_ = known == made.end() ? treeOf(data) : known->second;
+  }
+  const Box3 box = mesh_ ? trace::bounds(mesh_->data()) : shape_.bounds();
   constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
   bounds_ = box.unbounded() ? kEverywhere : outFromIn * box;
 }
 
-bool Placed::solid() const {
-  return match(shape_, Overloaded{[](const Mesh&) { return true; },
-                                  [](const auto& form) { return formOf(form).solid(); }});
-}
-
-std::int64_t Placed::partCount() const {
-  return match(shape_, Overloaded{[&](const Mesh&) {
-                                    return static_cast<std::int64_t>(mesh_->data().triangles.size());
-                                  },
-                                  [](const auto& form) {
-                                    if constexpr (requires { formOf(form).partCount(); })
-                                      return formOf(form).partCount();
-                                    else
-                                      return std::int64_t{1} << 24;
-                                  }});
-}
-
 void Placed::crossings(const Ray& ray, VisitCrossing visit) const {
   const Ray in = inner(ray);
-  match(shape_, Overloaded{[&](const Mesh&) { meshCrossings(*mesh_, in, visit); },
-                           [&](const auto& form) {
-                             const Real everywhere = kInfinity;
-                             visitCrossings(form, approach_, in, Range{-kInfinity, everywhere}, visit);
-                           }});
+  if (mesh_) return meshCrossings(*mesh_, in, visit);
+  const Real everywhere = kInfinity;
+  shape_.crossings(in, Range{-kInfinity, everywhere}, visit);
 }
 
 SurfacePoint Placed::surface(const Ray& ray, const Crossing& crossing) const {
   const Ray in = inner(ray);
-  const SurfacePoint s =
-      match(shape_, Overloaded{[&](const Mesh&) { return meshSurface(*mesh_, in, crossing); },
-                               [&](const auto& form) { return surfaceOf(form, approach_, in, crossing); }});
-  return placement_.outOf(s);
+  return placement_.outOf(mesh_ ? meshSurface(*mesh_, in, crossing) : shape_.surface(in, crossing));
 }
 
 }  // namespace trace

@@ -15,13 +15,14 @@ class Placed {
   /// The hierarchy of a mesh is taken from those `made`, if it is there.
   Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made = {});
 
-  bool solid() const;
+  /// A mesh counts as one: the World warns of those that are not closed.
+  bool solid() const { return mesh_ || shape_.solid(); }
   const Box3& bounds() const { return bounds_; }
   /// Every crossing of the ray's line, in any order.
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   /// The shape's parts are numbered below this.
-  std::int64_t partCount() const;
+  std::int64_t partCount() const { return shape_.partCount(); }
   const TracedShape& shape() const { return shape_; }
   /// Of a mesh; null for other shapes.
   const std::shared_ptr<const MeshTree>& meshTree() const { return mesh_; }
@@ -31,7 +32,6 @@ class Placed {
 
   TracedShape shape_;
   Placement placement_;
-  Approach approach_;
   Box3 bounds_;
   std::shared_ptr<const MeshTree> mesh_;
 };

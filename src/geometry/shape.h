@@ -1,71 +1,124 @@
-// THE list of shapes. A new shape is one header and one line here; readers, writers, the reference page
-// and the generic tests loop over the list.
+// A shape of whatever type: a row of the table of shapes and constant data that copies share.
 //
-// Every shape but Mesh answers, in its own space:
-//   solid()             does it enclose space? (an open sheet is seen from both sides)
-//   bounds()            a box that holds it, infinite if the shape is
-//   crossings(ray, f)   f(Crossing) for every place, in any order and at any t, where the ray's line goes
-//                       through the surface; for solids, entries and exits come in pairs, of which one may
-//                       lie at infinity
-//   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
-//
-// A shape may add
-//   convex()            a ray that leaves it on the side of its normal does not meet it again
-//
-// A shape of several materials adds
-//   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
-//   addMaterials(all)          the indices it may answer with beside that
-//
-// A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
-//   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
-// compile() asks for it once. What is costly to find everywhere may take the wanted part of the line:
-//   crossings(ray, range, f)   as above, but only those in the Range need be visited; nearest first
+// Any struct of the list (shape_list.h) becomes a Shape; as<Sphere>() gives it back. Who loops over types or
+// fields asks the table, so that no one but the table sees all the structs.
 #pragma once
 
-#include <concepts>
+#include <atomic>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string_view>
-#include <variant>
+#include <utility>
+#include <vector>
 
-#include "geometry/bezier_patches.h"
-#include "geometry/blend.h"
-#include "geometry/cone.h"
-#include "geometry/conic.h"
-#include "geometry/copies.h"
 #include "geometry/csg.h"
-#include "geometry/cube.h"
-#include "geometry/disk.h"
-#include "geometry/height_field.h"
-#include "geometry/isosurface.h"
-#include "geometry/julia.h"
-#include "geometry/lathe.h"
-#include "geometry/mandelbox.h"
-#include "geometry/mandelbulb.h"
-#include "geometry/menger.h"
-#include "geometry/mesh.h"
-#include "geometry/metaballs.h"
-#include "geometry/plane.h"
-#include "geometry/plant.h"
-#include "geometry/prism.h"
-#include "geometry/puff.h"
-#include "geometry/quadric.h"
-#include "geometry/rounded_box.h"
-#include "geometry/sphere.h"
-#include "geometry/sphere_sweep.h"
-#include "geometry/square.h"
-#include "geometry/superellipsoid.h"
-#include "geometry/supertoroid.h"
-#include "geometry/sweep.h"
-#include "geometry/terrain.h"
-#include "geometry/torus.h"
 
 namespace trace {
 
-using Shape =
-    std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus, Ellipsoid,
-                 EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Supertoroid,
-                 Lathe, Prism, SphereSweep, Sweep, Plant, BezierPatches, HeightField, Terrain, Metaballs,
-                 Isosurface, Menger, Sierpinski, Ifs, Julia, Mandelbulb, Mandelbox, Union, Intersection,
-                 Difference, Clip, Blend, Puff, Mesh>;
+struct AnyField;
+class Shape;
+class TracedShape;
+
+/// More types of shapes than there will be.
+inline constexpr std::size_t kMostShapeTypes = 64;
+
+/// A row of the table of shapes.
+struct ShapeType {
+  std::string_view keyword;  ///< as in scene files
+  std::string_view help;     ///< one sentence, no full stop
+  std::size_t index;         ///< in the table
+  bool ofObjects;            ///< it is made of objects, which are its field "objects"
+  std::shared_ptr<void> (*make)();
+  std::shared_ptr<void> (*copy)(const void* shape);
+  bool (*equal)(const void* a, const void* b);
+  std::vector<AnyField> (*fields)(void* shape);
+  TracedShape (*prepare)(const void* shape, const MeshTrees& made);
+};
+
+std::span<const ShapeType> shapeTypes();
+/// Null if no shape has that keyword.
+const ShapeType* findShapeType(std::string_view keyword);
+
+namespace detail {
+/// Precondition: there is one.
+const ShapeType& shapeType(std::string_view keyword);
+template <class S>
+const ShapeType& typeOf() {
+  static const ShapeType& type = shapeType(S::kKeyword);
+  return type;
+}
+}  // namespace detail
+
+class Shape {
+ public:
+  /// A sphere.
+  Shape() : Shape(shapeTypes().front()) {}
+  /// With the defaults of its type.
+  explicit Shape(const ShapeType& type) : type_(&type), data_(type.make()) {}
+  template <class S>
+  requires requires {
+    S::kKeyword;
+    S::fields();
+  }
+  Shape(S shape)  // NOLINT(google-explicit-constructor): a sphere is a shape
+      : type_(&detail::typeOf<S>()), data_(std::make_shared<S>(std::move(shape))) {}
+
+  const ShapeType& type() const { return *type_; }
+  std::string_view keyword() const { return type_->keyword; }
+
+  template <class S>
+  bool is() const {
+    return type_ == &detail::typeOf<S>();
+  }
+  /// Null if it is of another type.
+  template <class S>
+  const S* as() const {
+    return is<S>() ? static_cast<const S*>(data_.get()) : nullptr;
+  }
+  /// To be changed; what other copies share stays as it is.
+  template <class S>
+  S* edit() {
+    return is<S>() ? static_cast<S*>(own()) : nullptr;
+  }
+
+  /// Its fields, to be changed; what other copies share stays as it is. To read them: forEachField() of
+  /// field_value.h.
+  std::vector<AnyField> editFields();
+
+  /// The objects that it is made of; none for most.
+  const Operands& operands() const;
+  /// Precondition: type().ofObjects.
+  void setOperands(Operands operands);
+
+  /// Two that share their data are equal at once.
+  bool operator==(const Shape& other) const {
+    return type_ == other.type_ && (data_ == other.data_ || type_->equal(data_.get(), other.data_.get()));
+  }
+
+ private:
+  friend TracedShape prepare(const Shape& shape, const MeshTrees& made);
+  friend std::vector<AnyField> fieldsOf(const Shape& shape);
+
+  /// The data, copied first where others share it.
+  void* own() {
+    if (data_.use_count() > 1) data_ = type_->copy(data_.get());
+    std::atomic_thread_fence(std::memory_order_acquire);  // what others read of it before they let go is past
+    return data_.get();
+  }
+
+  const ShapeType* type_;
+  std::shared_ptr<void> data_;
+};
+
+/// Calls visit(const S&) if the shape is of one of the types named; false if it is of none.
+template <class... S, class Visit>
+bool visitAs(const Shape& shape, Visit&& visit) {
+  const auto tried = [&]<class T>(const T* held) {
+    if (held) visit(*held);
+    return held != nullptr;
+  };
+  return (tried(shape.as<S>()) || ...);
+}
 
 }  // namespace trace

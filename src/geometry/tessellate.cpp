@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/budget.h"
-#include "base/match.h"
-#include "geometry/csg_tree.h"
+#include "geometry/mesh.h"
+#include "geometry/traced.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -43,8 +43,7 @@ class Grid {
     heads_.assign(cells(0) * cells(1) * cells(2), kNone);
   }
 
-  template <class ShapeType>
-  void sample(const ShapeType& shape) {
+  void sample(const TracedShape& shape) {
     for (int axis = 0; axis < 3; ++axis)
       for (std::size_t j = 1; j + 1 < lines_[next(axis)].size(); ++j)
         for (std::size_t k = 1; k + 1 < lines_[after(axis)].size(); ++k) sampleLine(shape, axis, j, k);
@@ -86,8 +85,7 @@ class Grid {
     return (at[2] * cells(1) + at[1]) * cells(0) + at[0];
   }
 
-  template <class ShapeType>
-  void sampleLine(const ShapeType& shape, int axis, std::size_t j, std::size_t k) {
+  void sampleLine(const TracedShape& shape, int axis, std::size_t j, std::size_t k) {
     checkBudget();
     const std::vector<Real>& along = lines_[axis];
     Ray ray;
@@ -98,10 +96,7 @@ class Grid {
     found_.clear();
     const auto keep = [&](const Crossing& crossing) { found_.push_back(crossing); };
     const Real end = along.back() - along.front();
-    if constexpr (requires { shape.crossings(ray, keep); })
-      shape.crossings(ray, keep);
-    else
-      shape.crossings(ray, {0, end}, keep);
+    shape.crossings(ray, {0, end}, keep);
     std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
     std::size_t last = kNone;
     for (const Crossing& crossing : found_) {
@@ -164,20 +159,6 @@ class Grid {
   std::vector<Crossing> found_;
 };
 
-/// Calls visit(form) with what rays meet of the shape: the shape itself, or what it is worked out to first.
-template <class ShapeType, class Visit>
-auto withForm(const ShapeType& shape, Visit&& visit) {
-  if constexpr (requires { shape.prepared(); }) {
-    const auto form = shape.prepared();
-    if constexpr (requires { *form; })
-      return visit(*form);
-    else
-      return visit(form);
-  } else {
-    return visit(shape);
-  }
-}
-
 Box3 cutOff(Box3 box, const Box3& within) {
   if (!isFinite(box.size())) box.low = max(box.low, within.low), box.high = min(box.high, within.high);
   return box;
@@ -201,23 +182,18 @@ std::vector<SurfaceCorner> meshCorners(const MeshData& given) {
 }  // namespace
 
 Box3 drawnBounds(const Shape& shape, const Box3& within) {
-  return match(shape, Overloaded{[](const Mesh& mesh) { return bounds(*mesh.data); },
-                                 [&](const auto& s) {
-                                   return withForm(
-                                       s, [&](const auto& form) { return cutOff(form.bounds(), within); });
-                                 }});
+  const Box3 box = prepare(shape).bounds();
+  return shape.is<Mesh>() ? box : cutOff(box, within);
 }
 
 std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within) {
-  const Box3 box = drawnBounds(shape, within);
-  const auto sampled = [&](const auto& form) {
-    if (!(maxComponent(box.size()) > 0)) return std::vector<SurfaceCorner>{};
-    Grid grid(box, divisions);
-    grid.sample(form);
-    return grid.triangles(form.solid());
-  };
-  return match(shape, Overloaded{[](const Mesh& mesh) { return meshCorners(*mesh.data); },
-                                 [&](const auto& s) { return withForm(s, sampled); }});
+  if (const auto* mesh = shape.as<Mesh>()) return meshCorners(*mesh->data);
+  const TracedShape form = prepare(shape);
+  const Box3 box = cutOff(form.bounds(), within);
+  if (!(maxComponent(box.size()) > 0)) return {};
+  Grid grid(box, divisions);
+  grid.sample(form);
+  return grid.triangles(form.solid());
 }
 
 }  // namespace trace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/shape.h"
+#include "math/box.h"
 
 namespace trace {
 

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "base/match.h"
 #include "base/unique.h"
-#include "geometry/csg_tree.h"
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
 #include "geometry/tessellate.h"
 #include "geometry/traced.h"
 
@@ -142,17 +146,14 @@ MeshData joined(const std::vector<SurfaceCorner>& corners, bool solid) {
 }  // namespace
 
 std::optional<MeshData> tessellated(const Shape& shape, int steps) {
-  const auto [box, solid] = match(prepare(shape), [](const auto& form) {
-    if constexpr (Traceable<std::decay_t<decltype(formOf(form))>>)
-      return std::pair{formOf(form).bounds(), formOf(form).solid()};
-    return std::pair{Box3{}, false};  // a mesh
-  });
+  if (shape.is<Mesh>()) return {};
+  const TracedShape form = prepare(shape);
+  const Box3 box = form.bounds();
   if (box.empty() || !isFinite(box.size())) return {};
+  const bool solid = form.solid();
   Builder builder(steps);
-  const bool known = match(shape, [&](const auto& s) {
-    if constexpr (requires { add(builder, s, steps); }) return add(builder, s, steps), true;
-    return false;
-  });
+  const bool known = visitAs<Sphere, Cube, Square, Cylinder, Cone, Conic>(
+      shape, [&](const auto& s) { add(builder, s, steps); });
   MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps), solid);
   if (mesh.triangles.empty()) return {};
   mesh.twoSided = !solid;

@@ -38,9 +38,8 @@ std::string sentOn(const RayNode& node) {
 }
 
 /// What it is and where: "sphere (scene.ray:12)".
-template <class Variant>
-std::string named(const Variant& thing, const Place& place) {
-  std::string text = match(thing, [](const auto& kind) { return std::string(kind.kKeyword); });
+std::string named(std::string_view keyword, const Place& place) {
+  std::string text(keyword);
   if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";
   return text;
 }
@@ -139,7 +138,7 @@ std::string shortPlace(const Place& place) {
 std::string objectName(const Scene& scene, std::uint32_t index) {
   const Object& object = scene.objects[index];
   if (!object.name.empty()) return object.name;
-  return named(object.shape, object.place);
+  return named(object.shape.keyword(), object.place);
 }
 
 std::string materialName(const Scene& scene, std::uint32_t index) {
@@ -157,7 +156,7 @@ std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& 
 
 std::string lightName(const Scene& scene, std::uint32_t index) {
   const LightSource& source = scene.lights[index];
-  return named(source.light, source.place);
+  return named(match(source.light, [](const auto& light) { return light.kKeyword; }), source.place);
 }
 
 std::string sentence(const RayNode& node, const Scene& scene) {

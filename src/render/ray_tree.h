@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/materials.h"
 #include "render/hit.h"
 #include "render/statistics.h"
 #include "scene/scene.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <variant>
 
 #include "accel/bvh_node.h"
 #include "geometry/shape.h"
@@ -16,11 +15,11 @@ inline constexpr std::array<std::string_view, 4> kRayKindNames{"camera", "reflec
                                                                "shadow"};
 
 struct Statistics {
-  static constexpr std::size_t kShapes = std::variant_size_v<Shape>;
+  static constexpr std::size_t kShapes = kMostShapeTypes;
 
   std::array<std::uint64_t, kRayKindNames.size()> rays{};
   std::uint64_t depths = 0;  ///< of all but shadow rays, summed: a camera ray has depth 0
-  std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of the list of shapes
+  std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
   NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
 

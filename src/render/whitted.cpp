@@ -6,6 +6,7 @@
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
 // place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
 // is asked for.
+#include "base/match.h"
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "shading/optics.h"

@@ -1,88 +1,12 @@
 #include "render/world.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
+#include "base/match.h"
+#include "geometry/sphere.h"
+
 namespace trace {
-
-std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
-  std::optional<Found> best(std::in_place);
-  checkBudget();
-  for (std::uint32_t object : always_) {
-    checkBudget();
-    if (object != ray.leaves) closestOf(object, ray, faces, statistics, *best);
-  }
-  if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
-  if (best->t == kInfinity) best.reset();
-  return best;
-}
-
-void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
-  const auto ask = [&](std::uint32_t object) {
-    closestOf(object, ray, faces, statistics, best);
-    return false;
-  };
-  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, ask, ray.leaves);
-}
-
-inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
-                             Found& best) const {
-  const Instance& instance = objects_[object];
-  const auto inItsSpace = [&](const Ray& ray) {
-    const MeshTree* mesh = instance.mesh.get();
-    if (!mesh) return closestOfShape(instance, object, ray, statistics, best);
-    const std::size_t kind = instance.shape.index();
-    MeshHit met;
-    met.hit.t = best.t;
-    statistics.nodes.owner = object;
-    const bool found = faces == Faces::both
-                           ? mesh->closest(ray, met, nullptr, {statistics.nodes, statistics.tests[kind]})
-                           : closestSeen(instance, ray, faces, statistics, met);
-    statistics.nodes.owner = NodeCount::kTop;
-    // At the same distance the object that comes first in the scene counts.
-    if (!found || (met.hit.t == best.t && object >= best.object)) return;
-    ++statistics.hits[kind];
-    best = {met.hit.t, object, met.triangle, met.hit};
-  };
-  const Placement& placement = instance.placement;
-  placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
-}
-
-bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, Statistics& statistics,
-                        MeshHit& met) const {
-  const MeshTree& mesh = *instance.mesh;
-  const auto seen = [&](const MeshHit& hit) { return sees(faces, ray, mesh.data(), hit); };
-  return mesh.closest(ray, met, seen, {statistics.nodes, statistics.tests[instance.shape.index()]});
-}
-
-void World::closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
-                           Statistics& statistics, Found& best) const {
-  crossingsOfShape(instance, ray, best.t, statistics, [&](const Crossing& crossing) {
-    if (!(crossing.t > 0 && crossing.t <= best.t)) return;
-    const auto part = static_cast<std::uint64_t>(crossing.part);
-    if (!best.after(crossing.t, object, part)) return;
-    ++statistics.hits[instance.shape.index()];
-    best.t = crossing.t, best.object = object, best.part = part;
-  });
-}
-
-SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
-  const Instance& instance = objects_[found.object];
-  const Placement& placement = instance.placement;
-  const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
-  const SurfacePoint s =
-      match(instance.shape,
-            Overloaded{[&](const Mesh&) {
-                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
-                                               found.triangle);
-                       },
-                       [&](const auto& shape) {
-                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
-                         return surfaceOf(shape, instance.approach, ray, crossing);
-                       }});
-  return placement.moved() ? placement.outOf(s) : s;
-}
 
 namespace {
 
@@ -108,12 +32,7 @@ MaterialMix World::materialMix(const Found& found) const {
     const Real* b = found.triangle.b;
     return {{data.materials[t[0]], data.materials[t[1]], data.materials[t[2]]}, {b[0], b[1], b[2]}, 3};
   }
-  return match(instance.shape, [&](const auto& shape) {
-    if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); })
-      return formOf(shape).material(static_cast<std::int64_t>(found.part), instance.material);
-    else
-      return MaterialMix::only(instance.material);
-  });
+  return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
 Phong World::material(const Found& found) const {
@@ -171,12 +90,8 @@ class World::Earlier {
     sameNormals_ = before->settings.vertexNormals == settings.vertexNormals;
     for (std::size_t i = 0; i < before->scene.objects.size(); ++i) {
       const Instance& instance = before->world.objects_[i];
-      if (const auto* mesh = std::get_if<Mesh>(&before->scene.objects[i].shape))
-        if (instance.mesh) trees_[mesh->data.get()] = instance.mesh;
-      match(instance.shape, [&](const auto& form) {
-        if constexpr (requires { formOf(form).addMeshTrees(operandTrees_); })
-          formOf(form).addMeshTrees(operandTrees_);
-      });
+      if (const auto data = instance.shape.mesh(); data && instance.mesh) trees_[data.get()] = instance.mesh;
+      instance.shape.addMeshTrees(operandTrees_);
     }
   }
 
@@ -224,6 +139,14 @@ Affine rounded(const Affine& m) {
   return Affine::translation(m.offset) * Affine::scaling({radius, radius, radius});
 }
 
+TracedShape prepared(const Object& object, const MeshTrees& made) {
+  try {
+    return prepare(object.shape, made);
+  } catch (const Error& error) {
+    throw Error(error.fault(), object.place, error.messages().front().what, error.messages().front().hint);
+  }
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -258,60 +181,50 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   Work work("building the objects", static_cast<std::int64_t>(scene.objects.size()));
   for (const Object& object : scene.objects) {
     work.reached(static_cast<std::int64_t>(boxes.size()));
-    World::Instance instance;
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
-    try {
-      instance.shape = same ? same->shape : prepare(object.shape, earlier.operandTrees());
-    } catch (const Error& error) {
-      throw Error(error.fault(), object.place, error.messages().front().what, error.messages().front().hint);
-    }
+    World::Instance instance{.shape = same ? same->shape : prepared(object, earlier.operandTrees())};
+    instance.kind = static_cast<std::uint32_t>(object.shape.type().index);
     const bool flat = !invertible(object.worldFromObject),
-               round = settings.roundSpheres && std::holds_alternative<Sphere>(object.shape);
+               round = settings.roundSpheres && object.shape.is<Sphere>();
     if (!flat)
       instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
     instance.material = object.material;
     if (object.material >= world.materials_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
-    if (settings.omit.has(static_cast<ShapeKind>(object.shape.index()))) {
+    if (settings.omit.has(static_cast<ShapeKind>(instance.kind))) {
       boxes.emplace_back();  // keeps the numbering of objects; what is empty is never met
       world.objects_.push_back(std::move(instance));
       continue;
     }
     if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-    instance.opaque = !world.materials_[object.material].transmits();
+    std::vector<std::uint32_t> materials{object.material};  // of all its parts
     Box3 box;
-    match(instance.shape,
-          Overloaded{[&](Mesh& mesh) {
-                       auto& tree = trees[mesh.data.get()];
-                       if (!tree) tree = earlier.tree(same, *mesh.data);
-                       if (!tree) {
-                         auto data = mesh.data;
-                         if (data->generateNormals)
-                           data = std::make_shared<const MeshData>(
-                               withGeneratedNormals(*data, settings.vertexNormals == VertexNormals::unit));
-                         tree = std::make_shared<const MeshTree>(data, bruteForce, settings.threads);
-                       }
-                       instance.mesh = tree;
-                       instance.mixed = !tree->data().materials.empty();
-                       for (std::uint32_t m : tree->data().materials)
-                         if (world.materials_.at(m).transmits()) instance.opaque = false;
-                       box = bounds(tree->data());
-                     },
-                     [&](const auto& shape) {
-                       box = formOf(shape).bounds();
-                       instance.approach = Approach(box);
-                       if constexpr (requires { formOf(shape).convex(); })
-                         instance.convex = formOf(shape).convex();
-                       if constexpr (requires { formOf(shape).material(std::int64_t{}, std::uint32_t{}); }) {
-                         instance.mixed = true;
-                         std::vector<std::uint32_t> materials;
-                         formOf(shape).addMaterials(materials);
-                         for (std::uint32_t m : materials)
-                           if (m == MaterialMix::kClear || world.materials_.at(m).transmits())
-                             instance.opaque = false;
-                       }
-                     }});
+    if (const auto shared = instance.shape.mesh()) {
+      auto& tree = trees[shared.get()];
+      if (!tree) tree = earlier.tree(same, *shared);
+      if (!tree) {
+        auto data = shared;
+        if (data->generateNormals)
+          data = std::make_shared<const MeshData>(
+              withGeneratedNormals(*data, settings.vertexNormals == VertexNormals::unit));
+        tree = std::make_shared<const MeshTree>(data, bruteForce, settings.threads);
+      }
+      instance.mesh = tree;
+      const std::vector<std::uint32_t>& own = tree->data().materials;
+      instance.mixed = !own.empty();
+      materials.insert(materials.end(), own.begin(), own.end());
+      box = bounds(tree->data());
+    } else {
+      box = instance.shape.bounds();
+      instance.approach = Approach(box);
+      instance.convex = instance.shape.convex();
+      instance.mixed = instance.shape.ofSeveralMaterials();
+      instance.shape.addMaterials(materials);
+    }
+    instance.opaque = std::none_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
+      return m == MaterialMix::kClear || world.materials_.at(m).transmits();
+    });
     if (!flat) {
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
@@ -322,6 +235,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     world.bounds_.extend(instance.bounds);
     world.objects_.push_back(std::move(instance));
   }
+  world.collectForms();
   world.bvh_ = earlier.hierarchy(boxes);
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())

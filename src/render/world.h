@@ -8,14 +8,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "accel/bvh.h"
 #include "base/budget.h"
-#include "base/match.h"
 #include "geometry/approach.h"
-#include "geometry/csg_tree.h"
 #include "geometry/materials.h"
+#include "geometry/mesh.h"
 #include "geometry/mesh_tree.h"
 #include "geometry/placement.h"
 #include "geometry/traced.h"
@@ -51,6 +51,24 @@ inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHi
   return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
 
+/// Anything that takes a Found and returns true to end the query, behind a plain call. It lives as long as
+/// the visitor.
+class VisitFound {
+ public:
+  template <class Visit>
+  requires(!std::is_same_v<std::remove_cvref_t<Visit>, VisitFound>)
+      VisitFound(Visit&& visit)  // NOLINT(google-explicit-constructor)
+      : context_(const_cast<void*>(static_cast<const void*>(&visit))),
+        call_([](void* context, const Found& f) -> bool {
+          return (*static_cast<std::remove_reference_t<Visit>*>(context))(f);
+        }) {}
+  bool operator()(const Found& found) const { return call_(context_, found); }
+
+ private:
+  void* context_;
+  bool (*call_)(void*, const Found&);
+};
+
 struct Compiled;
 
 class World {
@@ -61,8 +79,7 @@ class World {
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
   /// met more than once.
-  template <class Visit>
-  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const;
+  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const;
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
@@ -108,8 +125,8 @@ class World {
   friend World compile(const Scene&, const Settings&, Messages&, const Compiled*);
   class Earlier;
 
-  struct Instance {  // what queries need stands together
-    TracedShape shape;
+  struct Instance {          // what queries need stands together
+    std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
     bool convex = false;
     bool mixed = false;  ///< parts of it are made of other materials
@@ -118,6 +135,7 @@ class World {
     Placement placement;
     Approach approach;
     Box3 bounds;
+    TracedShape shape;
   };
 
   // Queries, object by object. What is rarer than a mesh seen from both sides is kept apart, so that the way
@@ -131,26 +149,28 @@ class World {
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
                                         Statistics& statistics, Found& best) const;
   /// Whether visit(Found) ended the query.
-  template <class Visit>
   bool crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
-                   Visit& visit) const;
-  template <class Visit>
+                   VisitFound visit) const;
   [[gnu::noinline]] void crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
-                                         Visit& visit) const;
-  template <class Visit>
+                                         VisitFound visit) const;
   [[gnu::noinline]] bool meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray,
-                                       Real tMost, Faces faces, Statistics& statistics, Visit& visit) const;
-  template <class Visit>
-  [[gnu::noinline]] bool shapeCrossings(const Instance& instance, std::uint32_t object, const Ray& ray,
-                                        Real tMost, Statistics& statistics, Visit& visit) const;
+                                       Real tMost, Faces faces, Statistics& statistics,
+                                       VisitFound visit) const;
+  [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
+                                        Statistics& statistics, VisitFound visit) const;
 
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
   template <class Visit>
-  void crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost, Statistics& statistics,
+  void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
 
+  struct Forms;  ///< complete in world_queries.cpp
+  /// Takes the forms out of the shapes of all objects, to lie side by side.
+  void collectForms();
+
   std::vector<Instance> objects_;
+  std::shared_ptr<const Forms> forms_;  ///< of each object
   std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those without end, which no
                                        ///< hierarchy can hold; where there is no tree, all
@@ -174,79 +194,5 @@ struct Compiled {
 /// What is as in `before` (hierarchies, prepared shapes) is shared with it instead of made again.
 World compile(const Scene& scene, const Settings& settings, Messages& messages,
               const Compiled* before = nullptr);
-
-// ------------------------------------------------------------------------------------------------------
-
-template <class Visit>
-void World::crossingsOfShape(const Instance& instance, const Ray& ray, const Real& tMost,
-                             Statistics& statistics, const Visit& visit) const {
-  ++statistics.tests[instance.shape.index()];
-  match(instance.shape, Overloaded{[](const Mesh&) {},
-                                   [&](const auto& form) {
-                                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
-                                   }});
-}
-
-template <class Visit>
-void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, Visit&& visit) const {
-  checkBudget();
-  for (std::uint32_t object : always_) {
-    checkBudget();
-    if (object != ray.leaves && crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
-  }
-  if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
-}
-
-template <class Visit>
-void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
-                            Visit& visit) const {
-  const auto ask = [&](std::uint32_t object) {
-    return crossingsOf(object, ray, tMost, faces, statistics, visit);
-  };
-  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, ask, ray.leaves);
-}
-
-template <class Visit>
-bool World::crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces,
-                        Statistics& statistics, Visit& visit) const {
-  const Instance& instance = objects_[object];
-  const auto inItsSpace = [&](const Ray& ray) {
-    return instance.mesh ? meshCrossings(instance, object, ray, tMost, faces, statistics, visit)
-                         : shapeCrossings(instance, object, ray, tMost, statistics, visit);
-  };
-  const Placement& placement = instance.placement;
-  return placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
-}
-
-template <class Visit>
-bool World::meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
-                          Faces faces, Statistics& statistics, Visit& visit) const {
-  const MeshTree& mesh = *instance.mesh;
-  const std::size_t kind = instance.shape.index();
-  bool ended = false;
-  const auto met = [&](const MeshHit& hit) {
-    if (!sees(faces, ray, mesh.data(), hit)) return false;
-    ++statistics.hits[kind];
-    return ended = visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
-  };
-  statistics.nodes.owner = object;
-  mesh.crossings(ray, tMost, met, {statistics.nodes, statistics.tests[kind]});
-  statistics.nodes.owner = NodeCount::kTop;
-  return ended;
-}
-
-template <class Visit>
-bool World::shapeCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
-                           Statistics& statistics, Visit& visit) const {
-  bool ended = false;
-  Real wanted = tMost;
-  crossingsOfShape(instance, ray, wanted, statistics, [&](const Crossing& crossing) {
-    if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
-    ++statistics.hits[instance.shape.index()];
-    ended = visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
-    if (ended) wanted = -kInfinity;
-  });
-  return ended;
-}
 
 }  // namespace trace

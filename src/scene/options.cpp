@@ -59,13 +59,24 @@ constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
 
-template <class Variant>
-constexpr auto kKeywords = 0;
-template <class... T>
-constexpr auto kKeywords<std::variant<T...>> = std::array{T::kKeyword...};
-template <>
-constexpr auto kNames<ShapeKind> = kKeywords<Shape>;
-static_assert(kNames<ShapeKind>.size() <= 64, "more kinds than an EnumSet holds");
+/// Names that are known only at run time.
+std::span<const std::string_view> shapeNames() {
+  static const std::vector<std::string_view> kAll = [] {
+    std::vector<std::string_view> all;
+    for (const ShapeType& type : shapeTypes()) all.push_back(type.keyword);
+    return all;
+  }();
+  return kAll;
+}
+static_assert(kMostShapeTypes <= 64, "more kinds than an EnumSet holds");
+
+template <class Enum>
+std::span<const std::string_view> namesOf() {
+  if constexpr (std::is_same_v<Enum, ShapeKind>)
+    return shapeNames();
+  else
+    return kNames<Enum>;
+}
 
 constexpr std::string_view kNone = "none";  // of a set
 
@@ -134,8 +145,8 @@ void parse(const Option& option, std::string_view text, Region& value) {
 /// The value of that name, if there is one.
 template <class Enum>
 std::optional<Enum> named(std::string_view text) {
-  for (size_t i = 0; i < kNames<Enum>.size(); ++i)
-    if (kNames<Enum>[i] == text) return static_cast<Enum>(i);
+  for (size_t i = 0; i < namesOf<Enum>().size(); ++i)
+    if (namesOf<Enum>()[i] == text) return static_cast<Enum>(i);
   return {};
 }
 
@@ -149,7 +160,7 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 void parse(const Option& option, std::string_view text, Enum& value) {
   const std::optional<Enum> found = named<Enum>(text);
-  if (!found) refuse(option, alternatives(kNames<Enum>, " | "), text, didYouMean(text, kNames<Enum>));
+  if (!found) refuse(option, alternatives(namesOf<Enum>(), " | "), text, didYouMean(text, namesOf<Enum>()));
   value = *found;
 }
 
@@ -161,8 +172,8 @@ void parse(const Option& option, std::string_view text, EnumSet<Enum>& value) {
     const std::string_view name = rest.substr(0, rest.find(','));
     const std::optional<Enum> found = named<Enum>(name);
     if (!found)
-      refuse(option, "none, or some of " + alternatives(kNames<Enum>, ",") + " with commas between", text,
-             didYouMean(name, kNames<Enum>));
+      refuse(option, "none, or some of " + alternatives(namesOf<Enum>(), ",") + " with commas between", text,
+             didYouMean(name, namesOf<Enum>()));
     set.add(*found);
     if (name.size() == rest.size()) break;
     rest.remove_prefix(name.size() + 1);
@@ -179,13 +190,13 @@ std::string format(const Region& r) {
 }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string format(Enum value) {
-  return std::string(kNames<Enum>[static_cast<size_t>(value)]);
+  return std::string(namesOf<Enum>()[static_cast<size_t>(value)]);
 }
 template <class Enum>
 std::string format(const EnumSet<Enum>& set) {
   std::string text;
-  for (size_t i = 0; i < kNames<Enum>.size(); ++i)
-    if (set.has(static_cast<Enum>(i))) text += (text.empty() ? "" : ",") + std::string(kNames<Enum>[i]);
+  for (size_t i = 0; i < namesOf<Enum>().size(); ++i)
+    if (set.has(static_cast<Enum>(i))) text += (text.empty() ? "" : ",") + std::string(namesOf<Enum>()[i]);
   return text.empty() ? std::string(kNone) : text;
 }
 
@@ -237,11 +248,11 @@ struct Text {
 };
 
 template <auto Member>
-constexpr Option row(const Text& t) {
+Option row(const Text& t) {
   using T = typename MemberType<Member>::type;
   Names names;
-  if constexpr (std::is_enum_v<T>) names = kNames<T>;
-  if constexpr (kIsSet<T>) names = kNames<typename ElementOf<T>::type>;
+  if constexpr (std::is_enum_v<T>) names = namesOf<T>();
+  if constexpr (kIsSet<T>) names = namesOf<typename ElementOf<T>::type>();
   return {t.name,
           t.group,
           t.unit,
@@ -260,7 +271,7 @@ constexpr Option row(const Text& t) {
 
 constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
 
-constexpr std::array kTable{
+const std::array kTable{
     row<&Settings::width>(
         {.name = "width",
          .group = "Picture",
@@ -514,7 +525,8 @@ constexpr size_t fieldCount() {
   else
     return sizeof...(Args);
 }
-static_assert(kTable.size() == fieldCount<>(), "a field of Settings has no row in the options table, or two");
+static_assert(std::tuple_size_v<decltype(kTable)> == fieldCount<>(),
+              "a field of Settings has no row in the options table, or two");
 
 void apply(Settings& settings, const Choice& choice) {
   try {

@@ -97,6 +97,13 @@ bool editChoice(const std::string_view* names, std::size_t count, std::size_t& v
   return changed;
 }
 
+bool editValue(const FieldFacts&, EnumValue& value) {
+  std::size_t index = value.index();
+  if (!editChoice(value.names().data(), value.names().size(), index)) return false;
+  value.set(index);
+  return true;
+}
+
 bool beginList(std::size_t count) {
   constexpr std::size_t kMostUnfolded = 8;
   char label[40];

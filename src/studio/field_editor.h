@@ -12,6 +12,7 @@
 
 #include "base/field.h"
 #include "base/text.h"
+#include "geometry/field_value.h"
 #include "geometry/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
@@ -42,13 +43,12 @@ template <std::size_t N>
 bool editValue(const FieldFacts& facts, std::array<Real, N>& value) {
   return editNumbers(facts, value.data(), N);
 }
+bool editValue(const FieldFacts& facts, EnumValue& value);
 template <class Enum>
 requires std::is_enum_v<Enum>
-bool editValue(const FieldFacts&, Enum& value) {
-  static constexpr auto kNames = names(Enum{});
-  auto index = static_cast<std::size_t>(value);
-  if (!editChoice(kNames.data(), kNames.size(), index)) return false;
-  return value = static_cast<Enum>(index), true;
+bool editValue(const FieldFacts& facts, Enum& value) {
+  EnumValue any(value);
+  return editValue(facts, any);
 }
 /// A list, folded up if it is long. Each element has a button that takes it out and one that repeats it.
 template <class Element>
@@ -61,21 +61,29 @@ void endFields();
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);
 
+/// One field; calls changed(keyword) after a change. Objects are edited as objects; materials of a fractal
+/// stay as the file gave them.
+template <class Field, class Value, class Changed>
+void editField(const Field& field, Value& value, Changed&& changed) {
+  if constexpr (
+      !requires { value.list(); } && !requires { value.indices; }) {
+    const FieldFacts facts{field.unit, field.least, field.most};
+    ImGui::PushID(field.keyword.data());
+    fieldName(field.keyword, field.help, rangeText(facts));
+    if (editValue(facts, value)) changed(field.keyword);
+    ImGui::PopID();
+  }
+}
+
 /// All fields of the struct; calls changed(keyword) after a change. Between beginFields() and endFields().
 template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
-  forEachField<Struct>([&](const auto& field) {
-    auto& value = target.*field.member;
-    // Objects are edited as objects; materials of a fractal stay as the file gave them.
-    if constexpr (
-        !requires { value.list(); } && !requires { value.indices; }) {
-      const FieldFacts facts{field.unit, field.least, field.most};
-      ImGui::PushID(field.keyword.data());
-      fieldName(field.keyword, field.help, rangeText(facts));
-      if (editValue(facts, value)) changed(field.keyword);
-      ImGui::PopID();
-    }
-  });
+  forEachField<Struct>([&](const auto& field) { editField(field, target.*field.member, changed); });
+}
+/// The same of a shape.
+template <class Changed>
+void editFields(Shape& shape, Changed&& changed) {
+  editEachField(shape, [&](const AnyField& field, auto& value) { editField(field, value, changed); });
 }
 
 // ------------------------------------------------------------------------------------------------------

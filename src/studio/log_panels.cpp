@@ -100,12 +100,10 @@ void drawStatistics(Studio& studio) {
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < s.rays.size(); ++i)
     row({std::string(kRayKindNames[i]) + " rays", std::to_string(s.rays[i]), ""});
-  std::size_t kind = 0;
-  forEachType<Shape>([&]<class T>(T*) {
-    if (s.tests[kind] > 0)
-      row({std::string(T::kKeyword) + " tests", std::to_string(s.tests[kind]), std::to_string(s.hits[kind])});
-    ++kind;
-  });
+  for (const ShapeType& type : shapeTypes())
+    if (s.tests[type.index] > 0)
+      row({std::string(type.keyword) + " tests", std::to_string(s.tests[type.index]),
+           std::to_string(s.hits[type.index])});
   row({"hierarchy nodes visited", std::to_string(s.nodes.count), ""});
   ImGui::EndTable();
 }

@@ -3,8 +3,9 @@
 #include <imgui.h>
 
 #include "app/placing.h"
-#include "base/match.h"
 #include "geometry/csg_tree.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh.h"
 #include "studio/field_editor.h"
 #include "studio/number_field.h"
 #include "studio/studio.h"
@@ -84,10 +85,11 @@ void editMaterialOf(Studio& studio, const std::string& name, std::uint32_t& mate
 }
 
 /// The objects of a solid of solids, each folded up.
-void editOperands(Studio& studio, Operands& operands, std::uint32_t material, const Changed& changed) {
-  const std::vector<Operand>& now = operands.list();
+void editOperands(Studio& studio, Shape& whole, std::uint32_t material, const Changed& changed) {
+  const Operands shown = whole.operands();
+  const std::vector<Operand>& now = shown.list();
   const auto become = [&](std::vector<Operand> list, const std::string& what) {
-    operands = Operands(std::move(list));
+    whole.setOperands(Operands(std::move(list)));
     changed(what);
   };
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -117,7 +119,7 @@ void editOperands(Studio& studio, Operands& operands, std::uint32_t material, co
         editPlacedShape(studio, {operand.name, operand.shape, operand.wholeFromOperand, operand.material},
                         [&](const std::string& what) {
                           gone = true;
-                          std::vector<Operand> list = operands.list();
+                          std::vector<Operand> list = whole.operands().list();
                           list[i] = operand;
                           become(std::move(list), what);
                         });
@@ -130,7 +132,7 @@ void editOperands(Studio& studio, Operands& operands, std::uint32_t material, co
   if (ImGui::SmallButton("Add to it...")) ImGui::OpenPopup("add operand");
   if (!ImGui::BeginPopup("add operand")) return;
   shapeMenu([&](Shape shape) {
-    std::vector<Operand> list = operands.list();
+    std::vector<Operand> list = whole.operands().list();
     const std::string name = nameOf("", shape);
     list.push_back({"", std::move(shape), {}, material});
     become(std::move(list), "add " + name);
@@ -141,7 +143,7 @@ void editOperands(Studio& studio, Operands& operands, std::uint32_t material, co
 }  // namespace
 
 std::string nameOf(const std::string& name, const Shape& shape) {
-  return name.empty() ? std::string(match(shape, [](const auto& s) { return s.kKeyword; })) : name;
+  return name.empty() ? std::string(shape.keyword()) : name;
 }
 
 void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed) {
@@ -150,29 +152,26 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
     fieldName("name", "what messages and the panels call it");
     if (editValue({}, placed.name)) changed("name");
     editMaterialOf(studio, name, placed.material, changed);
-    match(placed.shape, [&](auto& shape) {
-      editFields(shape, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
-    });
+    editFields(placed.shape, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
     endFields();
   }
-  match(placed.shape, [&](auto& shape) {
-    if constexpr (requires { shape.objects.list(); }) {
-      ImGui::TextDisabled("%s", std::string(std::get<0>(shape.fields()).help).c_str());
-      editOperands(studio, shape.objects, placed.material, changed);
-    }
-  });
+  if (placed.shape.type().ofObjects) {
+    for (const AnyField& field : fieldsOf(placed.shape))
+      if (std::holds_alternative<Operands*>(field.value))
+        ImGui::TextDisabled("%s", std::string(field.help).c_str());
+    editOperands(studio, placed.shape, placed.material, changed);
+  }
   if (!beginFields("place")) return;
   editTransform(studio, placed.transform, name, changed);
   endFields();
 }
 
 void shapeMenu(const std::function<void(Shape)>& chosen) {
-  forEachType<Shape>([&]<class T>(T*) {
-    if constexpr (!std::is_same_v<T, Mesh>) {
-      if (ImGui::MenuItem(std::string(T::kKeyword).c_str())) chosen(T{});
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(T::kHelp).c_str());
-    }
-  });
+  for (const ShapeType& type : shapeTypes()) {
+    if (type.keyword == Mesh::kKeyword) continue;
+    if (ImGui::MenuItem(std::string(type.keyword).c_str())) chosen(Shape(type));
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(type.help).c_str());
+  }
 }
 
 }  // namespace trace::studio

@@ -8,6 +8,7 @@
 #include "app/edits.h"
 #include "app/placing.h"
 #include "base/match.h"
+#include "geometry/mesh.h"
 #include "studio/field_editor.h"
 #include "studio/object_editor.h"
 #include "studio/panels.h"
@@ -127,9 +128,8 @@ bool deleteButton() {
 void editObject(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   Object object = studio.workspace.document.scene().objects[index];
-  match(object.shape,
-        [&](const auto& shape) { heading(studio, entryName(object), shape.kHelp, object.place); });
-  if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+  heading(studio, entryName(object), object.shape.type().help, object.place);
+  if (const auto* mesh = object.shape.as<Mesh>())
     ImGui::Text("%zu triangles, %zu points", mesh->data->triangles.size(), mesh->data->points.size());
   if (ImGui::Button("Duplicate")) {
     object.place = {};

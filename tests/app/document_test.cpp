@@ -7,7 +7,10 @@
 
 #include "app/folder.h"
 #include "app/preferences.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/torus.h"
 #include "image/codec.h"
 #include "support/paths.h"
 #include "support/scene_files.h"
@@ -150,22 +153,23 @@ difference { box { } sphere { name = "hole"; } }
   Document document;
   document.open(path("solids.ray"));
   Scene scene = document.scene();
-  auto& sweep = std::get<SphereSweep>(scene.objects.at(0).shape);
-  sweep.points.push_back({3, 1, 0, 0.1}), sweep.spline = Spline::catmull;
-  auto& whole = std::get<Difference>(scene.objects.at(1).shape);
+  auto& sweep = *scene.objects.at(0).shape.edit<SphereSweep>();
+  sweep.points.push_back({3, 1, 0, 0.1});
+  sweep.spline = Spline::catmull;
+  auto& whole = *scene.objects.at(1).shape.edit<Difference>();
   std::vector<Operand> operands = whole.objects.list();
   operands.at(1).wholeFromOperand = Affine::translation({0.5, 0, 0});
   operands.push_back({"bite", Torus{}, {}, operands.at(0).material});
   whole.objects = Operands(operands);
   document.edit("solids", scene);
   document.undo();
-  EXPECT_EQ(std::get<Difference>(document.scene().objects.at(1).shape).objects.list().size(), 2u);
+  EXPECT_EQ(document.scene().objects.at(1).shape.as<Difference>()->objects.list().size(), 2u);
   document.redo();
   document.save(path("saved.ray"));
   Document again;
   again.open(path("saved.ray"));
   EXPECT_EQ(again.scene().objects.at(0).shape, scene.objects.at(0).shape);
-  EXPECT_EQ(std::get<Difference>(again.scene().objects.at(1).shape).objects.list().size(), 3u);
+  EXPECT_EQ(again.scene().objects.at(1).shape.as<Difference>()->objects.list().size(), 3u);
   EXPECT_EQ(again.scene().objects.at(1).shape, scene.objects.at(1).shape);
 }
 

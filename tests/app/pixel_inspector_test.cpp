@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "geometry/sphere.h"
 #include "support/scenes.h"
 
 namespace trace::test {

@@ -8,6 +8,10 @@
 #include "app/orbit_camera.h"
 #include "app/scene_model.h"
 #include "app/session.h"
+#include "geometry/plane.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
+#include "geometry/torus.h"
 #include "support/random.h"
 #include "support/scenes.h"
 

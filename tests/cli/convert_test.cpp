@@ -54,6 +54,27 @@ TEST_F(Convert, TurnsAProfile) {
   EXPECT_FALSE(exists("wrong.ply"));
 }
 
+TEST_F(Convert, WritesNothingWhereOneOfItsFilesCannotBeWritten) {
+  write("kept.obj", "precious");
+  std::filesystem::create_directory(path("kept.mtl"));
+  const auto refused = run({"convert", "tri.off", "kept.obj"});
+  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_TRUE(refused.last.starts_with("nothing written")) << refused.last;
+  EXPECT_EQ(read("kept.obj"), "precious");
+}
+
+TEST_F(Convert, TakesTheMomentThatTheSceneChooses) {
+  const std::string scene =
+      "SBT-raytracer 1.0\ncamera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }\n"
+      "settings { time = 2; }\ntranslate(key((0, 0), (2, 0.5)), 0, 0, sphere { })\n";
+  write("moving.ray", scene);
+  const auto converted = run({"convert", "moving.ray", "still.ray"});
+  EXPECT_EQ(converted.code, 0) << converted.err;
+  EXPECT_TRUE(test::contains(converted.err, "what changes with time is written as it is at 2 s"))
+      << converted.err;
+  EXPECT_TRUE(test::contains(read("still.ray"), "translate(0.5, 0, 0")) << read("still.ray");
+}
+
 TEST_F(Convert, SaysWhatItCannotDo) {
   write("endless.ray", "SBT-raytracer 1.0 plane { }");
   EXPECT_EQ(run({"convert", "tri.off"}).code, 2);

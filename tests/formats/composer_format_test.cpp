@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "formats/composer_file.h"
+#include "geometry/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 

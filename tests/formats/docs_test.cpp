@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/match.h"
 #include "formats/format.h"
+#include "geometry/field_value.h"
 #include "scene/conventions.h"
 #include "scene/scene.h"
 #include "support/paths.h"
@@ -26,7 +27,13 @@ void expectDocumented(const std::string& text) {
 
 TEST(Docs, NameEveryNodeAndField) {
   const std::string text = page("ray-format.md") + page("shapes.md");
-  forEachType<Shape>([&]<class S>(S*) { expectDocumented<S>(text); });
+  for (const ShapeType& type : shapeTypes()) {
+    const std::string node = "`" + std::string(type.keyword) + "`";
+    EXPECT_NE(text.find(node), std::string::npos) << node;
+    for (const AnyField& field : fieldsOf(Shape(type)))
+      EXPECT_NE(text.find("`" + std::string(field.keyword) + "`"), std::string::npos)
+          << node << " " << field.keyword;
+  }
   forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
   forEachType<MaterialModel>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
   expectDocumented<Camera>(text + "`camera`");

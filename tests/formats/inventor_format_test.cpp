@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "geometry/cone.h"
+#include "geometry/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/shapes.h"
@@ -145,7 +147,7 @@ TEST(Inventor, ConesAndCylindersStandAlongY) {
   expectNear(scene.objects[0].worldFromObject * Vec3{0, 0, 1}, {0, 2, 0});
   expectNear(scene.objects[0].worldFromObject * Vec3{1, 0, 0}, {2, -2, 0});
   expectNear(scene.objects[1].worldFromObject * Vec3{0, 0, 0}, {0, -3, 0});
-  EXPECT_FALSE(std::get<Cylinder>(scene.objects[1].shape).capped);
+  EXPECT_FALSE(scene.objects[1].shape.as<Cylinder>()->capped);
   EXPECT_EQ(sceneIn(shape("Cylinder { top FALSE }")).objects.size(), 2u) << "the side and a lid";
 }
 

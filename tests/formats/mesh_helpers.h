@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "formats/format.h"
+#include "geometry/mesh.h"
 #include "ray_helpers.h"
 
 namespace trace {
@@ -23,7 +24,7 @@ inline Scene sceneIn(std::string_view bytes) {
 
 /// The mesh of the object.
 inline const MeshData& meshOf(const Scene& scene, std::size_t object = 0) {
-  return *std::get<Mesh>(scene.objects.at(object).shape).data;
+  return *scene.objects.at(object).shape.as<Mesh>()->data;
 }
 
 /// The warnings of reading the bytes, one per line.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "geometry/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 

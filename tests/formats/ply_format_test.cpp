@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/file.h"
+#include "geometry/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/random.h"
@@ -208,7 +209,7 @@ TEST(Ply, ReadsTheLargeMeshesInTime) {
   const Model model = readModel(file, readFile(file), messages);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("871414 triangles in %.0f ms of processor time\n", 1000 * seconds);
-  const MeshData& mesh = *std::get<Mesh>(model.objects.at(0).shape).data;
+  const MeshData& mesh = *model.objects.at(0).shape.as<Mesh>()->data;
   EXPECT_EQ(mesh.points.size(), 437645u);
   EXPECT_EQ(mesh.triangles.size() + 108, 871414u) << "all but those without area";
   EXPECT_LT(seconds, test::kSanitized ? 20 : 1);

@@ -67,7 +67,7 @@ S onlyShape(std::string_view text) {
   const Loaded loaded = load(text);
   EXPECT_EQ(loaded.scene.objects.size(), 1u) << text;
   if (loaded.scene.objects.size() != 1) return {};
-  const S* shape = std::get_if<S>(&loaded.scene.objects[0].shape);
+  const S* shape = loaded.scene.objects[0].shape.as<S>();
   EXPECT_NE(shape, nullptr) << text;
   return shape ? *shape : S{};
 }

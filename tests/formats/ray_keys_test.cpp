@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/ray_format.h"
+#include "geometry/mesh.h"
 #include "math/keyframes.h"
 #include "ray_helpers.h"
 
@@ -82,7 +83,7 @@ settings { spp = key((0, 1), (2, 9)); }
             Affine::translation({3, 0, 0}) * Affine::rotation({0, 0, 1}, 1.5));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0.5, 0.5, 0));
   EXPECT_EQ(phongOf(scene, 0).shininess, 3);
-  EXPECT_EQ(std::get<Mesh>(scene.objects.at(1).shape).data->points[1], (Vec3f{2, 0, 0}));
+  EXPECT_EQ(scene.objects.at(1).shape.as<Mesh>()->data->points[1], (Vec3f{2, 0, 0}));
   EXPECT_EQ(scene.choices.at(0).value, "5");
 }
 

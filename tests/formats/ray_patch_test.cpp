@@ -14,7 +14,11 @@
 #include "base/match.h"
 #include "formats/ray_format.h"
 #include "formats/ray_same.h"
+#include "geometry/cone.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
+#include "geometry/sphere.h"
+#include "geometry/torus.h"
 #include "support/paths.h"
 #include "support/shared.h"
 
@@ -63,7 +67,7 @@ Phong& phong(Scene& scene, std::size_t material) {
 }
 template <class S>
 S& shape(Scene& scene, std::size_t object) {
-  return std::get<S>(scene.objects.at(object).shape);
+  return *scene.objects.at(object).shape.edit<S>();
 }
 Affine& placed(Scene& scene, std::size_t object) { return scene.objects.at(object).worldFromObject; }
 
@@ -169,7 +173,7 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
       });
     std::set<std::size_t> kinds;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-      if (!standsAlone(scene, i) || !kinds.insert(scene.objects[i].shape.index()).second) continue;
+      if (!standsAlone(scene, i) || !kinds.insert(scene.objects[i].shape.type().index).second) continue;
       if (kinds.size() > 3) break;
       const std::string object = "object " + std::to_string(i);
       const std::string name = scene.objects[i].name + "x";

@@ -7,6 +7,10 @@
 #include <filesystem>
 #include <string>
 
+#include "base/match.h"
+#include "geometry/height_field.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/shapes.h"
@@ -66,11 +70,10 @@ void expectEqual(const Scene& a, const Scene& b, const std::string& name) {
     EXPECT_EQ(x.worldFromObject, y.worldFromObject) << name << " object " << i;
     const Material& material = a.materials.at(x.material);
     EXPECT_EQ(material, named(b.materials.at(y.material), material)) << name << " object " << i;
-    ASSERT_EQ(x.shape.index(), y.shape.index()) << name << " object " << i;
-    const auto* mesh = std::get_if<Mesh>(&x.shape);
+    ASSERT_EQ(x.shape.keyword(), y.shape.keyword()) << name << " object " << i;
+    const auto* mesh = x.shape.as<Mesh>();
     if (mesh)
-      EXPECT_EQ(unfolded(a, *mesh->data), unfolded(b, *std::get<Mesh>(y.shape).data))
-          << name << " object " << i;
+      EXPECT_EQ(unfolded(a, *mesh->data), unfolded(b, *y.shape.as<Mesh>()->data)) << name << " object " << i;
     else
       EXPECT_EQ(x.shape, y.shape) << name << " object " << i;
   }
@@ -117,7 +120,7 @@ TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
   scene.materials.push_back({"", Phong{}, {}});
   test::Random random(5);
   for (const Shape& shape : test::analyticShapes()) {
-    const auto* heights = std::get_if<HeightField>(&shape);
+    const auto* heights = shape.as<HeightField>();
     if (heights && heights->file.grid) continue;  // the picture would have to be there; RayFormat reads one
     scene.objects.push_back({"shape", shape, random.affine(3), 0, {}});
   }

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "formats/format.h"
 #include "formats/ray_writer.h"
+#include "geometry/mesh.h"
 #include "mesh_helpers.h"
 #include "support/folder.h"
 #include "support/paths.h"
@@ -92,7 +93,7 @@ std::size_t lines(const std::vector<NamedBytes>& files) {
 std::size_t triangles(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects)
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) count += mesh->data->triangles.size();
+    if (const auto* mesh = object.shape.as<Mesh>()) count += mesh->data->triangles.size();
   return count;
 }
 

@@ -26,8 +26,7 @@ std::pair<std::size_t, std::size_t> heldBy(const trace::SceneFormat& format, con
     const trace::Scene back = trace::readScene(file, bytes, messages);
     held.first = back.objects.size();
     for (const trace::Object& object : back.objects)
-      if (const auto* mesh = std::get_if<trace::Mesh>(&object.shape))
-        held.second += mesh->data->triangles.size();
+      if (const auto* mesh = object.shape.as<trace::Mesh>()) held.second += mesh->data->triangles.size();
   } catch (const trace::Error&) {
     // Numbers beyond those of floats become infinite, and such a file is refused.
   }

@@ -1,9 +1,25 @@
 // Solids joined by fillets.
+#include "geometry/blend.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "base/error.h"
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/csg.h"
+#include "geometry/csg_tree.h"
+#include "geometry/cube.h"
+#include "geometry/materials.h"
+#include "geometry/menger.h"
+#include "geometry/plane.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
+#include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/torus.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

@@ -1,7 +1,17 @@
 // Union, intersection, difference and clip.
+#include "geometry/csg.h"
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "geometry/cone.h"
+#include "geometry/csg_tree.h"
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/plane.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

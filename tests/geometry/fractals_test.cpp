@@ -4,6 +4,14 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "geometry/copies.h"
+#include "geometry/julia.h"
+#include "geometry/mandelbox.h"
+#include "geometry/mandelbulb.h"
+#include "geometry/materials.h"
+#include "geometry/menger.h"
+#include "geometry/plant.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

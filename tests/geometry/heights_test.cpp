@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "geometry/bezier_patches.h"
+#include "geometry/height_field.h"
+#include "geometry/terrain.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "geometry/mesh.h"
 #include "geometry/mesh_repair.h"
 #include "support/shapes.h"
 

@@ -1,3 +1,5 @@
+#include "geometry/mesh.h"
+
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "geometry/mesh.h"
 #include "geometry/presplit.h"
 #include "support/shapes.h"
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
 #include "support/shapes.h"
 
 namespace trace {

@@ -1,6 +1,10 @@
 // Balls of haze: what a ray passes through, against the integral of the density.
+#include "geometry/puff.h"
+
 #include <gtest/gtest.h>
 
+#include "geometry/materials.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

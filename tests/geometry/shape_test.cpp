@@ -1,6 +1,26 @@
 // What must hold for every shape on the list.
 #include <gtest/gtest.h>
 
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/copies.h"
+#include "geometry/cube.h"
+#include "geometry/height_field.h"
+#include "geometry/isosurface.h"
+#include "geometry/julia.h"
+#include "geometry/lathe.h"
+#include "geometry/menger.h"
+#include "geometry/metaballs.h"
+#include "geometry/plane.h"
+#include "geometry/prism.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
+#include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/superellipsoid.h"
+#include "geometry/supertoroid.h"
+#include "geometry/torus.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {
@@ -252,7 +272,7 @@ TEST(Shapes, ConeWithEqualRadiiIsACylinder) {
   Random random(7);
   const Cone cone{.height = 1, .bottomRadius = 1, .topRadius = 1};
   for (int i = 0; i < kRays; ++i) {
-    const Ray ray = rayToward(boundsOf(cone), random);
+    const Ray ray = rayToward(boundsOf(prepare(cone)), random);
     const auto a = crossingsOf(cone, ray), b = crossingsOf(Cylinder{}, ray);
     ASSERT_EQ(a.size(), b.size());
     for (size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].t, b[k].t);
@@ -264,7 +284,7 @@ TEST(Conic, IsTheConeThatBeginsAtZero) {
   const Cone cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5};
   const Conic conic{.bottomRadius = 1, .topRadius = 0.5, .zMin = -4, .zMax = -2};
   for (int i = 0; i < kRays; ++i) {
-    const Ray ray = rayToward(boundsOf(cone), random);
+    const Ray ray = rayToward(boundsOf(prepare(cone)), random);
     const Ray below{ray.origin - Vec3{0, 0, 4}, ray.direction};
     const auto a = crossingsOf(cone, ray), b = crossingsOf(conic, below);
     ASSERT_EQ(a.size(), b.size());

@@ -1,8 +1,12 @@
 // Profiles carried along paths, against what is known of them.
+#include "geometry/sweep.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "geometry/prism.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

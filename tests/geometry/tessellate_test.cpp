@@ -4,6 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "base/match.h"
+#include "geometry/cone.h"
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {
@@ -39,7 +47,7 @@ double crossingsAlong(const Shape& shape, const Box3& box, int axis) {
 TEST(Tessellate, EveryShapeHasTrianglesWithinItsBounds) {
   for (const Shape& shape : analyticShapes()) {
     const auto corners = tessellate(shape, 16);
-    const std::string_view name = match(shape, [](const auto& s) { return s.kKeyword; });
+    const std::string_view name = shape.keyword();
     ASSERT_FALSE(corners.empty()) << name;
     const Box3 bounds = drawnBounds(shape);
     const double size = maxComponent(bounds.size());
@@ -57,7 +65,7 @@ TEST(Tessellate, ShapesHaveTheirBoundsAndTheirArea) {
   const std::vector<Shape> shapes{Sphere{}, Cube{}, Square{}, Cylinder{}, Cone{}, Ellipsoid{}, RoundedBox{}};
   for (const Shape& shape : shapes) {
     const auto corners = tessellate(shape, 32);
-    const std::string_view name = match(shape, [](const auto& s) { return s.kKeyword; });
+    const std::string_view name = shape.keyword();
     Box3 box;
     for (const SurfaceCorner& corner : corners) box.extend(corner.point);
     const Box3 bounds = boundsOf(prepare(shape));

@@ -3,6 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/cube.h"
+#include "geometry/lathe.h"
+#include "geometry/metaballs.h"
+#include "geometry/plane.h"
+#include "geometry/prism.h"
+#include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
+#include "geometry/sphere.h"
+#include "geometry/sphere_sweep.h"
+#include "geometry/square.h"
+#include "geometry/superellipsoid.h"
+#include "geometry/torus.h"
+#include "geometry/traced.h"
 #include "support/shapes.h"
 
 namespace trace::test {

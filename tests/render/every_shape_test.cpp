@@ -4,6 +4,14 @@
 // which each ray takes long (sentOf).
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "base/match.h"
+#include "geometry/csg.h"
+#include "geometry/cube.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh.h"
+#include "geometry/traced.h"
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -22,14 +30,11 @@ constexpr std::array<double, 5> kScales{1e-4, 1e-2, 1.0, 1e3, 1e6};
 std::vector<Shape> casesOf(const std::string& keyword) {
   std::vector<Shape> cases;
   Random random(1);
-  forEachType<Shape>([&]<class S>(S*) {
-    if (S::kKeyword != keyword) return;
-    if constexpr (std::is_same_v<S, Mesh>)
-      cases.push_back(Mesh{ballMesh(10, random)});
-    else
-      for (const S& sample : samplesOf<S>()) cases.push_back(sample);
-  });
-  const bool solid = std::holds_alternative<Mesh>(cases[0]) || isSolid(prepare(cases[0]));
+  if (keyword == Mesh::kKeyword)
+    cases.push_back(Mesh{ballMesh(10, random)});
+  else
+    cases = samplesOf(*findShapeType(keyword));
+  const bool solid = cases[0].is<Mesh>() || isSolid(prepare(cases[0]));
   const Operands operands(
       {{"", cases[0], {}, 0},
        {"", Cube{}, Affine::translation({0.4, 0.3, 0.2}) * Affine::rotation({1, 2, 3}, 1), 0}});
@@ -47,7 +52,7 @@ struct Place {
     box = scene.objects[0].worldFromObject * closeBoundsOf(prepare(shape));
     size = length(box.size());
     endless = !isFinite(boundsOf(prepare(shape)).size());
-    mesh = std::holds_alternative<Mesh>(shape);
+    mesh = shape.is<Mesh>();
     away = size * std::pow(10.0, view.least < view.most ? random.uniform(view.least, view.most) : view.least);
   }
   Ray rayToward(Random& random) const {
@@ -77,19 +82,24 @@ struct Place {
   bool solid, endless = false, mesh = false;
 };
 
+/// Escape-time fractals: the finest threads of them are missed by some rays (docs/shapes.md, Fractals).
+bool hasThreads(const ShapeType& type) {
+  for (const AnyField& field : fieldsOf(Shape(type)))
+    if (field.keyword == "trap") return true;
+  return false;
+}
+
 /// Of so many rays, how many are sent: a million take these shapes longer than the few seconds that the
 /// ordinary tests have for each.
 int sentOf(const Shape& shape, int rays) {
   if (thorough()) return rays;
-  return match(shape, [&]<class S>(const S&) {
-    if constexpr (requires(S s) { s.trap; }) return rays / 100;
-    if constexpr (std::is_same_v<S, Blend> || std::is_same_v<S, Isosurface> || std::is_same_v<S, Supertoroid>)
-      return rays / 10;
-    if constexpr (std::is_same_v<S, HeightField> || std::is_same_v<S, Terrain> || std::is_same_v<S, Sweep> ||
-                  std::is_same_v<S, SphereSweep> || std::is_same_v<S, BezierPatches>)
-      return rays / 4;
-    return rays;
-  });
+  if (hasThreads(shape.type())) return rays / 100;
+  const auto isOneOf = [&](const std::set<std::string_view>& keywords) {
+    return keywords.contains(shape.keyword());
+  };
+  if (isOneOf({"blend", "isosurface", "supertoroid"})) return rays / 10;
+  if (isOneOf({"height_field", "terrain", "sweep", "sphere_sweep", "bezier_patches"})) return rays / 4;
+  return rays;
 }
 
 /// Calls test(place, random) until it has sent the rays that it is to; it returns how many it has.
@@ -173,11 +183,7 @@ TEST_P(EveryShape, IsMetInAndOutInTurnFromAfar) { isMetInTurn(GetParam(), kAfar)
 /// From just outside the error of a hit the surface is met again within it straight back, which shows that it
 /// is there, and not in any direction onward, even the most grazing.
 void liesWithinItsError(const std::string& keyword, const View& view) {
-  // The finest threads of escape-time fractals are missed by some rays (docs/shapes.md, Fractals).
-  bool threads = false;
-  forEachType<Shape>([&]<class S>(S*) {
-    threads = threads || (S::kKeyword == keyword && requires(S shape) { shape.trap; });
-  });
+  const bool threads = hasThreads(*findShapeType(keyword));
   int missed = 0, hits = 0;
   inManyPlaces(keyword, view, 3, [&](const Place& place, Random& random, int k) {
     const Ray ray = place.rayToward(random);
@@ -221,7 +227,7 @@ TEST_P(EveryShape, LiesWithinItsErrorAndLetsRaysLeaveFromAfar) { liesWithinItsEr
 
 std::vector<std::string> keywords() {
   std::vector<std::string> all;
-  forEachType<Shape>([&]<class S>(S*) { all.emplace_back(S::kKeyword); });
+  for (const ShapeType& type : shapeTypes()) all.emplace_back(type.keyword);
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(keywords()),

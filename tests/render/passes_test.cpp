@@ -5,6 +5,8 @@
 
 #include <cstring>
 
+#include "geometry/sphere.h"
+#include "geometry/square.h"
 #include "scene/options.h"
 #include "support/scenes.h"
 

@@ -5,6 +5,11 @@
 
 #include <cstring>
 
+#include "geometry/cone.h"
+#include "geometry/csg.h"
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/square.h"
 #include "render/explain.h"
 #include "render/visited_boxes.h"
 #include "support/scenes.h"
@@ -129,7 +134,7 @@ TEST(RayTree, VisitedBoxesAreThoseThatWereCountedAndTheRayMeetsThem) {
         for (size_t i = 0; i < boxes.size(); ++i) {
           const VisitedBox& box = boxes[i];
           const bool top = box.object == NodeCount::kTop;
-          ASSERT_TRUE(top || std::holds_alternative<Mesh>(scene.objects[box.object].shape));
+          ASSERT_TRUE(top || scene.objects[box.object].shape.is<Mesh>());
           ++(top ? ofObjects : ofMeshes);
           if (i == 0 || boxes[i - 1].object != box.object) continue;  // a root is visited unseen
           // In the box's own space, the ray's line meets the box.
@@ -245,7 +250,7 @@ TEST(RayTree, NamesTheMaterialsOfWhatFiltersOrBlocksAShadowRay) {
   const RayTree lit = explainPixel(scene, kOnePixel, 0, 0).tree;
   ASSERT_EQ(lit.nodes.at(1).filters.size(), 2u);
   EXPECT_EQ(materialNames(scene, lit.nodes[1].filters[0].materials), "glass");
-  std::get<Union>(scene.objects[1].shape) = Union{Operands({{"", Cube{}, {}, 1}})};
+  scene.objects[1].shape = Union{Operands({{"", Cube{}, {}, 1}})};
   const RayTree dark = explainPixel(scene, kOnePixel, 0, 0).tree;
   EXPECT_EQ(materialNames(scene, std::get<Blocked>(dark.nodes.at(1).ends.at(0)).materials), "dark");
 }

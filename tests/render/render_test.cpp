@@ -3,6 +3,9 @@
 
 #include <cstring>
 
+#include "geometry/cube.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
 #include "render/integrator.h"
 #include "render/passes.h"
 #include "support/scenes.h"

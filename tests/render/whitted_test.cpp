@@ -1,6 +1,10 @@
 // Values of recursive ray tracing that can be worked out by hand.
 #include <gtest/gtest.h>
 
+#include "geometry/cube.h"
+#include "geometry/mesh.h"
+#include "geometry/sphere.h"
+#include "geometry/square.h"
 #include "render/integrator.h"
 #include "shading/optics.h"
 #include "support/scenes.h"

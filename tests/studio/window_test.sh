@@ -109,6 +109,7 @@ drop plain.png
 set width 160
 wait
 view 4
+save-scene kept.ray
 drop bad.ray
 set width 40
 wait

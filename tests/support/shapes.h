@@ -9,7 +9,21 @@
 #include <vector>
 
 #include "base/match.h"
+#include "geometry/bezier_patches.h"
+#include "geometry/cone.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
+#include "geometry/cube.h"
+#include "geometry/field_value.h"
+#include "geometry/julia.h"
+#include "geometry/mandelbox.h"
+#include "geometry/mandelbulb.h"
+#include "geometry/mesh.h"
+#include "geometry/plant.h"
+#include "geometry/prism.h"
+#include "geometry/sphere.h"
+#include "geometry/terrain.h"
+#include "geometry/traced.h"
 #include "support/random.h"
 
 namespace trace::test {
@@ -82,13 +96,6 @@ inline std::vector<std::vector<BezierPatches::Points>> variations(
 inline std::vector<std::array<Real, 4>> variations(const std::array<Real, 4>& v) {
   return {{v[0] * 0.75, v[1] * 0.75, v[2] + 0.125, v[3]}};
 }
-/// Every name of an enum.
-template <class Enum>
-requires std::is_enum_v<Enum> std::vector<Enum> variations(Enum) {
-  std::vector<Enum> all;
-  for (std::size_t i = 0; i < names(Enum{}).size(); ++i) all.push_back(static_cast<Enum>(i));
-  return all;
-}
 /// Lists of tuples: squeezed.
 template <std::size_t N>
 std::vector<std::vector<std::array<Real, N>>> variations(std::vector<std::array<Real, N>> list) {
@@ -101,47 +108,64 @@ inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Pri
 inline std::vector<Operands> variations(const Operands&) { return {}; }
 inline std::vector<MaterialList> variations(const MaterialList&) { return {{{0, 0}}}; }
 
-/// Something to see of the shape: its default, where that is not empty and soon met.
-template <class S>
-S typical() {
-  S shape;
-  if constexpr (std::is_same_v<S, Clip>)
-    shape.objects = Operands({{"", Sphere{}, {}, 0}, {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0}});
-  else if constexpr (requires { shape.trap; })
-    shape.iterations = 4;
-  else if constexpr (std::is_same_v<S, Plant>)
-    shape.iterations = 3, shape.radius = 0.1;
-  else if constexpr (std::is_same_v<S, Terrain>)
-    shape.points = 33, shape.octaves = 4;
-  else if constexpr (requires { shape.objects; })
-    shape.objects =
-        Operands({{"", Sphere{}, {}, 0},
-                  {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0},
-                  {"", Cylinder{}, Affine::translation({0, 0, -0.4}) * Affine::scaling({0.5, 0.5, 1}), 0}});
+/// Something to see of a shape of that type: its default, where that is not empty and soon met.
+inline Shape typical(const ShapeType& type) {
+  Shape shape(type);
+  if (type.ofObjects) {
+    std::vector<Operand> operands{{"", Sphere{}, {}, 0},
+                                  {"", Cube{}, Affine::translation({0.3, 0.2, 0.6}), 0}};
+    if (!shape.is<Clip>())
+      operands.push_back(
+          {"", Cylinder{}, Affine::translation({0, 0, -0.4}) * Affine::scaling({0.5, 0.5, 1}), 0});
+    shape.setOperands(Operands(std::move(operands)));
+  }
+  if (auto* fractal = shape.edit<Julia>()) fractal->iterations = 4;
+  if (auto* fractal = shape.edit<Mandelbulb>()) fractal->iterations = 4;
+  if (auto* fractal = shape.edit<Mandelbox>()) fractal->iterations = 4;
+  if (auto* plant = shape.edit<Plant>()) {
+    plant->iterations = 3;
+    plant->radius = 0.1;
+  }
+  if (auto* terrain = shape.edit<Terrain>()) {
+    terrain->points = 33;
+    terrain->octaves = 4;
+  }
   return shape;
 }
 
-/// The typical shape, and one with each field changed.
-template <class S>
-std::vector<S> samplesOf() {
-  std::vector<S> samples{typical<S>()};
-  forEachField<S>([&](const auto& field) {
-    S changed = typical<S>();
-    for (const auto& value : variations(changed.*field.member)) {
-      changed.*field.member = value;
-      samples.push_back(changed);
+/// The shape with each other value of the field of that number, one at a time.
+inline std::vector<Shape> varied(const Shape& shape, std::size_t field) {
+  std::vector<Shape> all;
+  match(fieldsOf(shape)[field].value, [&](const auto& value) {
+    if constexpr (requires { *value; }) {
+      for (const auto& other : variations(*value)) {
+        all.push_back(shape);
+        *std::get<std::remove_cvref_t<decltype(value)>>(all.back().editFields()[field].value) = other;
+      }
+    } else {
+      for (std::size_t i = 0; i < value.names().size(); ++i) {
+        all.push_back(shape);
+        std::get<EnumValue>(all.back().editFields()[field].value).set(i);
+      }
     }
   });
+  return all;
+}
+
+/// The typical shape, and one with each field changed.
+inline std::vector<Shape> samplesOf(const ShapeType& type) {
+  std::vector<Shape> samples{typical(type)};
+  for (std::size_t field = 0; field < fieldsOf(samples[0]).size(); ++field)
+    for (Shape& other : varied(samples[0], field)) samples.push_back(std::move(other));
   return samples;
 }
 
 /// Those of all analytic shapes.
 inline std::vector<Shape> analyticShapes() {
   std::vector<Shape> shapes;
-  forEachType<Shape>([&]<class S>(S*) {
-    if constexpr (!std::is_same_v<S, Mesh>)
-      for (const S& sample : samplesOf<S>()) shapes.push_back(sample);
-  });
+  for (const ShapeType& type : shapeTypes())
+    if (type.keyword != Mesh::kKeyword)
+      for (Shape& sample : samplesOf(type)) shapes.push_back(std::move(sample));
   return shapes;
 }
 
@@ -149,39 +173,28 @@ inline std::vector<Shape> analyticShapes() {
 /// shape end within a few seconds. `./dev test thorough` sends all.
 inline int raysFor(const Shape& shape, int rays) {
   if (thorough()) return rays;
-  return match(shape, [&]<class S>(const S& s) {
-    if constexpr (std::is_same_v<S, Mandelbulb> || std::is_same_v<S, Mandelbox>) return rays / 20;
-    if constexpr (std::is_same_v<S, Julia>) return s.iteration >= Iteration::sine ? rays / 50 : rays;
-    return rays;
-  });
+  if (shape.is<Mandelbulb>() || shape.is<Mandelbox>()) return rays / 20;
+  const auto* julia = shape.as<Julia>();
+  return julia && julia->iteration >= Iteration::sine ? rays / 50 : rays;
 }
 
-inline std::string nameOf(const Shape& shape) {
-  return std::string(match(shape, [](const auto& s) { return s.kKeyword; }));
-}
+inline std::string nameOf(const Shape& shape) { return std::string(shape.keyword()); }
 
 /// In order along the ray.
 inline std::vector<Crossing> crossingsOf(const TracedShape& shape, const Ray& ray) {
   std::vector<Crossing> found;
-  const Range everywhere{-kInfinity, kInfinity};
-  match(shape, Overloaded{[](const Mesh&) {},
-                          [&](const auto& s) {
-                            visitCrossings(formOf(s), ray, everywhere,
-                                           [&](const Crossing& c) { found.push_back(c); });
-                          }});
+  const auto add = [&](const Crossing& c) { found.push_back(c); };
+  const Real everywhere = kInfinity;
+  shape.crossings(ray, Range{-kInfinity, everywhere}, add);
   std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
   return found;
 }
 
 inline SurfacePoint surfaceOf(const TracedShape& shape, const Ray& ray, const Crossing& crossing) {
-  return match(shape, Overloaded{[](const Mesh&) { return SurfacePoint{}; },
-                                 [&](const auto& s) { return formOf(s).surface(ray, crossing); }});
+  return shape.surface(ray, crossing);
 }
 
-inline Box3 boundsOf(const TracedShape& shape) {
-  return match(shape, Overloaded{[](const Mesh& m) { return bounds(*m.data); },
-                                 [](const auto& s) { return formOf(s).bounds(); }});
-}
+inline Box3 boundsOf(const TracedShape& shape) { return shape.bounds(); }
 
 /// Without those at infinity.
 inline std::vector<Crossing> placesOf(const TracedShape& shape, const Ray& ray) {
@@ -196,10 +209,7 @@ inline Box3 closeBoundsOf(const TracedShape& shape) {
   return {max(box.low, Vec3{-3, -3, -3}), min(box.high, Vec3{3, 3, 3})};
 }
 
-inline bool isSolid(const TracedShape& shape) {
-  return match(
-      shape, Overloaded{[](const Mesh&) { return false; }, [](const auto& s) { return formOf(s).solid(); }});
-}
+inline bool isSolid(const TracedShape& shape) { return shape.solid(); }
 
 /// Of the part of a solid in the box: the sum of the lengths inside, over n x n parallel rays.
 inline double volume(const Shape& plain, const Box3& box, int n) {
@@ -224,19 +234,19 @@ inline double volumeOf(const MeshData& mesh) {
   return sum;
 }
 
-/// Shapes that have to be worked out first, for single rays.
+/// The same of a single shape, for single rays.
 template <class S>
-requires requires(const S s) { s.prepared(); }
+requires requires { S::kKeyword; }
 std::vector<Crossing> crossingsOf(const S& shape, const Ray& ray) {
   return crossingsOf(prepare(Shape(shape)), ray);
 }
 template <class S>
-requires requires(const S s) { s.prepared(); }
+requires requires { S::kKeyword; }
 SurfacePoint surfaceOf(const S& shape, const Ray& ray, const Crossing& crossing) {
   return surfaceOf(prepare(Shape(shape)), ray, crossing);
 }
 template <class S>
-requires requires(const S s) { s.prepared(); }
+requires requires { S::kKeyword; }
 bool isSolid(const S& shape) { return isSolid(prepare(Shape(shape))); }
 
 }  // namespace trace::test

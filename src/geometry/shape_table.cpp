@@ -1,0 +1,219 @@
+// The table of shapes, made of their list, and what is asked of a shape or its form whatever its type.
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "base/match.h"
+#include "geometry/field_value.h"
+#include "geometry/shape_list.h"
+
+namespace trace {
+namespace {
+
+template <class Struct>
+std::vector<AnyField> fieldsIn(void* at) {
+  std::vector<AnyField> all;
+  Struct& shape = *static_cast<Struct*>(at);
+  forEachField<Struct>([&](const auto& f) {
+    auto& value = shape.*f.member;
+    AnyField field{f.keyword, f.unit, f.least, f.most, f.help, static_cast<bool*>(nullptr)};
+    if constexpr (std::is_enum_v<std::remove_reference_t<decltype(value)>>)
+      field.value = EnumValue(value);
+    else
+      field.value = &value;
+    all.push_back(field);
+  });
+  return all;
+}
+
+template <class S>
+constexpr bool kTraceable = Traceable<std::remove_cvref_t<decltype(formOf(formFor(std::declval<S>())))>>;
+template <>
+constexpr bool kTraceable<Mesh> = true;
+
+template <class S, std::size_t kIndex>
+ShapeType rowOf() {
+  static_assert(kTraceable<S>, "the shape lacks one of the functions that shape_list.h asks for");
+  return {
+      .keyword = S::kKeyword, .help = S::kHelp, .index = kIndex, .ofObjects = requires(S s){s.objects.list();
+}
+, .make = []() -> std::shared_ptr<void> { return std::make_shared<S>(); },
+  .copy = [](const void* at) -> std::shared_ptr<void> {
+    return std::make_shared<S>(*static_cast<const S*>(at));
+  },
+  .equal = [](const void* a,
+              const void* b) { return *static_cast<const S*>(a) == *static_cast<const S*>(b); },
+  .fields = fieldsIn<S>, .prepare = [](const void* at, const MeshTrees& made) {
+    TracedShape::Held held{AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)),
+                           {}};
+    if constexpr (!std::is_same_v<S, Mesh>)
+      held.approach = Approach(formOf(*std::get_if<kIndex>(&held.form)).bounds());
+    return TracedShape(shapeTypes()[kIndex], std::make_shared<const TracedShape::Held>(std::move(held)));
+  },
+};  // namespace
+}  // namespace trace
+
+constexpr std::size_t kTypes = std::variant_size_v<ShapeList>;
+static_assert(kTypes <= kMostShapeTypes);
+
+std::array<ShapeType, kTypes> makeTable() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array{rowOf<std::variant_alternative_t<I, ShapeList>, I>()...};
+  }
+  (std::make_index_sequence<kTypes>{});
+}
+
+/// Calls visit(form) with the form, unless it is a mesh: then other().
+template <class Visit, class Other>
+auto withForm(const TracedShape& shape, Visit&& visit, Other&& other) {
+  return match(shape.held().form, Overloaded{[&](const Mesh& mesh) { return other(mesh); },
+                                             [&](const auto& form) { return visit(formOf(form)); }});
+}
+
+}  // namespace
+
+// --- the table ----------------------------------------------------------------------------------------
+
+std::span<const ShapeType> shapeTypes() {
+  static const std::array<ShapeType, kTypes> kTable = makeTable();
+  return kTable;
+}
+
+const ShapeType* findShapeType(std::string_view keyword) {
+  for (const ShapeType& type : shapeTypes())
+    if (type.keyword == keyword) return &type;
+  return nullptr;
+}
+
+const ShapeType& detail::shapeType(std::string_view keyword) {
+  if (const ShapeType* type = findShapeType(keyword)) return *type;
+  throw std::logic_error("no shape of the list is called " + std::string(keyword));
+}
+
+// --- shapes -------------------------------------------------------------------------------------------
+
+// Read only: the pointers are not const for editFields()' sake.
+std::vector<AnyField> fieldsOf(const Shape& shape) { return shape.type_->fields(shape.data_.get()); }
+
+const std::vector<std::uint32_t>& materialsOf(const Shape& shape) {
+  static const std::vector<std::uint32_t> kNone;
+  if (const auto* mesh = shape.as<Mesh>()) return mesh->data->materials;
+  for (const AnyField& field : fieldsOf(shape))
+    if (const auto* materials = std::get_if<MaterialList*>(&field.value)) return (*materials)->indices;
+  return kNone;
+}
+
+std::vector<AnyField> Shape::editFields() { return type_->fields(own()); }
+
+const Operands& Shape::operands() const {
+  static const Operands kNone;
+  if (type_->ofObjects)
+    for (const AnyField& field : fieldsOf(*this))
+      if (const auto* objects = std::get_if<Operands*>(&field.value)) return **objects;
+  return kNone;
+}
+
+void Shape::setOperands(Operands operands) {
+  for (const AnyField& field : editFields())
+    if (const auto* objects = std::get_if<Operands*>(&field.value)) **objects = std::move(operands);
+}
+
+// --- forms --------------------------------------------------------------------------------------------
+
+TracedShape prepare(const Shape& shape, const MeshTrees& made) {
+  return shape.type_->prepare(shape.data_.get(), made);
+}
+
+std::shared_ptr<const MeshData> TracedShape::mesh() const {
+  const Mesh* mesh = std::get_if<Mesh>(&held_->form);
+  return mesh ? mesh->data : nullptr;
+}
+
+bool TracedShape::solid() const {
+  return withForm(
+      *this, [](const auto& form) { return form.solid(); }, [](const Mesh&) { return false; });
+}
+
+Box3 TracedShape::bounds() const {
+  return withForm(
+      *this, [](const auto& form) -> Box3 { return form.bounds(); },
+      [](const Mesh& mesh) { return trace::bounds(*mesh.data); });
+}
+
+void TracedShape::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
+  match(held_->form,
+        Overloaded{[](const Mesh&) {},
+                   [&](const auto& form) { visitCrossings(form, held_->approach, ray, range, visit); }});
+}
+
+SurfacePoint TracedShape::surface(const Ray& ray, const Crossing& crossing) const {
+  return match(held_->form,
+               Overloaded{[](const Mesh&) { return SurfacePoint{}; },
+                          [&](const auto& form) { return surfaceOf(form, held_->approach, ray, crossing); }});
+}
+
+bool TracedShape::convex() const {
+  return withForm(
+      *this,
+      [](const auto& form) {
+        if constexpr (requires { form.convex(); })
+          return form.convex();
+        else
+          return false;
+      },
+      [](const Mesh&) { return false; });
+}
+
+bool TracedShape::ofSeveralMaterials() const {
+  return withForm(
+      *this,
+      [](const auto& form) {
+        return requires { form.material(std::int64_t{}, std::uint32_t{}); };
+      },
+      [](const Mesh&) { return false; });
+}
+
+MaterialMix TracedShape::material(std::int64_t part, std::uint32_t own) const {
+  return withForm(
+      *this,
+      [&](const auto& form) {
+        if constexpr (requires { form.material(part, own); })
+          return form.material(part, own);
+        else
+          return MaterialMix::only(own);
+      },
+      [&](const Mesh&) { return MaterialMix::only(own); });
+}
+
+void TracedShape::addMaterials(std::vector<std::uint32_t>& all) const {
+  withForm(
+      *this,
+      [&](const auto& form) {
+        if constexpr (requires { form.addMaterials(all); }) form.addMaterials(all);
+      },
+      [](const Mesh&) {});
+}
+
+std::int64_t TracedShape::partCount() const {
+  constexpr std::int64_t kEnough = std::int64_t{1} << 24;
+  return withForm(
+      *this,
+      [](const auto& form) {
+        if constexpr (requires { form.partCount(); })
+          return std::int64_t{form.partCount()};
+        else
+          return kEnough;
+      },
+      [](const Mesh& mesh) { return static_cast<std::int64_t>(mesh.data->triangles.size()); });
+}
+
+void TracedShape::addMeshTrees(MeshTrees& trees) const {
+  withForm(
+      *this,
+      [&](const auto& form) {
+        if constexpr (requires { form.addMeshTrees(trees); }) form.addMeshTrees(trees);
+      },
+      [](const Mesh&) {});
+}
+
+}  // namespace trace

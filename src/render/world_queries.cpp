@@ -1,0 +1,173 @@
+// What a ray asks of the World: one of the two files that see the structs of all shapes, so that the way from
+// the hierarchy to a crossing is inlined for each. Forms lie side by side, without a pointer to follow.
+#include "base/budget.h"
+#include "base/match.h"
+#include "geometry/mesh.h"
+#include "geometry/shape_list.h"
+#include "render/world.h"
+
+namespace trace {
+
+struct World::Forms {
+  std::vector<AnyForm> all;
+};
+
+void World::collectForms() {
+  auto forms = std::make_shared<Forms>();
+  forms->all.reserve(objects_.size());
+  for (const Instance& instance : objects_) forms->all.push_back(instance.shape.held().form);
+  forms_ = std::move(forms);
+}
+
+// --- the nearest crossing -----------------------------------------------------------------------------
+
+std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
+  std::optional<Found> best(std::in_place);
+  checkBudget();
+  for (std::uint32_t object : always_) {
+    checkBudget();
+    if (object != ray.leaves) closestOf(object, ray, faces, statistics, *best);
+  }
+  if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
+  if (best->t == kInfinity) best.reset();
+  return best;
+}
+
+void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
+  const auto ask = [&](std::uint32_t object) {
+    closestOf(object, ray, faces, statistics, best);
+    return false;
+  };
+  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, ask, ray.leaves);
+}
+
+inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
+                             Found& best) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    const MeshTree* mesh = instance.mesh.get();
+    if (!mesh) return closestOfShape(instance, object, ray, statistics, best);
+    const std::size_t kind = instance.kind;
+    MeshHit met;
+    met.hit.t = best.t;
+    statistics.nodes.owner = object;
+    const bool found = faces == Faces::both
+                           ? mesh->closest(ray, met, nullptr, {statistics.nodes, statistics.tests[kind]})
+                           : closestSeen(instance, ray, faces, statistics, met);
+    statistics.nodes.owner = NodeCount::kTop;
+    // At the same distance the object that comes first in the scene counts.
+    if (!found || (met.hit.t == best.t && object >= best.object)) return;
+    ++statistics.hits[kind];
+    best = {met.hit.t, object, met.triangle, met.hit};
+  };
+  const Placement& placement = instance.placement;
+  placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
+}
+
+bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, Statistics& statistics,
+                        MeshHit& met) const {
+  const MeshTree& mesh = *instance.mesh;
+  const auto seen = [&](const MeshHit& hit) { return sees(faces, ray, mesh.data(), hit); };
+  return mesh.closest(ray, met, seen, {statistics.nodes, statistics.tests[instance.kind]});
+}
+
+template <class Visit>
+inline void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost,
+                                    Statistics& statistics, const Visit& visit) const {
+  const Instance& instance = objects_[object];
+  ++statistics.tests[instance.kind];
+  match(forms_->all[object],
+        Overloaded{[](const Mesh&) {},
+                   [&](const auto& form) {
+                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
+                   }});
+}
+
+void World::closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
+                           Statistics& statistics, Found& best) const {
+  crossingsOfShape(object, ray, best.t, statistics, [&](const Crossing& crossing) {
+    if (!(crossing.t > 0 && crossing.t <= best.t)) return;
+    const auto part = static_cast<std::uint64_t>(crossing.part);
+    if (!best.after(crossing.t, object, part)) return;
+    ++statistics.hits[instance.kind];
+    best.t = crossing.t, best.object = object, best.part = part;
+  });
+}
+
+SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
+  const Instance& instance = objects_[found.object];
+  const Placement& placement = instance.placement;
+  const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
+  const SurfacePoint s =
+      match(forms_->all[found.object],
+            Overloaded{[&](const Mesh&) {
+                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
+                                               found.triangle);
+                       },
+                       [&](const auto& shape) {
+                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
+                         return surfaceOf(shape, instance.approach, ray, crossing);
+                       }});
+  return placement.moved() ? placement.outOf(s) : s;
+}
+
+// --- every crossing -----------------------------------------------------------------------------------
+
+void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
+                      VisitFound visit) const {
+  checkBudget();
+  for (std::uint32_t object : always_) {
+    checkBudget();
+    if (object != ray.leaves && crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
+  }
+  if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
+}
+
+void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
+                            VisitFound visit) const {
+  const auto ask = [&](std::uint32_t object) {
+    return crossingsOf(object, ray, tMost, faces, statistics, visit);
+  };
+  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, ask, ray.leaves);
+}
+
+inline bool World::crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces,
+                               Statistics& statistics, VisitFound visit) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    return instance.mesh ? meshCrossings(instance, object, ray, tMost, faces, statistics, visit)
+                         : shapeCrossings(object, ray, tMost, statistics, visit);
+  };
+  const Placement& placement = instance.placement;
+  return placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
+}
+
+bool World::meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
+                          Faces faces, Statistics& statistics, VisitFound visit) const {
+  const MeshTree& mesh = *instance.mesh;
+  bool ended = false;
+  const auto met = [&](const MeshHit& hit) {
+    if (!sees(faces, ray, mesh.data(), hit)) return false;
+    ++statistics.hits[instance.kind];
+    return ended = visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
+  };
+  statistics.nodes.owner = object;
+  mesh.crossings(ray, tMost, met, {statistics.nodes, statistics.tests[instance.kind]});
+  statistics.nodes.owner = NodeCount::kTop;
+  return ended;
+}
+
+bool World::shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
+                           VisitFound visit) const {
+  bool ended = false;
+  Real wanted = tMost;
+  crossingsOfShape(object, ray, wanted, statistics, [&](const Crossing& crossing) {
+    if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
+    ++statistics.hits[objects_[object].kind];
+    ended = visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+    if (ended) wanted = -kInfinity;
+  });
+  return ended;
+}
+
+}  // namespace trace
