@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/match.h"
 
 namespace trace {
 namespace {

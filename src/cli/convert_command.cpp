@@ -8,7 +8,6 @@
 #include "app/remaining_time.h"
 #include "base/budget.h"
 #include "base/file.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/scene_facts.h"

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "base/match.h"
 #include "formats/ray_fields.h"
 #include "geometry/csg_tree.h"
 #include "shading/phong.h"

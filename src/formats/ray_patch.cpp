@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/match.h"
 #include "formats/ray_edits.h"
 #include "formats/ray_format.h"
 #include "formats/ray_outline.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/match.h"
 #include "formats/ray_transform.h"
 #include "geometry/csg_tree.h"
 #include "geometry/field_value.h"

@@ -3,6 +3,7 @@
 //
 // Source: the course's template (docs/formats.md). Where that prints a message and renders another scene,
 // this reader reports the place and stops. Keys that students added are read as far as Trace can render them.
+// One file, for the commands share one state.
 #include "formats/ubc_format.h"
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/match.h"
 #include "geometry/mesh.h"
 #include "geometry/tessellation.h"
 

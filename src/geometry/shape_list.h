@@ -30,7 +30,6 @@
 #include <utility>
 #include <variant>
 
-#include "base/match.h"
 #include "geometry/approach.h"
 #include "geometry/bezier_patches.h"
 #include "geometry/blend.h"

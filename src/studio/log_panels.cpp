@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "base/match.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
