@@ -51,13 +51,15 @@ Settings sparse(const Settings& settings) {
 template <class Visit>
 void forEachTree(const Settings& settings, const World& world, Visit&& visit) {
   const Size size{settings.width, settings.height};
+  Job job;
+  const auto integrator = makeIntegrator(world, settings, job);
   Work work("surveying the picture", size.height);
   for (int y = 0; y < size.height; ++y) {
     work.reached(y);
     for (int x = 0; x < size.width; ++x) {
       RayTree tree;
       try {
-        PixelTracer(world, settings, size, &tree).sample(x, y, 0);
+        PixelTracer(world, *integrator, settings, size, &tree).sample(x, y, 0);
       } catch (const Error&) {
         lookAtBudget();
         continue;
@@ -299,7 +301,9 @@ std::vector<int> changedByDepth(const Settings& settings, const World& world, co
   int unchanged = 0;
   for (int more = 1; more <= kMostMore && rays < kMostRays && unchanged < 2; ++more) {
     deeper.depth = settings.depth + more;
-    PixelTracer tracer(world, deeper, size);
+    Job job;
+    const auto integrator = makeIntegrator(world, deeper, job);
+    PixelTracer tracer(world, *integrator, deeper, size);
     Picture picture = survey.picture;
     for (std::size_t pixel : survey.cutShort)
       picture.pixels[pixel] =

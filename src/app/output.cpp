@@ -52,12 +52,11 @@ template <class Use>
 void withPictureOf(const Output& output, const Film& film, const Settings& settings, Use use) {
   const PictureFormat& format = pictureFormatFor(output.path);
   if (output.layer < 0) {
-    film.withPicture([&](const Picture& picture) {
-      if (format.keepsBright || settings.tone == Tone::clamp)
-        use(picture);
-      else
-        use(toned(picture, settings.tone));
-    });
+    const Picture picture = film.picture();
+    if (format.keepsBright || settings.tone == Tone::clamp)
+      use(picture);
+    else
+      use(toned(picture, settings.tone));
     return;
   }
   const auto layer = static_cast<std::size_t>(output.layer);

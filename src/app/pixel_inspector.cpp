@@ -6,8 +6,7 @@ namespace trace {
 
 TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
                        const Cancelled& cancelled) {
-  const int grid = gridSize(session->settings());
-  TracedPixel pixel{std::move(session), x, y, std::clamp(sample, 0, grid * grid - 1)};
+  TracedPixel pixel{session, x, y, std::clamp(sample, 0, samplesOf(session->settings()) - 1)};
   try {
     pixel.explanation = pixel.session->explain(x, y, pixel.sample, cancelled);
     pixel.segments = raySegments(pixel.tree());

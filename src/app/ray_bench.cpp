@@ -86,7 +86,7 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   bench.buildWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   bench.triangles = world.triangleCount(), bench.bytes = world.bytes();
 
-  const PixelTracer pixels(world, settings, size);
+  const SampleRules rules(settings, size);
   const std::size_t most = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   std::vector<Query> primary, bounce, shadow;
   primary.reserve(most), bounce.reserve(most), shadow.reserve(most * scene.lights.size());
@@ -95,7 +95,7 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   for (int y = 0; y < size.height; ++y) {
     work->reached(y);
     for (int x = 0; x < size.width; ++x) {
-      const Ray ray = pixels.cameraRay(x, y, 0);
+      const Ray ray = world.camera().ray(Sampler(rules, x, y, 0).film());
       primary.push_back({ray});
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;

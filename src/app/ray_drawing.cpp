@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/ray_segments.h"
+#include "render/passes.h"
 #include "render/render.h"
 
 namespace trace {
@@ -83,7 +84,7 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   settings.region = {}, settings.spp = 1, settings.timeLimit = 0;
   settings.depth = std::min(settings.depth, 2);
   settings.passes = {};
-  Film film(settings.width, settings.height);
+  Film film = makeFilm(settings, settings.width, settings.height);
   Job job;
   render(world, settings, film, job);
   Picture picture = film.picture();
@@ -91,7 +92,7 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       Color& c = picture.at(x, y);
-      const Ray ray = world.camera().ray((x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height);
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
       c = world.closest(ray, Faces::both, uncounted) ? lerp(0.6, clamp01(c), Color(1)) : Color(1);
     }
   return {at, std::move(picture)};

@@ -8,13 +8,8 @@ namespace trace {
 namespace {
 
 RayLooks looksOf(const RayNode& node) {
-  switch (node.kind) {
-    case RayKind::camera: return RayLooks::camera;
-    case RayKind::reflection: return RayLooks::reflection;
-    case RayKind::refraction: return RayLooks::refraction;
-    case RayKind::shadow: break;
-  }
-  return isBlack(node.radiance) ? RayLooks::shadowBlocked : RayLooks::shadowLit;
+  const bool blocked = node.kind == RayKind::shadow && isBlack(node.radiance);
+  return blocked ? RayLooks::shadowBlocked : static_cast<RayLooks>(node.kind);
 }
 
 /// The t at which the ray ends; infinite if it does not.

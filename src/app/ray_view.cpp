@@ -111,7 +111,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
   };
 
   row("Ray", "");
-  row("kind", std::string(kRayKindNames[static_cast<std::size_t>(node.kind)]) + ", depth " +
+  row("kind", std::string(name(node.kind)) + ", depth " +
                   std::to_string(node.depth));
   row("origin", text(node.ray.origin));
   row("direction", text(node.ray.direction));

@@ -110,7 +110,7 @@ Box3 seenBy(const World& world) {
   const auto place = [](int i) { return kAside + (1 - 2 * kAside) * (i + 0.5) / kLooks; };
   for (int y = 0; y < kLooks; ++y)
     for (int x = 0; x < kLooks; ++x) {
-      const Ray ray = world.camera().ray(place(x), place(y));
+      const Ray ray = world.camera().ray({place(x), place(y)});
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;
       const Vec3 p = ray.at(found->t);

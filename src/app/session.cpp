@@ -32,7 +32,7 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings) {
-  return (3 + passesOf(settings).size()) * sizeof(Color) + 16;
+  return Film::bytesPerPixel(passesOf(settings).size()) + 2 * sizeof(Color) + 16;
 }
 
 }  // namespace
@@ -104,6 +104,7 @@ void Session::build(const Session* before) {
     world_.emplace(compile(scene_, settings_, messages_));
   }
   messages_.throwIfFailed(strict_);
+  integrator_ = makeIntegrator(*world_, settings_, job_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
 }
@@ -111,7 +112,7 @@ void Session::build(const Session* before) {
 RenderResult Session::render() {
   const Stopwatch watch;
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
-  RenderResult result = trace::render(*world_, settings_, *film_, job_);
+  RenderResult result = trace::render(*world_, *integrator_, settings_, *film_, job_);
   phases_.push_back(watch.stop("trace"));
   return result;
 }

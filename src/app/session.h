@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "formats/format.h"
 #include "render/explain.h"
+#include "render/integrator.h"
 #include "render/render.h"
 #include "scene/options.h"
 #include "scene/scene.h"
@@ -42,6 +43,7 @@ class Session {
   /// not changed since a session built before is shared with it.
   void build(const Session* before = nullptr);
   const World& world() const { return *world_; }
+  const Integrator& integrator() const { return *integrator_; }
 
   /// Renders; blocks. Others may watch and stop it through job() and picture().
   RenderResult render();
@@ -50,7 +52,7 @@ class Session {
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
   /// while render() runs. Throws Error(Fault::usage) outside the picture.
   Explanation explain(int x, int y, int sample, const std::function<bool()>& cancelled = {}) const {
-    return trace::explain(*world_, settings_, size(), x, y, sample, cancelled);
+    return trace::explain(*world_, *integrator_, settings_, size(), x, y, sample, cancelled);
   }
 
   /// What is rendered so far. May be asked from other threads while render() runs.
@@ -74,6 +76,7 @@ class Session {
   Messages messages_;
   bool strict_ = false;
   std::optional<World> world_;
+  std::unique_ptr<const Integrator> integrator_;
   std::unique_ptr<Film> film_;
   Job job_;
   std::vector<Phase> phases_;

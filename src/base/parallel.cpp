@@ -13,10 +13,10 @@ namespace trace {
 int hardwareThreads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 void parallelChunks(std::int64_t chunks, int threads, Job& job,
-                    const std::function<void(std::int64_t, int)>& work) {
+                    const std::function<void(std::int64_t, int)>& work, const ChunkSizes& sizes) {
   if (threads <= 0) threads = hardwareThreads();
   threads = static_cast<int>(std::min<std::int64_t>(threads, std::max<std::int64_t>(chunks, 1)));
-  job.total = chunks;
+  job.total = sizes.of ? sizes.total : chunks;
 
   std::atomic<std::int64_t> next{0};
   std::mutex mutex;
@@ -29,7 +29,7 @@ void parallelChunks(std::int64_t chunks, int threads, Job& job,
         const std::int64_t chunk = next.fetch_add(1);
         if (chunk >= chunks) return;
         work(chunk, worker);
-        ++job.done;
+        job.done += sizes.of ? sizes.of(chunk) : 1;
       }
     } catch (const GivenUp&) {  // the job is cancelled: nothing more is begun
     } catch (...) {

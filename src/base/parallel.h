@@ -15,8 +15,8 @@ namespace trace {
 struct Job {
   std::atomic<bool> cancel{false};     ///< set to stop after the chunks now in work
   std::chrono::seconds patience{5};    ///< for which those may go on then; set before the job begins
-  std::atomic<std::int64_t> done{0};   ///< chunks finished
-  std::atomic<std::int64_t> total{0};  ///< chunks in all; 0 until known
+  std::atomic<std::int64_t> done{0};   ///< of the work: chunks finished, or their sizes
+  std::atomic<std::int64_t> total{0};  ///< the same of all chunks; 0 until known
   double fraction() const {
     const std::int64_t all = total.load();
     return all > 0 ? static_cast<double>(done.load()) / static_cast<double>(all) : 0.0;
@@ -29,10 +29,17 @@ struct GivenUp {};
 /// The number of hardware threads, at least 1.
 int hardwareThreads();
 
+/// How much work chunks are, where they differ.
+struct ChunkSizes {
+  std::int64_t total = 0;  ///< of all
+  std::function<std::int64_t(std::int64_t chunk)> of;
+};
+
 /// Calls work(chunk, worker) once for each chunk in [0, chunks), from `threads` workers (numbered from
 /// 0; the calling thread is one of them; 0 threads means all the hardware has). Returns when all is done
 /// or the job is cancelled. An exception from `work` stops the queue and is rethrown here.
 void parallelChunks(std::int64_t chunks, int threads, Job& job,
-                    const std::function<void(std::int64_t chunk, int worker)>& work);
+                    const std::function<void(std::int64_t chunk, int worker)>& work,
+                    const ChunkSizes& sizes = {});
 
 }  // namespace trace

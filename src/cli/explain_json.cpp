@@ -37,7 +37,7 @@ class Writer {
     const RayNode& node = tree.nodes[static_cast<std::size_t>(index)];
     ordered_json json;
     json["id"] = index;
-    json["kind"] = kRayKindNames[static_cast<std::size_t>(node.kind)];
+    json["kind"] = name(node.kind);
     json["parent"] = node.parent < 0 ? ordered_json(nullptr) : ordered_json(node.parent);
     json["depth"] = node.depth;
     json["origin"] = toJson(node.ray.origin);
@@ -126,7 +126,7 @@ class Writer {
   ordered_json end(const RayEnd& why) const {
     ordered_json json;
     json["why"] = match(why, [](const auto& w) { return w.kName; });
-    const auto kind = [](RayKind k) { return kRayKindNames[static_cast<std::size_t>(k)]; };
+    const auto kind = [](RayKind k) { return name(k); };
     match(why,
           Overloaded{[&](const DepthLimit& w) { json["unsent"] = kind(w.unsent), json["limit"] = w.limit; },
                      [&](const BelowThreshold& w) {

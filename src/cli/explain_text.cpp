@@ -38,10 +38,6 @@ bool sameBits(const Color& a, const Color& b) {
 
 // --- the tree ---
 
-/// Terminal colours, by kind of ray.
-constexpr std::array<std::string_view, kRayKindNames.size()> kColors{"\033[1m", "\033[1;36m", "\033[1;35m",
-                                                                     "\033[1;33m"};
-
 class TreeText {
  public:
   TreeText(const PixelFacts& facts, bool color)
@@ -64,10 +60,10 @@ class TreeText {
     const std::vector<int>& children = children_[static_cast<std::size_t>(index)];
     margin_ = rest + (children.empty() ? "    " : "|   ");
 
-    const std::string kind(kRayKindNames[static_cast<std::size_t>(node.kind)]);
+    const std::string kind(trace::name(node.kind));
     const std::string name = "#" + std::to_string(index) + " " + kind + " ray";
     std::string title = name;
-    if (color_) title = std::string(kColors[static_cast<std::size_t>(node.kind)]) + name + "\033[0m";
+    if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
     if (const Term* term = termOf(tree_, index); term && term->light)
       title += " to " + printable(lightName(scene_, term->light->light));
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";

@@ -66,7 +66,7 @@ std::string statisticsTable(const Run& run) {
   const Statistics& s = run.result.statistics;
   std::string text = row("rays", "count", "", "share");
   for (size_t i = 0; i < s.rays.size(); ++i)
-    text += row(kRayKindNames[i], std::to_string(s.rays[i]), "",
+    text += row(kRayLooks[i].kind, std::to_string(s.rays[i]), "",
                 orDash("%.1f %%", ratio(100 * s.rays[i], s.allRays())));
   text += row("all", std::to_string(s.allRays()), "", "");
   text += row("mean depth", orDash("%.2f", ratio(s.depths, s.pathRays())));
@@ -106,7 +106,7 @@ std::string statisticsJson(const Run& run) {
   json["fraction"] = run.fraction;
   json["threads"] = threads > 0 ? threads : hardwareThreads();
   json["seconds"] = run.seconds;
-  for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][std::string(kRayKindNames[i])] = s.rays[i];
+  for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][std::string(kRayLooks[i].kind)] = s.rays[i];
   json["rays"]["all"] = s.allRays();
   json["meanDepth"] = orNull(ratio(s.depths, s.pathRays()));
   json["raysPerSecond"] = orNull(raysPerSecond(run));

@@ -1,11 +1,15 @@
-// The picture while it is being made: square tiles, each written by one worker and then marked done. Beside
-// it, when asked for, layers of the same size: what else is kept of every pixel.
+// The picture while it is being made: sums of samples, tile by tile and wave by wave. Beside it, when asked
+// for, layers of the same size: what else is kept of every pixel.
+//
+// A wave takes some samples of every pixel, so that a render shows the whole picture early and refines it.
+// The unit of work is one wave of one tile. Whoever has it gives its samples to the film, which adds them in
+// their order, whatever the order in which they come: the same bits for any number of threads.
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -18,87 +22,88 @@ struct Tile {
   int x0, y0, x1, y1;
 };
 
+/// The samples first <= k < end of each pixel.
+struct Wave {
+  int first, end;
+  int count() const { return end - first; }
+};
+
+/// One sample, one more, 2, 4, 8, and from then on 16 at a time.
+std::vector<Wave> wavesOf(int samples);
+
+/// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order.
+struct TileSamples {
+  Tile area{0, 0, 0, 0};
+  std::vector<Color> colors;               ///< those that are not finite do not count
+  std::vector<std::vector<Color>> layers;  ///< the same of each layer; one that is missing stays blank
+};
+
 class Film {
  public:
   static constexpr int kTileSize = 32;  ///< in pixels, of a side
 
-  /// With one layer for each of `blank`, of that value wherever nothing is rendered.
-  explicit Film(int width, int height, std::span<const Color> blank = {}, int tileSize = kTileSize)
-      : picture_(width, height),
-        tileSize_(tileSize),
-        columns_((width + tileSize - 1) / tileSize),
-        rows_((height + tileSize - 1) / tileSize),
-        done_(std::make_unique<std::atomic<bool>[]>(static_cast<std::size_t>(tiles()))) {
-    for (const Color& color : blank) layers_.push_back({filled(color), color});
-  }
-
-  int width() const { return picture_.width; }
-  int height() const { return picture_.height; }
-  std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
-  Tile tile(std::int64_t index) const {
-    const int x = static_cast<int>(index % columns_) * tileSize_,
-              y = static_cast<int>(index / columns_) * tileSize_;
-    return {x, y, std::min(x + tileSize_, width()), std::min(y + tileSize_, height())};
-  }
-
-  /// Each pixel is set by the one worker that has its tile, before that tile is marked done.
-  void set(int x, int y, const Color& color) { picture_.at(x, y) = color; }
-  void set(std::size_t layer, int x, int y, const Color& value) { layers_[layer].values.at(x, y) = value; }
-  void markDone(std::int64_t index) {
-    done_[static_cast<std::size_t>(index)].store(true, std::memory_order_release);
-  }
-
-  bool complete() const {
-    for (std::int64_t i = 0; i < tiles(); ++i)
-      if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) return false;
-    return true;
-  }
-
-  /// What is done so far, black elsewhere. May be called from any thread while workers write.
-  Picture picture() const { return doneOf(picture_, Color(0)); }
-  /// Calls use(picture) with the same; no copy is made once all is done.
-  template <class Use>
-  void withPicture(Use use) const {
-    if (complete())
-      use(picture_);
-    else
-      use(picture());
-  }
-  /// The same of a layer, blank elsewhere.
-  Picture layer(std::size_t index) const { return doneOf(layers_[index].values, layers_[index].blank); }
-  std::size_t layers() const { return layers_.size(); }
-  /// Puts what is done so far over a picture of the same size. From any thread.
-  void copyDone(Picture& onto) const { copyDone(picture_, onto); }
-
- private:
-  struct Layer {
-    Picture values;
-    Color blank;
+  struct LayerKind {
+    Color blank;            ///< the value wherever nothing is rendered
+    bool averaged = false;  ///< the mean of a pixel's samples; otherwise that of the first
   };
 
-  Picture filled(const Color& color) const {
-    Picture picture(width(), height());
-    std::fill(picture.pixels.begin(), picture.pixels.end(), color);
-    return picture;
-  }
-  Picture doneOf(const Picture& all, const Color& blank) const {
-    Picture copy = filled(blank);
-    copyDone(all, copy);
-    return copy;
-  }
-  void copyDone(const Picture& all, Picture& onto) const {
-    for (std::int64_t i = 0; i < tiles(); ++i) {
-      if (!done_[static_cast<std::size_t>(i)].load(std::memory_order_acquire)) continue;
-      const Tile t = tile(i);
-      for (int y = t.y0; y < t.y1; ++y)
-        std::copy(&all.at(t.x0, y), &all.at(t.x0, y) + (t.x1 - t.x0), &onto.at(t.x0, y));
-    }
-  }
+  /// For a picture of that many samples a pixel.
+  explicit Film(int width, int height, int samples = 1, std::span<const LayerKind> layers = {},
+                int tileSize = kTileSize);
 
-  Picture picture_;
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
+  Tile tile(std::int64_t index) const;
+  const std::vector<Wave>& waves() const { return waves_; }
+  std::size_t layers() const { return layers_.size(); }
+
+  /// Takes the samples of one wave of a tile. From any thread, each wave of a tile once, in any order.
+  void add(std::int64_t tile, std::size_t wave, TileSamples samples);
+
+  /// All waves of all tiles are there.
+  bool complete() const;
+
+  /// The mean of what is there so far, black elsewhere. From any thread while others add.
+  Picture picture() const;
+  /// The same of a layer, blank elsewhere.
+  Picture layer(std::size_t number) const;
+  /// Puts what is there so far over a picture of the same size. From any thread.
+  void copyDone(Picture& onto) const;
+
+  /// Bytes that a pixel takes here.
+  static std::uint64_t bytesPerPixel(std::size_t layers) { return sizeof(Pixel) + layers * sizeof(Color); }
+
+ private:
+  struct Pixel {
+    Color sum;
+    int taken = 0;  ///< samples
+    int count = 0;  ///< of those, finite
+    Color mean() const { return count > 0 ? sum / count : Color(0); }
+  };
+  struct Layer {
+    LayerKind kind;
+    Picture sums;  ///< of an averaged layer; of others the value
+  };
+  struct TileState {
+    mutable std::mutex mutex;
+    std::size_t waves = 0;                     ///< that are summed
+    std::map<std::size_t, TileSamples> early;  ///< that wait for the ones before them
+  };
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  void sum(const Wave& wave, const TileSamples& samples);
+  /// Calls use(pixel, x, y) for those of every tile that has a wave, which no one changes meanwhile.
+  template <class Use>
+  void forEachDone(const Use& use) const;
+
+  int width_, height_, tileSize_, columns_, rows_;
+  std::vector<Wave> waves_;
+  std::vector<Pixel> pixels_;
   std::vector<Layer> layers_;
-  int tileSize_, columns_, rows_;
-  std::unique_ptr<std::atomic<bool>[]> done_;
+  std::unique_ptr<TileState[]> states_;
 };
 
 }  // namespace trace

@@ -14,23 +14,26 @@ void require(bool good, const std::string& what, int most, const std::string& fo
 
 }  // namespace
 
-Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample,
-                    const std::function<bool()>& cancelled) {
+Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
+                    const Size& size, int x, int y, int sample, const std::function<bool()>& cancelled) {
   require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
   require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
   Explanation result;
-  PixelTracer plain(world, settings, size);
+  PixelTracer plain(world, integrator, settings, size);
   require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
   result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
-  PixelTracer(world, settings, size, &result.tree).sample(x, y, sample);
+  PixelTracer(world, integrator, settings, size, &result.tree).sample(x, y, sample);
 
-  PixelMean mean;
+  Color sum;
+  int count = 0;
   for (int k = 0; k < plain.samples() && !(cancelled && cancelled()); ++k) {
     result.samples.push_back(plain.sample(x, y, k));
-    mean.add(result.samples.back());
+    if (!isFinite(result.samples.back())) continue;
+    sum += result.samples.back();
+    ++count;
   }
-  result.pixel = mean.color();
-  weigh(result.tree, 1.0 / std::max(mean.count(), 1));
+  if (count > 0) result.pixel = sum / count;
+  weigh(result.tree, 1.0 / std::max(count, 1));
   return result;
 }
 

@@ -21,7 +21,7 @@ struct Explanation {
 /// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, Error(Fault::limit) for
 /// one with more than kMostRecordedRays rays. `cancelled`, if any, is asked after every sample; once it is
 /// true what has been found so far is returned.
-Explanation explain(const World& world, const Settings& settings, const Size& size, int x, int y, int sample,
-                    const std::function<bool()>& cancelled = {});
+Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
+                    const Size& size, int x, int y, int sample, const std::function<bool()>& cancelled = {});
 
 }  // namespace trace

@@ -1,7 +1,8 @@
 // The radiance that one ray brings back, summed term by term.
 //
-// An integrator makes one for each ray it follows and adds the terms of its equation in order. When a RayTree
-// is attached to the Tracer, the terms are written to the ray's node: what is recorded is what is summed.
+// An integrator makes one for each ray it follows, after it has cast it, and adds the terms of its equation
+// in order. When a RayTree is attached to the Tracer, the terms are written to the ray's node: what is
+// recorded is what is summed.
 #pragma once
 
 #include "render/tracer.h"
@@ -10,16 +11,13 @@ namespace trace {
 
 class Gather {
  public:
-  /// Casts the ray. Rays that are cast while this lives are its children.
-  Gather(Tracer& tracer, const Ray& ray, RayKind kind, int depth)
-      : tracer_(tracer), hit_(tracer.cast(ray, kind)), node_(tracer.enter()) {
+  /// Of the ray cast last. Rays that are cast while this lives are its children.
+  Gather(Tracer& tracer, int depth) : tracer_(tracer), node_(tracer.enter()) {
     tracer.statistics().depths += static_cast<std::uint64_t>(depth);
   }
   ~Gather() { tracer_.leave(node_); }
   Gather(const Gather&) = delete;
   Gather& operator=(const Gather&) = delete;
-
-  const std::optional<Hit>& hit() const { return hit_; }
 
   /// sum += factor * value. A ray that was cast for the value is the one cast last.
   void add(Term::Kind kind, const Color& factor, const Color& value) {
@@ -52,7 +50,6 @@ class Gather {
 
  private:
   Tracer& tracer_;
-  std::optional<Hit> hit_;
   int node_;
   Color sum_;
 };

@@ -2,20 +2,29 @@
 
 #include <array>
 
+#include "render/whitted.h"
+
 namespace trace {
 namespace {
 
+template <class Kind>
+std::unique_ptr<Integrator> make(const Settings&) {
+  return std::make_unique<Kind>();
+}
+
 constexpr std::array kTable{
-    IntegratorRow{Integrator::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
-                  whitted},
+    IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
+                  make<Whitted>},
 };
 
 }  // namespace
 
 std::span<const IntegratorRow> integrators() { return kTable; }
 
-const IntegratorRow& integratorRow(Integrator integrator) {
-  return kTable[static_cast<std::size_t>(integrator)];
+std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {
+  auto integrator = kTable[static_cast<std::size_t>(settings.integrator)].make(settings);
+  integrator->prepare(world, settings, job);
+  return integrator;
 }
 
 }  // namespace trace

@@ -1,26 +1,47 @@
 // THE table of integrators: the ways to find the light that comes along a camera ray. A new one is one
-// file, one value of the enum Integrator (scene/settings.h) and one row.
+// file, one value of the enum IntegratorKind (scene/settings.h) and one row.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "base/parallel.h"
+#include "render/sampler.h"
 #include "render/tracer.h"
 
 namespace trace {
 
+/// A camera ray and the first surface that it meets.
+struct CameraRay {
+  Ray ray;
+  std::optional<Hit> hit;
+};
+
+/// There is one for a render; it never changes once it is prepared.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// What has to be worked out before the first ray, such as a photon map. `job` tells how far it is and may
+  /// be cancelled.
+  virtual void prepare(const World&, const Settings&, Job&) {}
+
+  /// The radiance that arrives along the camera ray, which is the one cast last.
+  virtual Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const = 0;
+};
+
 struct IntegratorRow {
-  Integrator integrator;
+  IntegratorKind kind;
   std::string_view name;
   std::string_view help;
-  /// The radiance that arrives along the camera ray.
-  Color (*radiance)(Tracer& tracer, const Ray& ray);
+  std::unique_ptr<Integrator> (*make)(const Settings& settings);
 };
 
 std::span<const IntegratorRow> integrators();
-const IntegratorRow& integratorRow(Integrator integrator);
 
-/// Whitted's recursive ray tracing (whitted.cpp).
-Color whitted(Tracer& tracer, const Ray& ray);
+/// That of the settings, prepared.
+std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job);
 
 }  // namespace trace

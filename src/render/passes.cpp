@@ -106,14 +106,9 @@ std::vector<const PassRow*> passesOf(const Settings& settings) {
 }
 
 Film makeFilm(const Settings& settings, int width, int height) {
-  std::vector<Color> blank;
-  for (const PassRow* row : passesOf(settings)) blank.push_back(row->background);
-  // Who stops a render waits for the tiles in work, and who watches it hears of tiles: so none has too much.
-  constexpr std::int64_t kMostSamples = 1 << 16;
-  const std::int64_t samples = std::int64_t{gridSize(settings)} * gridSize(settings);
-  int tileSize = Film::kTileSize;
-  while (tileSize > 1 && samples * tileSize * tileSize > kMostSamples) tileSize /= 2;
-  return Film(width, height, blank, tileSize);
+  std::vector<Film::LayerKind> layers;
+  for (const PassRow* row : passesOf(settings)) layers.push_back({row->background, row->averaged});
+  return Film(width, height, samplesOf(settings), layers);
 }
 
 }  // namespace trace

@@ -26,7 +26,7 @@ std::string shortText(Real x, int digits) {
   return text;
 }
 
-std::string kindName(RayKind kind) { return std::string(kRayKindNames[static_cast<std::size_t>(kind)]); }
+std::string kindName(RayKind kind) { return std::string(name(kind)); }
 
 /// The rays that it was sent on as: "reflection and refraction".
 std::string sentOn(const RayNode& node) {

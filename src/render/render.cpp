@@ -16,66 +16,63 @@
 namespace trace {
 namespace {
 
-/// Pixels of one tile, one after the other; what a worker does.
+/// Takes the samples of tiles; what a worker does.
 class TileRenderer {
  public:
   /// `interrupt` may throw GivenUp.
-  TileRenderer(const World& world, const Settings& settings, Film& film, std::function<void()> interrupt)
+  TileRenderer(const World& world, const Integrator& integrator, const Settings& settings, const Film& film,
+               std::function<void()> interrupt)
       : budget_(std::move(interrupt)),
-        tracer_(world, settings, {film.width(), film.height()}),
+        tracer_(world, integrator, settings, {film.width(), film.height()}),
         region_(settings.region),
-        film_(film),
-        passes_(passesOf(settings)),
-        passSums_(passes_.size()) {
+        passes_(passesOf(settings)) {
     if (film.layers() != passes_.size()) passes_.clear();
   }
 
-  void render(const Tile& tile) {
+  TileSamples take(const Tile& tile, const Wave& wave) {
     const BudgetScope scope(&budget_);
-    const auto bad = [&](int x, int y, int sample) {
-      ++tracer_.statistics().badSamples;
-      if (bad_.size() < kMostBadSamples) bad_.push_back({x, y, sample});
-    };
-    const Region& r = region_;
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x)
-        if (r.whole() || (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1)) {
-          film_.set(x, y, tracer_.pixel(x, y, bad));
-          if (!passes_.empty()) setPasses(x, y);
+    TileSamples samples{
+        .area = tile, .colors = {}, .layers = std::vector<std::vector<Color>>(passes_.size())};
+    Tile& area = samples.area;
+    if (!region_.whole())
+      area = {std::max(area.x0, region_.x0), std::max(area.y0, region_.y0), std::min(area.x1, region_.x1),
+              std::min(area.y1, region_.y1)};
+    const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
+    samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x)
+        for (int k = wave.first; k < wave.end; ++k) {
+          const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera) {
+            if (!passes_.empty()) addPasses(camera, samples.layers);
+          });
+          samples.colors.push_back(color);
+          if (!isFinite(color)) noteBad({x, y, k});
         }
+    return samples;
   }
 
   Statistics& statistics() { return tracer_.statistics(); }
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
-  /// Casts camera rays of its own, so that no integrator has to know of passes.
-  void setPasses(int x, int y) {
-    const bool averages =
-        std::any_of(passes_.begin(), passes_.end(), [](const PassRow* pass) { return pass->averaged; });
-    const int samples = averages ? tracer_.samples() : 1;
-    std::fill(passSums_.begin(), passSums_.end(), Color(0));
-    for (int sample = 0; sample < samples; ++sample) {
-      const Ray ray = tracer_.cameraRay(x, y, sample);
-      Tracer& tracer = tracer_.tracer();
-      const std::optional<Hit> hit = tracer.cast(ray, RayKind::camera);
-      const bool tooNear = !hit && tracer.tooNear(ray);
-      for (std::size_t i = 0; i < passes_.size(); ++i)
-        if (sample == 0 || passes_[i]->averaged)
-          passSums_[i] += hit       ? passes_[i]->value(*hit, ray, tracer)
-                          : tooNear ? passes_[i]->tooNear
-                                    : passes_[i]->background;
-    }
+  void addPasses(const CameraRay& camera, std::vector<std::vector<Color>>& layers) {
+    const Tracer& tracer = tracer_.tracer();
+    const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
     for (std::size_t i = 0; i < passes_.size(); ++i)
-      film_.set(i, x, y, passes_[i]->averaged ? passSums_[i] / samples : passSums_[i]);
+      layers[i].push_back(camera.hit ? passes_[i]->value(*camera.hit, camera.ray, tracer)
+                          : tooNear  ? passes_[i]->tooNear
+                                     : passes_[i]->background);
+  }
+
+  void noteBad(const BadSample& sample) {
+    ++tracer_.statistics().badSamples;
+    if (bad_.size() < kMostBadSamples) bad_.push_back(sample);
   }
 
   Budget budget_;
   PixelTracer tracer_;
   const Region region_;
-  Film& film_;
   std::vector<const PassRow*> passes_;
-  std::vector<Color> passSums_;
   std::vector<BadSample> bad_;
 };
 
@@ -94,8 +91,14 @@ Size pictureSize(const Settings& settings, const Camera& camera) {
 }
 
 int gridSize(const Settings& settings) { return static_cast<int>(std::ceil(std::sqrt(settings.spp))); }
+int samplesOf(const Settings& settings) { return gridSize(settings) * gridSize(settings); }
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
+  return render(world, *makeIntegrator(world, settings, job), settings, film, job);
+}
+
+RenderResult render(const World& world, const Integrator& integrator, const Settings& settings, Film& film,
+                    Job& job) {
   using Clock = std::chrono::steady_clock;
   Budget clock(budgetOfThread.budget);
   if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
@@ -111,17 +114,21 @@ RenderResult render(const World& world, const Settings& settings, Film& film, Jo
 
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
-  const auto renderTile = [&](std::int64_t chunk, int worker) {
+  const std::vector<Wave>& waves = film.waves();
+  const auto waveOf = [&](std::int64_t chunk) { return static_cast<std::size_t>(chunk / film.tiles()); };
+  const auto takeChunk = [&](std::int64_t chunk, int worker) {
     auto& renderer = workers[static_cast<std::size_t>(worker)];
-    if (!renderer) renderer = std::make_unique<TileRenderer>(world, settings, film, interrupt);
-    renderer->render(film.tile(chunk));
-    film.markDone(chunk);
+    if (!renderer) renderer = std::make_unique<TileRenderer>(world, integrator, settings, film, interrupt);
+    const std::int64_t tile = chunk % film.tiles();
+    film.add(tile, waveOf(chunk), renderer->take(film.tile(tile), waves[waveOf(chunk)]));
   };
+  const ChunkSizes samples{film.tiles() * waves.back().end,
+                           [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
 
   RenderResult result;
   bool outOfMemory = false;
   try {
-    parallelChunks(film.tiles(), threads, job, renderTile);
+    parallelChunks(film.tiles() * std::ssize(waves), threads, job, takeChunk, samples);
   } catch (const std::bad_alloc&) {
     outOfMemory = true;
     result.failure = "out of memory";

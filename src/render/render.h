@@ -1,4 +1,4 @@
-// World -> Film: all camera rays, by any number of threads, in fixed tiles.
+// World -> Film: all camera rays, by any number of threads, in fixed tiles and waves of samples.
 #pragma once
 
 #include <string>
@@ -28,6 +28,8 @@ struct RenderResult {
 };
 inline constexpr std::size_t kMostBadSamples = 1000;
 
+class Integrator;
+
 struct Size {
   int width = 0, height = 0;
 };
@@ -37,12 +39,18 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 
 /// The grid of camera rays of one pixel is n x n, n = ceil(sqrt(spp)).
 int gridSize(const Settings& settings);
+/// How many that are.
+int samplesOf(const Settings& settings);
 
-/// Renders into `film`, which must be of pictureSize(). Passes are made where the film has a layer for each
-/// (makeFilm() in passes.h); in any other film, such as one without layers, none is. Returns early when
-/// job.cancel is set or the time is over: that of the thread's Budget, or without one the settings' limit
-/// from now on. Tiles that were begun are finished, unless they take longer than the job's patience. What is
-/// finished survives a failure too. The same bits for any number of threads.
+/// Renders into `film`, which must be of pictureSize() and samplesOf() (makeFilm() in passes.h). Passes are
+/// made where the film has a layer for each; in any other film, such as one without layers, none is. The job
+/// counts samples of tiles. Returns early when job.cancel is set or the time is over: that of the thread's
+/// Budget, or without one the settings' limit from now on. Waves of tiles that were begun are finished,
+/// unless they take longer than the job's patience. What is finished survives a failure too. The same bits
+/// for any number of threads.
+RenderResult render(const World& world, const Integrator& integrator, const Settings& settings, Film& film,
+                    Job& job);
+/// The same with the integrator of the settings, made for it.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

@@ -3,22 +3,18 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "accel/bvh_node.h"
 #include "geometry/shape.h"
+#include "render/ray_kind.h"
 
 namespace trace {
-
-enum class RayKind { camera, reflection, refraction, shadow };
-inline constexpr std::array<std::string_view, 4> kRayKindNames{"camera", "reflection", "refraction",
-                                                               "shadow"};
 
 struct Statistics {
   static constexpr std::size_t kShapes = kMostShapeTypes;
 
-  std::array<std::uint64_t, kRayKindNames.size()> rays{};
-  std::uint64_t depths = 0;  ///< of all but shadow rays, summed: a camera ray has depth 0
+  std::array<std::uint64_t, kRayKinds> rays{};  ///< by RayKind
+  std::uint64_t depths = 0;                     ///< of all but shadow rays, summed: a camera ray has depth 0
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
   NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped

@@ -1,14 +1,7 @@
-// Whitted's recursive ray tracing (CACM 23(6), 1980), as the courses define it:
-//
-//   I = ke + ka Ia + sum over lights  Shadow Attenuation Il (kd max(0, N.L) + ks max(0, S)^n)
-//     + kr I(mirrored ray) + kt I(refracted ray)
-//
-// The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
-// place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
-// is asked for.
+#include "render/whitted.h"
+
 #include "base/match.h"
 #include "render/gather.h"
-#include "render/integrator.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -21,9 +14,11 @@ struct Path {
   Color medium{1};  ///< what passes through a unit of length of what the ray runs in
 };
 
-Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
-  Gather sum(tracer, ray, path.kind, path.depth);
-  const std::optional<Hit>& hit = sum.hit();
+Color follow(Tracer& tracer, const Ray& ray, const Path& path);
+
+/// The radiance along the ray, which is the one cast last and met `hit`.
+Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path) {
+  Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
     if (path.kind == RayKind::camera) sum.add(Term::Kind::background, world.background(ray));
@@ -69,7 +64,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
     const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
     if (worthwhile(next))
       sum.add(Term::Kind::reflection, mirror,
-              radianceAlong(tracer, hit->leave(mirrored(ray.direction, normal)), next));
+              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next));
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
@@ -78,7 +73,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
                     perCrossing || hit->leaving ? Color(1) : material.transmissive};
     if (worthwhile(next)) {
       if (const auto direction = refracted(ray.direction, normal, hit->indexBefore / hit->indexBehind))
-        sum.add(Term::Kind::refraction, filter, radianceAlong(tracer, hit->leave(*direction), next));
+        sum.add(Term::Kind::refraction, filter, follow(tracer, hit->leave(*direction), next));
       else
         sum.stop(TotalInternalReflection{});
     }
@@ -86,8 +81,15 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const Path& path) {
   return sum.radiance(path.medium == Color(1) ? Color(1) : pow(path.medium, hit->t));  // Beer's law
 }
 
+Color follow(Tracer& tracer, const Ray& ray, const Path& path) {
+  const std::optional<Hit> hit = tracer.cast(ray, path.kind);
+  return radianceAlong(tracer, ray, hit, path);
+}
+
 }  // namespace
 
-Color whitted(Tracer& tracer, const Ray& ray) { return radianceAlong(tracer, ray, {}); }
+Color Whitted::radiance(Tracer& tracer, Sampler, const CameraRay& camera) const {
+  return radianceAlong(tracer, camera.ray, camera.hit, {});
+}
 
 }  // namespace trace

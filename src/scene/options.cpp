@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 1> kNames<Integrator>{"whitted"};
+constexpr std::array<std::string_view, 1> kNames<IntegratorKind>{"whitted"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<Like>{"uw",  "uw2009", "uw2001", "ut",
                                                        "ubc", "uw1998", "usc"};

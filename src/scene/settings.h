@@ -11,7 +11,7 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class Integrator { whitted };
+enum class IntegratorKind { whitted };
 
 /// Whose rules hold where the courses and years differ: a row of conventions.cpp.
 enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
@@ -53,7 +53,7 @@ struct Settings {
   int spp = 1;
   Real time = 0;
   // Tracing
-  Integrator integrator = Integrator::whitted;
+  IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
   Real threshold = 0;
   EnumSet<ShapeKind> omit{};

@@ -42,7 +42,7 @@ enum class CameraAxes {
   skewed,       ///< all three of length 1, up not straightened
 };
 
-/// The ray through (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right +
+/// The ray through film = (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right +
 /// (y - 0.5) up, normalised.
 struct CameraFrame {
   Vec3 eye, look, right, up;
@@ -53,7 +53,9 @@ struct CameraFrame {
     return 0.5 + dot(direction, upward) / dot(up, upward) * (dot(look, forward) / dot(direction, forward));
   }
   bool sees(Real distance) const { return near <= distance && distance <= far; }
-  Ray ray(Real x, Real y) const { return {eye, normalize(look + right * (x - 0.5) + up * (y - 0.5))}; }
+  Ray ray(const Vec2& film) const {
+    return {eye, normalize(look + right * (film.x - 0.5) + up * (film.y - 0.5))};
+  }
 };
 
 /// Precondition: viewdir and updir finite, neither zero nor parallel; 0 < fov < 180.

@@ -98,7 +98,7 @@ void drawStatistics(Studio& studio) {
   ImGui::TableSetupColumn("hits");
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < s.rays.size(); ++i)
-    row({std::string(kRayKindNames[i]) + " rays", std::to_string(s.rays[i]), ""});
+    row({std::string(kRayLooks[i].kind) + " rays", std::to_string(s.rays[i]), ""});
   for (const ShapeType& type : shapeTypes())
     if (s.tests[type.index] > 0)
       row({std::string(type.keyword) + " tests", std::to_string(s.tests[type.index]),

@@ -262,7 +262,7 @@ void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 lo
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   Statistics statistics;
   const auto found = session->world().closest(
-      frame.ray((mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y), Faces::both, statistics);
+      frame.ray({(mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y}), Faces::both, statistics);
   if (found && found->object < studio.workspace.document.scene().objects.size())
     studio.selected = Studio::Selected::object, studio.selectedIndex = found->object;
 }

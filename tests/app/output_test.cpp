@@ -86,7 +86,7 @@ class Fragment : public testing::Test {
   /// A film of two tiles.
   static Film film(int done) {
     Film film(2 * Film::kTileSize, Film::kTileSize);
-    for (int i = 0; i < done; ++i) film.markDone(i);
+    for (int i = 0; i < done; ++i) film.add(i, 0, {});
     return film;
   }
   static inline const Metadata kWords{{"Software", "a test"}};
@@ -161,9 +161,9 @@ TEST_F(Fragment, StaysTogetherWithItsPasses) {
   std::filesystem::rename(path("elsewhere.exr"), path("a.depth.exr"));  // the pass alone is whole
   settings_.passes = {Pass::depth};
   const auto makeBoth = [&](PictureFiles& files, int done) {
-    const Color blank[] = {Color(0)};
-    Film both(2 * Film::kTileSize, Film::kTileSize, blank);
-    for (int i = 0; i < done; ++i) both.markDone(i);
+    const Film::LayerKind kinds[] = {{Color(0)}};
+    Film both(2 * Film::kTileSize, Film::kTileSize, 1, kinds);
+    for (int i = 0; i < done; ++i) both.add(i, 0, {});
     return files.write(both, settings_, kWords);
   };
   PictureFiles files(path("a.png"), {});

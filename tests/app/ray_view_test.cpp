@@ -223,7 +223,7 @@ TEST(OrbitCamera, TheViewFromTheCameraShowsItsPictureWhole) {
     const Matrix4 matrix = projection(fitted(f, aspect), 0.01, 100);
     Real widest = 0;
     for (const Vec2& corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
-      const auto c = transform(matrix, f.ray(corner.x, corner.y).at(5));
+      const auto c = transform(matrix, f.ray({corner.x, corner.y}).at(5));
       for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_LE(std::abs(c[i] / c[3]), 1 + 1e-9);
         widest = std::max(widest, std::abs(c[i] / c[3]));

@@ -71,8 +71,8 @@ TEST(Passes, AreMadeOnlyInAFilmThatHasALayerForEach) {
   for (const PassRow& row : passRows()) settings.passes.add(row.pass);
   const World world = build(scene, settings);
   for (std::size_t count = 0; count < passRows().size(); ++count) {
-    const std::vector<Color> blank(count, Color(0.5));
-    Film film(settings.width, settings.height, blank);
+    const std::vector<Film::LayerKind> kinds(count, {Color(0.5)});
+    Film film(settings.width, settings.height, 1, kinds);
     Job job;
     EXPECT_EQ(render(world, settings, film, job).end, End::finished);
     EXPECT_EQ(film.picture(), plain);

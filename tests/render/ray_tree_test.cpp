@@ -20,7 +20,9 @@ namespace {
 bool sameBits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 Explanation explainPixel(const Scene& scene, const Settings& settings, int x, int y, int sample = 0) {
-  return explain(build(scene, settings), settings, pictureSize(settings, scene.camera), x, y, sample);
+  const World world = build(scene, settings);
+  return explain(world, *integratorOf(world, settings), settings, pictureSize(settings, scene.camera), x, y,
+                 sample);
 }
 
 std::vector<std::string> sentences(const Scene& scene, const Settings& settings) {
@@ -45,13 +47,14 @@ TEST(RayTree, AddsUpToThePictureInRandomScenes) {
     Settings settings{.width = 40, .spp = s % 2 ? 4 : 1, .depth = 4};
     settings.glass = s % 3 ? Glass::perCrossing : Glass::perDistance;
     const World world = build(scene, settings);
+    const auto integrator = integratorOf(world, settings);
     const Size size = pictureSize(settings, scene.camera);
     const Picture rendered = picture(scene, settings);
     std::size_t rays = 0;
     for (int y = 0; y < size.height; y += 3)
       for (int x = 0; x < size.width; x += 3)
         for (int k = 0; k < settings.spp; ++k) {
-          const Explanation e = explain(world, settings, size, x, y, k);
+          const Explanation e = explain(world, *integrator, settings, size, x, y, k);
           ASSERT_TRUE(sameBits(e.pixel, rendered.pixels[static_cast<size_t>(y * size.width + x)]));
           ASSERT_TRUE(sameBits(e.tree.nodes[0].radiance, e.samples[static_cast<size_t>(k)]));
           ASSERT_TRUE(sumsUp(e.tree));
@@ -125,10 +128,11 @@ TEST(RayTree, VisitedBoxesAreThoseThatWereCountedAndTheRayMeetsThem) {
   const Scene scene = randomScene(random, 40);
   const Settings settings{.width = 12, .depth = 3};
   const World world = build(scene, settings);
+  const auto integrator = integratorOf(world, settings);
   std::size_t ofObjects = 0, ofMeshes = 0;
   for (int y = 0; y < 12; ++y)
     for (int x = 0; x < 12; ++x)
-      for (const RayNode& node : explain(world, settings, {12, 12}, x, y, 0).tree.nodes) {
+      for (const RayNode& node : explain(world, *integrator, settings, {12, 12}, x, y, 0).tree.nodes) {
         const std::vector<VisitedBox> boxes = visitedBoxes(world, settings, node);
         ASSERT_EQ(boxes.size(), node.nodes);
         for (size_t i = 0; i < boxes.size(); ++i) {

@@ -169,7 +169,7 @@ TEST(Render, StopsWhenCancelledOrOutOfTime) {
     EXPECT_EQ(render(world, {.width = 400}, film, job).end, End::cancelled);
   }
   {
-    Film film(4000, 4000);
+    Film film(4000, 4000, 100);
     Job job;
     const RenderResult result = render(world, {.width = 4000, .spp = 100, .timeLimit = 0.05}, film, job);
     EXPECT_EQ(result.end, End::timeLimit);
@@ -178,22 +178,11 @@ TEST(Render, StopsWhenCancelledOrOutOfTime) {
   }
 }
 
-TEST(Render, TilesAreSmallWherePixelsHaveManySamples) {
-  Settings settings{.width = 64, .spp = 1};
-  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 4);
-  settings.spp = 64;
-  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 4);
-  settings.spp = 256;
-  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 16);
-  settings.spp = 65536;
-  EXPECT_EQ(makeFilm(settings, 64, 64).tiles(), 64 * 64);
-}
-
 TEST(Render, SameBitsForAnySizeOfTiles) {
   Random random(8);
   const World world = build(randomScene(random, 15));
   const Settings settings = {.width = 45, .height = 45, .spp = 4};
-  Film large(45, 45), small(45, 45, {}, 2);
+  Film large(45, 45, 4), small(45, 45, 4, {}, 2);
   Job one, other;
   render(world, settings, large, one);
   render(world, settings, small, other);
@@ -220,7 +209,7 @@ TEST(Integrators, EveryChoiceHasItsRow) {
   ASSERT_EQ(integrators().size(), names.size());
   for (size_t i = 0; i < names.size(); ++i) {
     EXPECT_EQ(integrators()[i].name, names[i]);
-    EXPECT_EQ(static_cast<size_t>(integrators()[i].integrator), i);
+    EXPECT_EQ(static_cast<size_t>(integrators()[i].kind), i);
   }
 }
 

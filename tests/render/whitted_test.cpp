@@ -1,11 +1,12 @@
 // Values of recursive ray tracing that can be worked out by hand.
+#include "render/whitted.h"
+
 #include <gtest/gtest.h>
 
 #include "geometry/cube.h"
 #include "geometry/mesh.h"
 #include "geometry/sphere.h"
 #include "geometry/square.h"
-#include "render/integrator.h"
 #include "shading/optics.h"
 #include "support/scenes.h"
 
@@ -16,7 +17,9 @@ Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {},
             Statistics* statistics = nullptr) {
   const World world = build(scene, settings);
   Tracer tracer(world, settings);
-  const Color color = whitted(tracer, ray);
+  const CameraRay camera{ray, tracer.cast(ray, RayKind::camera)};
+  const SampleRules rules(settings, {1, 1});
+  const Color color = Whitted().radiance(tracer, Sampler(rules, 0, 0, 0), camera);
   if (statistics) *statistics = tracer.statistics();
   return color;
 }
@@ -130,14 +133,14 @@ TEST(Whitted, TheBackgroundIsInBandsAndOnlyCameraRaysSeeIt) {
   mirror.reflective = Color(1);
   addObject(scene, Square{}, at(0, 0, -1000), mirror);
   const World world = build(scene);
-  const auto seen = [&](Real x, Real y) { return trace(scene, world.camera().ray(x, y)); };
+  const auto seen = [&](Real x, Real y) { return trace(scene, world.camera().ray({x, y})); };
   EXPECT_EQ(seen(0.1, 0.9), Color(1, 0, 0));
   EXPECT_EQ(seen(0.9, 0.76), Color(1, 0, 0));
   EXPECT_EQ(seen(0.3, 0.74), Color(0, 1, 0));
   EXPECT_EQ(seen(0.3, 0.1), Color(0, 0, 1));
   EXPECT_EQ(seen(0.5, 0.5), Color(0)) << "the mirror looks back past the eye";
   scene.background.limits.clear();
-  EXPECT_EQ(trace(scene, world.camera().ray(0.3, 0.4)), Color(0, 1, 0)) << "equal bands";
+  EXPECT_EQ(trace(scene, world.camera().ray({0.3, 0.4})), Color(0, 1, 0)) << "equal bands";
 }
 
 // --- checks.md E2 --------------------------------------------------------------------------------------

@@ -7,10 +7,10 @@ namespace {
 
 TEST(Camera, DefaultLooksAlongMinusZWithAPlaneOfHeightOne) {
   const CameraFrame f = frame({}, CameraAxes::orthonormal);
-  EXPECT_EQ(f.ray(0.5, 0.5).direction, (Vec3{0, 0, -1}));
+  EXPECT_EQ(f.ray({0.5, 0.5}).direction, (Vec3{0, 0, -1}));
   EXPECT_NEAR(length(f.up), 1, 1e-15);
   EXPECT_NEAR(length(f.right), 1, 1e-15);
-  const Vec3 top = f.ray(0.5, 1).direction;
+  const Vec3 top = f.ray({0.5, 1}).direction;
   EXPECT_NEAR(std::atan2(top.y, -top.z) * 180 / kPi, 53.13010235415598 / 2, 1e-12);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/tone.h"
+#include "render/integrator.h"
 #include "render/render.h"
 #include "support/shapes.h"
 
@@ -21,10 +22,15 @@ inline World build(const Scene& scene, const Settings& settings = {}) {
   return compile(scene, settings, messages);
 }
 
+inline std::unique_ptr<const Integrator> integratorOf(const World& world, const Settings& settings) {
+  Job job;
+  return makeIntegrator(world, settings, job);
+}
+
 inline Picture picture(const World& world, const Settings& settings, const Camera& camera,
                        Statistics* statistics = nullptr) {
   const Size size = pictureSize(settings, camera);
-  Film film(size.width, size.height);
+  Film film(size.width, size.height, samplesOf(settings));
   Job job;
   const RenderResult result = render(world, settings, film, job);
   if (statistics) *statistics = result.statistics;

@@ -1,0 +1,40 @@
+// THE table of kinds of rays: what they are called and how they look, in text, in drawings and in the studio.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "math/color.h"
+
+namespace trace {
+
+enum class RayKind { camera, reflection, refraction, shadow };
+inline constexpr std::size_t kRayKinds = 4;
+
+/// A kind of ray as it is shown. Of shadow rays those that are blocked look different.
+enum class RayLooks { camera, reflection, refraction, shadowLit, shadowBlocked };
+
+struct RayLook {
+  std::string_view kind;      ///< the kind's name, one word
+  std::string_view name;      ///< one word
+  std::string_view help;      ///< of a legend
+  Color color;                ///< of the screen, as levels from 0 to 1
+  std::string_view terminal;  ///< the escape sequence that switches its colour on
+};
+
+/// In the order of RayLooks, which begins with that of RayKind. The colours stay apart for colour-blind eyes
+/// (Okabe and Ito 2008) and on white and black.
+inline constexpr std::array<RayLook, 5> kRayLooks{{
+    {"camera", "camera", "camera ray", {0.35, 0.35, 0.35}, "\033[1m"},
+    {"reflection", "reflection", "reflected", {0, 0.447, 0.698}, "\033[1;36m"},
+    {"refraction", "refraction", "refracted", {0, 0.62, 0.451}, "\033[1;35m"},
+    {"shadow", "shadow-lit", "shadow ray that reaches its light", {0.902, 0.624, 0}, "\033[1;33m"},
+    {"shadow", "shadow-blocked", "shadow ray that is blocked", {0.835, 0.169, 0.169}, "\033[1;33m"},
+}};
+
+constexpr const RayLook& look(RayLooks looks) { return kRayLooks[static_cast<std::size_t>(looks)]; }
+constexpr const RayLook& look(RayKind kind) { return kRayLooks[static_cast<std::size_t>(kind)]; }
+constexpr std::string_view name(RayKind kind) { return look(kind).kind; }
+
+}  // namespace trace
