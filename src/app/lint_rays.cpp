@@ -75,7 +75,7 @@ bool counts(const RayNode& node) { return maxComponent(node.weight * node.throug
 /// A refracted ray that would count is missing here for the depth limit.
 bool isCutShort(const RayNode& node) {
   if (!node.hit || !counts(node)) return false;
-  if (maxComponent(node.weight * node.hit->material.transmissive) < kCounts) return false;
+  if (maxComponent(node.weight * whitted(*node.bsdf).transmissive) < kCounts) return false;
   return std::any_of(node.ends.begin(), node.ends.end(), [](const RayEnd& end) {
     const auto* limit = std::get_if<DepthLimit>(&end);
     return limit && limit->unsent == RayKind::refraction;
@@ -131,9 +131,10 @@ class Surveyor {
  private:
   void place(const RayTree& tree, const RayNode& node) {
     Survey::Seen& seen = survey_.objects[node.hit->object];
-    const Phong& material = node.hit->material;
+    const WhittedTerms& material = whitted(*node.bsdf);
+    const bool scattering = scatters(*node.bsdf);
     ++seen.places;
-    seen.couldBeLit += !isBlack(material.diffuse) || !isBlack(material.specular);
+    seen.couldBeLit += scattering;
     // What a mirror or glass shows is no light on its own surface, but it is not black for lack of light.
     seen.lit += !isBlack(node.radiance) || material.mirrors() || material.transmits();
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
@@ -142,7 +143,7 @@ class Surveyor {
     for (const Term& term : node.terms) {
       if (!term.light) continue;
       Survey::Lamp& lamp = survey_.lights[term.light->light];
-      if (!isBlack(material.diffuse) || !isBlack(material.specular)) {
+      if (scattering) {
         ++lamp.places;
         lamp.strongest = std::max(lamp.strongest, maxComponent(term.light->arriving.intensity()));
       }
@@ -187,7 +188,7 @@ class Surveyor {
   bool refracts(const Ray& ray, const Filter& filter) const {
     for (const Found& found : allCrossings(world_, ray, filter.t * (1 + gammaError(8))))
       if (found.object == filter.object && found.part == filter.part)
-        return std::abs(world_.material(found).index - 1) > 0.01;  // air's is near 1, too
+        return std::abs(whitted(*world_.bsdfAt(found)).index - 1) > 0.01;  // air's is near 1, too
     return false;
   }
 
@@ -249,7 +250,7 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
     const std::optional<Found> found = world.closest(ray, Faces::both, uncounted);
     if (!found) return;
     const Vec3 there = position + direction * found->t;
-    if (const auto arriving = match(light, [&](const auto& l) { return l.illuminate(there); }))
+    if (const auto arriving = match(light, [&](const auto& l) { return l.illuminate(there, world.rules()); }))
       strongest = std::max(strongest, maxComponent(arriving->intensity()));
   };
   for (int i = 0; i < kDirections; ++i) look(direction(i));

@@ -7,7 +7,6 @@
 
 #include "app/session.h"
 #include "base/budget.h"
-#include "base/match.h"
 #include "render/pixel.h"
 #include "render/render.h"
 
@@ -99,11 +98,11 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
       primary.push_back({ray});
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;
-      const Hit hit(world, ray, *found, settings.airIndex);
+      const Hit hit(world, ray, *found);
       const Vec3 facing = hit.leaving ? -hit.surface.normal : hit.surface.normal;
       bounce.push_back({hit.leave(aroundNormal(facing, bounce.size()))});
-      for (const Light& light : world.lights()) {
-        const auto arriving = match(light, [&](const auto& l) { return l.illuminate(hit.surface.point); });
+      for (std::size_t light = 0; light < world.lights().size(); ++light) {
+        const auto arriving = world.illuminate(light, hit.surface.point);
         if (arriving && dot(facing, arriving->toLight) > 0)
           shadow.push_back({hit.leave(arriving->toLight), arriving->distance});
       }

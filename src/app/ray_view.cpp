@@ -134,7 +134,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     const Vec2 uv = hit.surface.uv;
     row("uv", text(uv.x) + "  " + text(uv.y));
     row("side", hit.leaving ? "from inside: leaving" : "from outside: entering");
-    row("index of refraction", text(hit.indexBefore) + " before, " + text(hit.indexBehind) + " behind");
+    row("index of refraction", text(node.indices.before) + " before, " + text(node.indices.behind) + " behind");
   }
   if (!node.terms.empty()) row("Shading", "");
   for (const Term& term : node.terms) {
@@ -150,7 +150,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     if (!isBlack(term.light->arriving.extraHighlight * term.light->scatter.specular))
       row("  added in highlights", text(term.light->arriving.extraHighlight));
     const bool sent = term.ray >= 0, needed = !isBlack(term.factor);
-    const Real shadow = node.hit->material.shadow;
+    const Real shadow = whitted(*node.bsdf).shadow;
     if (needed && shadow != 1)
       row("  share of it",
           sent ? text(shadow) + ": the material's shadow" : text(1 - shadow) + ": always lit");

@@ -43,7 +43,7 @@ class Writer {
     json["origin"] = toJson(node.ray.origin);
     json["direction"] = toJson(node.ray.direction);
     json["distance"] = node.hit ? node.hit->t : node.tMost;
-    json["hit"] = node.hit ? hit(*node.hit, node.materials) : ordered_json(nullptr);
+    json["hit"] = node.hit ? hit(node) : ordered_json(nullptr);
     json["terms"] = ordered_json::array();
     for (const Term& t : node.terms) json["terms"].push_back(term(t));
     json["through"] = toJson(node.through);
@@ -85,9 +85,10 @@ class Writer {
             {"materials", shares}};
   }
 
-  ordered_json hit(const Hit& h, const std::vector<MaterialShare>& materials) const {
+  ordered_json hit(const RayNode& node) const {
+    const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    return {{"object", object(h.object, materials)},
+    return {{"object", object(h.object, node.materials)},
             {"part", h.part},
             {"point", toJson(h.surface.point)},
             {"error", toJson(h.surface.error)},
@@ -95,9 +96,9 @@ class Writer {
             {"shading", toJson(h.surface.shading)},
             {"uv", {uv.x, uv.y}},
             {"leaving", h.leaving},
-            {"indexBefore", h.indexBefore},
-            {"indexBehind", h.indexBehind},
-            {"material", fieldsOf(h.material)}};
+            {"indexBefore", node.indices.before},
+            {"indexBehind", node.indices.behind},
+            {"material", match(*node.bsdf, [](const auto& model) { return fieldsOf(model); })}};
   }
 
   ordered_json term(const Term& t) const {

@@ -68,7 +68,7 @@ class TreeText {
       title += " to " + printable(lightName(scene_, term->light->light));
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
-    if (node.hit) hit(*node.hit, node.materials);
+    if (node.hit) hit(node);
     if (node.kind == RayKind::shadow)
       shadow(node);
     else
@@ -84,7 +84,8 @@ class TreeText {
 
   void line(const std::string& words) { text_ += margin_ + words + "\n"; }
 
-  void hit(const Hit& hit, const std::vector<MaterialShare>& materials) {
+  void hit(const RayNode& node) {
+    const Hit& hit = *node.hit;
     const Object& object = scene_.objects[hit.object];
     const std::string shape(object.shape.keyword());
     std::string what = "hits ";
@@ -93,10 +94,11 @@ class TreeText {
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     const bool mesh = object.shape.is<Mesh>();
     line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
-                   materialNames(scene_, materials) + ", at distance " + text(hit.t)));
+                   materialNames(scene_, node.materials) + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;
     std::string side = hit.leaving ? "leaving it" : "entering it";
-    if (hit.material.transmits()) side += ": index " + text(hit.indexBefore) + " -> " + text(hit.indexBehind);
+    if (whitted(*node.bsdf).transmits())
+      side += ": index " + text(node.indices.before) + " -> " + text(node.indices.behind);
     const Vec2 uv = s.uv;
     line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
     line("point " + text(s.point) + ", normal " + text(s.normal));
@@ -138,7 +140,7 @@ class TreeText {
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
     line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
          ")");
-    const Real shadow = node.hit->material.shadow;
+    const Real shadow = whitted(*node.bsdf).shadow;
     if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
     line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +
          "      * passed " + text(term.value) + " of #" + std::to_string(term.ray));

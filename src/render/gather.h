@@ -35,6 +35,10 @@ class Gather {
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
   }
 
+  /// Notes the indices of refraction at the hit.
+  void note(const Indices& indices) {
+    if (Tracer::recorded(node_)) tracer_.record(node_, indices);
+  }
   /// Notes why a ray is not sent on: one of RayEnd.
   template <class Why>
   void stop(const Why& why) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "geometry/materials.h"
 #include "geometry/ray.h"
-#include "shading/phong.h"
+#include "shading/bsdf.h"
 
 namespace trace {
 
@@ -12,8 +14,8 @@ class World;
 struct Found;
 
 struct Hit {
-  /// What `ray` found in the world, around which there is `airIndex`.
-  Hit(const World& world, const Ray& ray, const Found& found, Real airIndex);
+  /// What `ray` found in the world.
+  Hit(const World& world, const Ray& ray, const Found& found);
 
   /// A ray from here in that direction.
   Ray leave(const Vec3& direction) const {
@@ -26,11 +28,24 @@ struct Hit {
   std::uint32_t object;  ///< index into Scene::objects
   std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle
   SurfacePoint surface;
-  Phong material;
-  bool leaving;                   ///< the ray comes from inside: it runs along the true normal
-  bool twoSided;                  ///< the surface is shaded from both sides
-  bool convex;                    ///< the object is
-  Real indexBefore, indexBehind;  ///< of refraction, on the ray's side and on the other
+  MaterialMix materials;
+  bool leaving;   ///< the ray comes from inside: it runs along the true normal
+  bool twoSided;  ///< the surface is shaded from both sides
+  bool convex;    ///< the object is
+};
+
+/// The Bsdf of a place, which may be mixed for it. Lives no longer than the World.
+class PlaceBsdf {
+ public:
+  PlaceBsdf(const World& world, const MaterialMix& materials);
+  PlaceBsdf(const PlaceBsdf&) = delete;
+  PlaceBsdf& operator=(const PlaceBsdf&) = delete;
+
+  const Bsdf& operator*() const { return mixed_ ? *mixed_ : *only_; }
+
+ private:
+  const Bsdf* only_ = nullptr;
+  std::optional<Bsdf> mixed_;
 };
 
 }  // namespace trace

@@ -18,6 +18,7 @@
 
 #include "geometry/materials.h"
 #include "render/hit.h"
+#include "render/interfaces.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
@@ -116,6 +117,8 @@ struct RayNode {
   Real tMost = kInfinity;                ///< of a shadow ray: the distance of the light
   std::optional<Hit> hit;                ///< not of shadow rays
   std::vector<MaterialShare> materials;  ///< of the hit
+  std::optional<Bsdf> bsdf;              ///< there
+  Indices indices;                       ///< there
   std::vector<Term> terms;
   Color through{1};             ///< what the medium lets pass on the way back
   std::vector<Filter> filters;  ///< of a shadow ray, in order

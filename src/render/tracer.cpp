@@ -11,17 +11,15 @@ Faces Tracer::facesSeenBy(RayKind kind) const {
   return settings_.backFaces == BackFaces::cullSeen && seen ? Faces::shadedFront : Faces::both;
 }
 
-Hit::Hit(const World& world, const Ray& ray, const Found& found, Real airIndex)
+Hit::Hit(const World& world, const Ray& ray, const Found& found)
     : t(found.t),
       object(found.object),
       part(found.part),
       surface(world.surface(ray, found)),
-      material(world.material(found)),
+      materials(world.materialMix(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object)),
-      convex(world.convex(object)),
-      indexBefore(leaving ? material.index : airIndex),
-      indexBehind(leaving ? airIndex : material.index) {}
+      convex(world.convex(object)) {}
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   count(kind);
@@ -39,10 +37,12 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   }
   if (records()) {
     RayNode& node = finish();
-    node.materials = sharesOf(world_.materialMix(*found));
-    return node.hit.emplace(world_, ray, *found, settings_.airIndex);
+    const Hit& hit = node.hit.emplace(world_, ray, *found);
+    node.materials = sharesOf(hit.materials);
+    node.bsdf = *world_.shade(hit);
+    return hit;
   }
-  return std::optional<Hit>(std::in_place, world_, ray, *found, settings_.airIndex);
+  return std::optional<Hit>(std::in_place, world_, ray, *found);
 }
 
 bool Tracer::tooNear(const Ray& ray) const {
@@ -156,6 +156,10 @@ void Tracer::record(int node, Term term) {
 
 void Tracer::record(int node, const RayEnd& why) {
   tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
+}
+
+void Tracer::record(int node, const Indices& indices) {
+  tree_->nodes[static_cast<std::size_t>(node)].indices = indices;
 }
 
 void Tracer::record(int index, const Color& through, const Color& radiance) {

@@ -1,6 +1,5 @@
 #include "render/whitted.h"
 
-#include "base/match.h"
 #include "render/gather.h"
 #include "shading/optics.h"
 
@@ -25,7 +24,8 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  const Phong& material = hit->material;
+  const PlaceBsdf bsdf = world.shade(*hit);
+  const WhittedTerms& material = whitted(*bsdf);
   const SurfacePoint& surface = hit->surface;
   // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
   // sides, there by the normal that is shaded; other opaque things are lit from outside only.
@@ -36,15 +36,14 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient, world.ambient());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto arriving =
-        match(world.lights()[i], [&](const auto& l) { return l.illuminate(surface.point); });
+    const auto arriving = world.illuminate(i, surface.point);
     if (!arriving) continue;
-    const Scatter scatter = material.scatter(normal, arriving->toLight, -ray.direction);
-    const Color scattered = arriving->scattered(scatter);
+    const Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
+    const Color scattered = arriving->scattered(parts);
     const Color passed =
         isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
-    sum.addLight(i, *arriving, scatter, scattered * material.shadow, passed);
-    if (material.shadow < 1) sum.addLight(i, *arriving, scatter, scattered * (1 - material.shadow), Color(1));
+    sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
+    if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
   }
 
   const auto worthwhile = [&](const Path& next) {
@@ -56,9 +55,11 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       return true;
     return false;
   };
+  const Indices indices = Interfaces(settings.airIndex).at(hit->leaving, material.index);
+  sum.note(indices);
   // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
   const bool fresnel = settings.fresnel == Fresnel::schlick && material.transmits();
-  const Real R = fresnel ? schlick(-dot(ray.direction, normal), hit->indexBefore, hit->indexBehind) : 0;
+  const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
   const Color mirror = fresnel ? Color(R) : material.reflective;
   if (!isBlack(mirror)) {
     const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
@@ -72,7 +73,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     const Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
                     perCrossing || hit->leaving ? Color(1) : material.transmissive};
     if (worthwhile(next)) {
-      if (const auto direction = refracted(ray.direction, normal, hit->indexBefore / hit->indexBehind))
+      if (const auto direction = refracted(ray.direction, normal, indices.before / indices.behind))
         sum.add(Term::Kind::refraction, filter, follow(tracer, hit->leave(*direction), next));
       else
         sum.stop(TotalInternalReflection{});

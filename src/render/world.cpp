@@ -8,20 +8,14 @@
 
 namespace trace {
 
-namespace {
-
-/// What is seen through as if it were not there.
-const Phong& clear() {
-  static const Phong kClear = [] {
-    Phong phong;
-    phong.emissive = phong.ambient = phong.diffuse = phong.specular = phong.reflective = Color(0);
+const Bsdf& World::clear() {
+  static const Bsdf kClear = [] {
+    PhongBsdf phong;
     phong.transmissive = Color(1);
     return phong;
   }();
   return kClear;
 }
-
-}  // namespace
 
 MaterialMix World::materialMix(const Found& found) const {
   const Instance& instance = objects_[found.object];
@@ -35,12 +29,11 @@ MaterialMix World::materialMix(const Found& found) const {
   return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
-Phong World::material(const Found& found) const {
-  const MaterialMix m = materialMix(found);
-  const auto at = [&](int i) -> const Phong& {
-    return m.material[i] == MaterialMix::kClear ? clear() : materials_[m.material[i]];
-  };
-  return m.count == 1 ? at(0) : mix(at(0), at(1), at(2), m.weight);
+PlaceBsdf::PlaceBsdf(const World& world, const MaterialMix& m) {
+  if (m.count == 1)
+    only_ = &world.bsdf(m.material[0]);
+  else
+    mixed_ = mix(world.bsdf(m.material[0]), world.bsdf(m.material[1]), world.bsdf(m.material[2]), m.weight);
 }
 
 std::size_t World::triangleCount() const {
@@ -61,16 +54,6 @@ std::size_t World::bytes() const {
 // --- compile ------------------------------------------------------------------------------------------
 
 namespace {
-
-Phong bake(const Material& material, const Settings& settings) {
-  Phong phong = std::get<Phong>(material.model);
-  if (phong.mirrorsSpecular && settings.mirrorDefault == MirrorDefault::specular)
-    phong.reflective = phong.specular;
-  phong.shininess *= settings.shininessScale;
-  phong.highlight = settings.highlight;
-  phong.litFromBehind = settings.diffuseSides == DiffuseSides::bothOnGlass && phong.transmits();
-  return phong;
-}
 
 std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
   return std::make_shared<const Bvh>(settings.accel == Accel::none
@@ -150,19 +133,17 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
-  for (const Material& material : scene.materials) world.materials_.push_back(bake(material, settings));
+  world.rules_ = rulesOf(settings);
+  for (const Material& material : scene.materials)
+    world.bsdfs_.push_back(bsdfOf(material.model, world.rules_));
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    const auto add = [&](const Light& light) {
-      world.lights_.push_back(light), world.lightSources_.push_back(i);
-    };
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
                                               world.ambient_ += light.color * settings.ambientScale;
                                             },
-                                            [&](auto light) {
-                                              if constexpr (requires { light.atMostOne; })
-                                                light.atMostOne = settings.limitAttenuation;
-                                              add(light);
+                                            [&](const auto& light) {
+                                              world.lights_.push_back(light);
+                                              world.lightSources_.push_back(i);
                                             }});
   }
 
@@ -189,7 +170,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (!flat)
       instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
     instance.material = object.material;
-    if (object.material >= world.materials_.size())
+    if (object.material >= world.bsdfs_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
     if (settings.omit.has(static_cast<ShapeKind>(instance.kind))) {
       boxes.emplace_back();  // keeps the numbering of objects; what is empty is never met
@@ -223,7 +204,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       instance.shape.addMaterials(materials);
     }
     instance.opaque = std::none_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
-      return m == MaterialMix::kClear || world.materials_.at(m).transmits();
+      return m == MaterialMix::kClear || whitted(world.bsdfs_.at(m)).transmits();
     });
     if (!flat) {
       if (box.unbounded())

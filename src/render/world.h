@@ -1,8 +1,8 @@
 // What rays meet: the scene baked, indexed and immutable.
 //
 // compile() multiplies out what a render asks again and again (inverse transforms, bounds, hierarchies,
-// generated normals) and applies the conventions that concern materials, lights and camera. It uses the
-// scene's own shape, material and light structs; names and files stay behind.
+// generated normals) and applies the conventions that concern materials and camera. It uses the scene's own
+// shape and light structs; names and files stay behind.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@
 #include "geometry/mesh_tree.h"
 #include "geometry/placement.h"
 #include "geometry/traced.h"
+#include "render/hit.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/light.h"
-#include "shading/phong.h"
 
 namespace trace {
 
@@ -86,12 +86,14 @@ class World {
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
-  Phong material(const Found& found) const;
-  /// What of it the rays of a light pass through: material(found).transmissive.
-  Color filter(const Found& found) const {
-    const Instance& instance = objects_[found.object];
-    return instance.mixed ? material(found).transmissive : materials_[instance.material].transmissive;
+  /// Of one of the scene's materials, or of MaterialMix::kClear.
+  const Bsdf& bsdf(std::uint32_t material) const {
+    return material == MaterialMix::kClear ? clear() : bsdfs_[material];
   }
+  PlaceBsdf shade(const Hit& hit) const { return {*this, hit.materials}; }
+  PlaceBsdf bsdfAt(const Found& found) const { return {*this, materialMix(found)}; }
+  /// What of it the rays of a light pass through.
+  Color filter(const Found& found) const { return whitted(*bsdfAt(found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -107,6 +109,11 @@ class World {
   const std::vector<Light>& lights() const { return lights_; }
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
+  const Rules& rules() const { return rules_; }
+  /// What arrives at a point of the light of that number, if nothing is in the way.
+  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from) const {
+    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_); });
+  }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   /// What a camera ray sees that meets nothing.
   Color background(const Ray& ray) const {
@@ -174,7 +181,10 @@ class World {
   std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those without end, which no
                                        ///< hierarchy can hold; where there is no tree, all
-  std::vector<Phong> materials_;
+  static const Bsdf& clear();          ///< what is seen through as if it were not there
+
+  std::vector<Bsdf> bsdfs_;  ///< of the scene's materials
+  Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
   Color ambient_;

@@ -6,7 +6,7 @@
 #include "base/enum_set.h"
 #include "image/tone.h"
 #include "shading/camera.h"
-#include "shading/phong.h"
+#include "shading/rules.h"
 
 namespace trace {
 
@@ -20,11 +20,9 @@ enum class Glass { perCrossing, perDistance };
 /// How much glass mirrors: what its material says, or by the angle.
 enum class Fresnel { constant, schlick };
 enum class GlassShadows { filtered, black };
-enum class MirrorDefault { specular, zero };
 enum class BackFaces { both, cullSeen, cullAll };
 enum class PixelPosition { corner, center, border };
 enum class VertexNormals { unit, mean };
-enum class DiffuseSides { front, bothOnGlass };
 
 /// A type of the list of shapes, by its number there.
 enum class ShapeKind {};
@@ -91,5 +89,9 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
+
+inline Rules rulesOf(const Settings& s) {
+  return {s.highlight, s.shininessScale, s.mirrorDefault, s.diffuseSides, s.limitAttenuation};
+}
 
 }  // namespace trace

@@ -42,8 +42,8 @@ enum class CameraAxes {
   skewed,       ///< all three of length 1, up not straightened
 };
 
-/// The ray through film = (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right +
-/// (y - 0.5) up, normalised.
+/// The ray through film = (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right
+/// + (y - 0.5) up, normalised.
 struct CameraFrame {
   Vec3 eye, look, right, up;
   Real near = 0, far = kInfinity;

@@ -48,14 +48,12 @@ struct PointLight {
   }
   bool operator==(const PointLight&) const = default;
 
-  bool atMostOne = true;  ///< attenuation never amplifies; set by compile() from the conventions
-
-  std::optional<Illumination> illuminate(const Vec3& p) const {
+  std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules) const {
     const Vec3 d = position - p;
     const Real l = length(d);
     if (!(l > 0)) return {};
     const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
-    return Illumination{d / l, l, color, atMostOne ? std::min(1.0, attenuation) : attenuation,
+    return Illumination{d / l, l, color, rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation,
                         extraHighlight};
   }
 };
@@ -74,7 +72,7 @@ struct DirectionalLight {
   }
   bool operator==(const DirectionalLight&) const = default;
 
-  std::optional<Illumination> illuminate(const Vec3&) const {
+  std::optional<Illumination> illuminate(const Vec3&, const Rules&) const {
     return Illumination{normalize(-direction), kInfinity, color};
   }
 };
@@ -107,9 +105,7 @@ struct SpotLight {
   }
   bool operator==(const SpotLight&) const = default;
 
-  bool atMostOne = true;  ///< as of PointLight
-
-  std::optional<Illumination> illuminate(const Vec3& p) const {
+  std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules) const {
     const Vec3 d = position - p;
     const Real l = length(d);
     if (!(l > 0)) return {};
@@ -117,7 +113,7 @@ struct SpotLight {
     const Real off = std::acos(cosine) * 180 / kPi;
     if (off > angle) return {};
     const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
-    Real factor = atMostOne ? std::min(1.0, attenuation) : attenuation;
+    Real factor = rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation;
     if (exponent > 0) factor *= std::pow(std::max(0.0, cosine), exponent);
     if (off > fullAngle) factor *= (angle - off) / (angle - fullAngle);
     return Illumination{d / l, l, color, factor, {}};
@@ -135,7 +131,7 @@ struct AmbientLight {
   }
   bool operator==(const AmbientLight&) const = default;
 
-  std::optional<Illumination> illuminate(const Vec3&) const { return {}; }
+  std::optional<Illumination> illuminate(const Vec3&, const Rules&) const { return {}; }
 };
 
 using Light = std::variant<PointLight, DirectionalLight, SpotLight, AmbientLight>;

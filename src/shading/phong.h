@@ -8,17 +8,28 @@
 #include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/rules.h"
 
 namespace trace {
-
-/// Which angle the highlight measures: normal against half-way vector, or eye against mirrored light.
-enum class Highlight { blinn, phong };
 
 /// What a surface scatters of a light, in parts.
 struct Scatter {
   Color diffuse, specular;
   Color sum() const { return diffuse + specular; }
 };
+
+/// What Whitted's equation asks of a surface besides what it scatters.
+struct WhittedTerms {
+  Color emissive, ambient;
+  Color reflective, transmissive;  ///< weights of the mirrored and of the refracted ray
+  Real index = 1;                  ///< of refraction
+  Real shadow = 1;                 ///< share of a light that a shadow takes away
+
+  bool transmits() const { return !isBlack(transmissive); }
+  bool mirrors() const { return !isBlack(reflective); }
+};
+
+struct PhongBsdf;
 
 struct Phong {
   static constexpr std::string_view kKeyword = "material";
@@ -47,12 +58,34 @@ struct Phong {
 
   /// No `reflective` was given after the last `specular`: some conventions then mirror with `specular`.
   bool mirrorsSpecular = false;
-  // Set by compile() from the conventions, not by scenes:
-  Highlight highlight = Highlight::blinn;
-  bool litFromBehind = false;  ///< light from behind comes through: |N.L|, and a highlight straight ahead
 
   bool transmits() const { return !isBlack(transmissive); }
   bool mirrors() const { return !isBlack(reflective); }
+
+  /// The surface as light meets it.
+  PhongBsdf at(const Rules& rules) const;
+};
+
+/// Under the conventions of a render.
+struct PhongBsdf : WhittedTerms {
+  Color diffuse, specular;
+  Real shininess = 0;
+  Highlight highlight = Highlight::blinn;
+  bool litFromBehind = false;  ///< light from behind comes through: |N.L|, and a highlight straight ahead
+
+  static constexpr auto fields() {  // those that mixtures mix, named as the material's
+    const auto named = [](const char* keyword, auto member) {
+      return Field{keyword, member, "", 0, kNoLimit, ""};
+    };
+    return std::tuple{
+        named("emissive", &PhongBsdf::emissive),     named("ambient", &PhongBsdf::ambient),
+        named("diffuse", &PhongBsdf::diffuse),       named("specular", &PhongBsdf::specular),
+        named("reflective", &PhongBsdf::reflective), named("transmissive", &PhongBsdf::transmissive),
+        named("shininess", &PhongBsdf::shininess),   named("index", &PhongBsdf::index),
+        named("shadow", &PhongBsdf::shadow)};
+  }
+
+  bool scatters() const { return !isBlack(diffuse) || !isBlack(specular); }
 
   /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
   /// The highlight is not multiplied by N.L.
@@ -75,10 +108,26 @@ struct Phong {
   }
 };
 
+inline PhongBsdf Phong::at(const Rules& rules) const {
+  PhongBsdf bsdf;
+  bsdf.emissive = emissive;
+  bsdf.ambient = ambient;
+  bsdf.diffuse = diffuse;
+  bsdf.specular = specular;
+  bsdf.reflective = mirrorsSpecular && rules.mirrorDefault == MirrorDefault::specular ? specular : reflective;
+  bsdf.transmissive = transmissive;
+  bsdf.shininess = shininess * rules.shininessScale;
+  bsdf.index = index;
+  bsdf.shadow = shadow;
+  bsdf.highlight = rules.highlight;
+  bsdf.litFromBehind = rules.diffuseSides == DiffuseSides::bothOnGlass && transmits();
+  return bsdf;
+}
+
 /// Every field mixed linearly: the materials of a triangle's corners.
-inline Phong mix(const Phong& a, const Phong& b, const Phong& c, const Real (&w)[3]) {
-  Phong m = a;
-  forEachField<Phong>([&](const auto& f) {
+inline PhongBsdf mix(const PhongBsdf& a, const PhongBsdf& b, const PhongBsdf& c, const Real (&w)[3]) {
+  PhongBsdf m = a;
+  forEachField<PhongBsdf>([&](const auto& f) {
     m.*f.member = (a.*f.member) * w[0] + (b.*f.member) * w[1] + (c.*f.member) * w[2];
   });
   return m;

@@ -219,7 +219,7 @@ TEST(RayTree, NamesTheMaterialOfThePartOfASolid) {
   };
   scene.objects.push_back({"", holed(2), {}, 0, {}});
   EXPECT_EQ(madeOf(scene), "drill");
-  EXPECT_EQ(explainPixel(scene, kOnePixel, 0, 0).tree.nodes[0].hit->material.emissive, Color(3));
+  EXPECT_EQ(whitted(*explainPixel(scene, kOnePixel, 0, 0).tree.nodes[0].bsdf).emissive, Color(3));
   scene.camera.position.x = 0.4;
   EXPECT_EQ(madeOf(scene), "block");
   scene.camera.position.x = 0;
@@ -311,8 +311,8 @@ TEST(RayTree, SaysThatLightIsReflectedTotally) {
   const Explanation e = explainPixel(scene, kOnePixel, 0, 0);
   EXPECT_EQ(sentence(e.tree.nodes[0], scene), "total internal reflection: no refraction");
   EXPECT_TRUE(e.tree.nodes[0].hit->leaving);
-  EXPECT_EQ(e.tree.nodes[0].hit->indexBefore, 1.5);
-  EXPECT_EQ(e.tree.nodes[0].hit->indexBehind, 1);
+  EXPECT_EQ(e.tree.nodes[0].indices.before, 1.5);
+  EXPECT_EQ(e.tree.nodes[0].indices.behind, 1);
 }
 
 TEST(RayTree, RefusesPixelsAndSamplesOutsideThePicture) {

@@ -256,8 +256,7 @@ TEST(Whitted, HighlightsOfBlinnAndPhong) {
               1e-14);
   Random random(3);
   for (Highlight highlight : {Highlight::blinn, Highlight::phong}) {
-    Phong p = phong;
-    p.highlight = highlight;
+    PhongBsdf p = phong.at({.highlight = highlight});
     if (highlight == Highlight::blinn) {
       EXPECT_EQ(p.scatter({0, 0, 1}, {0, 0, -1}, {0, 0, -1}).sum().r, 0);  // N.H < 0
     }

@@ -1,0 +1,23 @@
+// Where the courses differ in what a material or a light means. Options of the group Conventions choose.
+#pragma once
+
+#include "math/vec.h"
+
+namespace trace {
+
+/// Which angle the highlight measures: normal against half-way vector, or eye against mirrored light.
+enum class Highlight { blinn, phong };
+/// What a material mirrors that gives no `reflective`.
+enum class MirrorDefault { specular, zero };
+/// Which sides of a surface are lit.
+enum class DiffuseSides { front, bothOnGlass };
+
+struct Rules {
+  Highlight highlight = Highlight::blinn;
+  Real shininessScale = 1;
+  MirrorDefault mirrorDefault = MirrorDefault::specular;
+  DiffuseSides diffuseSides = DiffuseSides::front;
+  bool limitAttenuation = true;  ///< with distance a light never becomes brighter than it is
+};
+
+}  // namespace trace
