@@ -45,7 +45,7 @@ LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFil
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
   session.build();
-  const RenderResult result = session.render();
+  const RenderResult result = session.renderPicture();
   if (result.end != End::finished)
     throw Error(Fault::limit,
                 "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));

@@ -5,16 +5,13 @@
 // limits[] of {metric, limit, met}, difference (name of the picture written, or null).
 #include <array>
 #include <cmath>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "app/difference.h"
-#include "base/budget.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/memory_limit.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 
@@ -133,19 +130,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
 
 }  // namespace
 
-int diff(const Arguments& arguments, const Console& console) {
-  Finding finding = Finding::failed;
-  try {
-    finding = findDifference(arguments, console);
-  } catch (const Error& error) {
-    console.error(error);
-  } catch (const std::bad_alloc&) {
-    liftMemoryLimit();
-    console.error(outOfMemory(doingNow()));
-  } catch (const std::exception& error) {
-    console.error(Error(Fault::limit, error.what()));
-  }
-  return exitCode(finding, arguments.idiffCodes);
+int diffCommand(const Arguments& arguments, const Console& console) {
+  return exitCode(findDifference(arguments, console), arguments.idiffCodes);
 }
+
+int failedDiff(const Arguments& arguments) { return exitCode(Finding::failed, arguments.idiffCodes); }
 
 }  // namespace trace::cli

@@ -109,7 +109,7 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
 
 }  // namespace
 
-int grade(const Arguments& arguments, const Console& console) {
+int gradeCommand(const Arguments& arguments, const Console& console) {
   const bool asJson = chosenFormat(arguments, "grade", kFormats) == "json";
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);

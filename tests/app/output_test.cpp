@@ -21,7 +21,7 @@ class OutputTest : public testing::Test {
     choices.push_back({"width", "24", {}});
     session_.open(test::sourceFolder() + "/scenes/shapes.ray", choices);
     session_.build();
-    session_.render();
+    session_.renderPicture();
     session_.save(folder_ / name);
   }
 
