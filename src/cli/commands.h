@@ -1,4 +1,4 @@
-// THE table of sub-commands. A new one is a function and a row in commands.cpp.
+// THE table of sub-commands. A new one is a value of Verb, a function and a row in commands.cpp.
 #pragma once
 
 #include <span>

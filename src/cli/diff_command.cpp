@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/difference.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "base/text.h"
@@ -111,8 +113,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
-  const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
-                                         {arguments.tolerance, arguments.pixelsPerDegree});
+  LoadedPicture reference = loadPicture(arguments.files[0]), test = loadPicture(arguments.files[1]);
+  const Work work("comparing the pictures");
+  const PictureDifference d =
+      difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});
   printResult(json                        ? diffJson(d, arguments)
               : arguments.printed.empty() ? diffText(d, arguments)
                                           : printed(d, arguments));
