@@ -176,7 +176,7 @@ void BackgroundRender::run(const Request& request) {
     state_.phase = Phase::tracing;
     tracingBegan_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
-  RenderResult result = session->render();
+  RenderResult result = session->renderPicture();
   const std::lock_guard lock(mutex_);
   if (!result.failure.empty()) messages_.push_back({.what = result.failure});
   if (state_.number == request.number && session_ == session) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "image/codec.h"
@@ -32,6 +33,7 @@ constexpr std::array kMetrics{
 }  // namespace
 
 LoadedPicture loadPicture(const std::string& path) {
+  const Work work("reading a picture");
   const std::string bytes = readFile(path);
   return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright};
 }

@@ -45,7 +45,7 @@ LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFil
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
   session.build();
-  const RenderResult result = session.render();
+  const RenderResult result = session.renderPicture();
   if (result.end != End::finished)
     throw Error(Fault::limit,
                 "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));
@@ -72,7 +72,7 @@ void addPictures(GradedPair& pair, const PictureDifference& d, double magnify) {
 }
 
 void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
-  if (pair.file.empty()) return;
+  if (pair.file.empty() || pair.verdict == Verdict::unreadable) return;
   const std::string test = (fs::path(task.folder) / pair.file).string();
   const std::string reference = (fs::path(task.reference) / pair.name).string();
   const PictureDifference d =
@@ -93,13 +93,21 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
+/// In words that follow on the name of the pair.
+std::string problemOf(const Error& error) {
+  constexpr std::string_view kWord = "error: ";
+  const std::string text = error.what();
+  if (text.starts_with(kWord)) return text.substr(kWord.size());
+  return error.fault() == Fault::scene ? "cannot be read: " + text : text;
+}
+
 void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   try {
     compareInto(pair, task, inputs);
   } catch (const Error& error) {
     lookAtBudget();  // if the time of all is over, this pair is not at fault
     pair.verdict = Verdict::unreadable;
-    pair.problem = error.what();
+    pair.problem = problemOf(error);
   } catch (const std::bad_alloc&) {
     pair.verdict = Verdict::unreadable;
     pair.problem = "not enough memory";
@@ -120,11 +128,22 @@ void addUnreadable(Grades& grades, const fs::path& folder, std::string why) {
   grades.pairs.push_back(std::move(pair));
 }
 
+bool isAmong(const std::vector<fs::path>& files, const fs::path& file) {
+  return std::find(files.begin(), files.end(), file) != files.end();
+}
+
+/// Says that a pair cannot be compared, for what stands there is not to be read.
+void noteNoFile(GradedPair& pair, const fs::path& path) {
+  pair.verdict = Verdict::unreadable;
+  pair.problem = "\"" + path.generic_string() + "\" is not a file";
+}
+
 /// Gives each pair the file of the same name: the same suffix counts before others, what can be read before
 /// what cannot, and a name that differs in its case only if there is no other. Returns the files left over.
-std::vector<std::string> findPartners(std::vector<GradedPair>& pairs, const FolderFiles& files) {
+std::vector<std::string> findPartners(std::vector<GradedPair>& pairs, const FolderFiles& files,
+                                      const std::string& root) {
   std::map<std::string, std::vector<fs::path>> byName, byAnyCase;
-  for (const std::vector<fs::path>* list : {&files.files, &files.unreadable})
+  for (const std::vector<fs::path>* list : {&files.files, &files.others, &files.noFiles})
     for (const fs::path& file : *list) {
       byName[stemOf(file)].push_back(file);
       byAnyCase[lowerCase(stemOf(file))].push_back(file);
@@ -133,6 +152,7 @@ std::vector<std::string> findPartners(std::vector<GradedPair>& pairs, const Fold
   const auto take = [&](GradedPair& pair, const fs::path& file) {
     pair.file = file.generic_string();
     used.insert(pair.file);
+    if (isAmong(files.noFiles, file)) noteNoFile(pair, root / file);
   };
   for (GradedPair& pair : pairs) {
     const auto found = byName.find(stemOf(pair.name));
@@ -178,16 +198,18 @@ std::string_view verdictText(Verdict verdict) {
 
 Grades grade(const GradeTask& task) {
   Grades grades;
-  const FolderFiles files = filesBelow(task.folder, task.renderScenes ? isSceneFile : isPictureFile);
-  const FolderFiles references = filesBelow(task.reference, isPictureFile);
-  for (const fs::path& reference : references.files) addPair(grades, reference);
-  for (const fs::path& reference : references.unreadable)
-    if (isPictureFile(reference)) addPair(grades, reference);
+  FolderFiles files = filesBelow(task.folder, task.renderScenes ? sceneKind : pictureKind);
+  std::stable_partition(files.others.begin(), files.others.end(), hasSceneSuffix);
+  const FolderFiles references = filesBelow(task.reference, pictureKind);
+  for (const std::vector<fs::path>* list : {&references.files, &references.others, &references.noFiles})
+    for (const fs::path& reference : *list) addPair(grades, reference);
   for (const auto& [folder, why] : references.unreadableFolders)
     addUnreadable(grades, folder, "cannot read the folder: " + why);
   if (grades.pairs.empty())
     throw Error(Fault::usage, "there is no picture in the folder \"" + task.reference + "\"");
-  grades.extra = findPartners(grades.pairs, files);
+  grades.extra = findPartners(grades.pairs, files, task.folder);
+  for (GradedPair& pair : grades.pairs)
+    if (isAmong(references.noFiles, pair.name)) noteNoFile(pair, fs::path(task.reference) / pair.name);
 
   checkPage(task, filesOf(task, grades));
 

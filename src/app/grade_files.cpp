@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/format.h"
@@ -14,11 +15,11 @@ namespace fs = std::filesystem;
 
 class Walk {
  public:
-  Walk(const std::string& folder, bool (*wanted)(const fs::path&)) : folder_(folder), wanted_(wanted) {
+  Walk(const std::string& folder, FileKind (*kindOf)(const fs::path&)) : folder_(folder), kindOf_(kindOf) {
     std::string why;
     if (!enter({}, why)) throw Error(Fault::io, "cannot read the folder \"" + folder + "\": " + why);
-    std::sort(found_.files.begin(), found_.files.end());
-    std::sort(found_.unreadable.begin(), found_.unreadable.end());
+    for (std::vector<fs::path>* list : {&found_.files, &found_.others, &found_.noFiles})
+      std::sort(list->begin(), list->end());
   }
   FolderFiles take() { return std::move(found_); }
 
@@ -44,27 +45,28 @@ class Walk {
     if (fs::is_directory(status)) {
       std::string why;
       if (!enter(name, why)) found_.unreadableFolders[name] = why;
-    } else if (fs::is_regular_file(status)) {
-      try {
-        if (wanted_(folder_ / name)) found_.files.push_back(name);
-      } catch (const Error&) {
-        found_.unreadable.push_back(name);
-      }
-    } else if (error || status.type() == fs::file_type::not_found) {  // a link that leads nowhere, for one
-      found_.unreadable.push_back(name);
+      return;
     }
+    const FileKind kind = kindOf_(folder_ / name);
+    if (kind == FileKind::unwanted) return;
+    if (error || !fs::exists(status))  // as a link may lead nowhere
+      found_.others.push_back(name);
+    else if (!fs::is_regular_file(status))
+      found_.noFiles.push_back(name);
+    else
+      (kind == FileKind::wanted ? found_.files : found_.others).push_back(name);
   }
 
   const fs::path folder_;
-  bool (*const wanted_)(const fs::path&);
+  FileKind (*const kindOf_)(const fs::path&);
   std::vector<fs::path> inside_;  ///< the folder looked at and those it is in, without links
   FolderFiles found_;
 };
 
 }  // namespace
 
-FolderFiles filesBelow(const std::string& folder, bool (*wanted)(const fs::path&)) {
-  return Walk(folder, wanted).take();
+FolderFiles filesBelow(const std::string& folder, FileKind (*kindOf)(const fs::path&)) {
+  return Walk(folder, kindOf).take();
 }
 
 std::string lowerCase(std::string text) {
@@ -73,20 +75,34 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-bool isPictureFile(const fs::path& file) {
+FileKind pictureKind(const fs::path& file) {
   const std::string suffix = lowerCase(file.extension().string());
   for (const PictureFormat& format : pictureFormats())
+    for (std::string_view known : format.suffixes)
+      if (known == suffix) return FileKind::wanted;
+  return FileKind::unwanted;
+}
+
+bool hasSceneSuffix(const fs::path& file) {
+  const std::string suffix = lowerCase(file.extension().string());
+  for (const SceneFormat& format : sceneFormats())
     for (std::string_view known : format.suffixes)
       if (known == suffix) return true;
   return false;
 }
 
-bool isSceneFile(const fs::path& file) {
-  if (isPictureFile(file)) return false;
-  const std::string bytes = readFile(file.string());
-  for (const SceneFormat& format : sceneFormats())
-    if (format.recognises(bytes)) return true;
-  return false;
+FileKind sceneKind(const fs::path& file) {
+  if (pictureKind(file) == FileKind::wanted) return FileKind::unwanted;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return FileKind::perhaps;
+  try {
+    const std::string bytes = readFile(file.string());
+    for (const SceneFormat& format : sceneFormats())
+      if (format.recognises(bytes)) return FileKind::wanted;
+  } catch (const Error&) {  // whoever reads it as a scene is told why
+    lookAtBudget();
+  }
+  return FileKind::perhaps;
 }
 
 }  // namespace trace

@@ -9,22 +9,31 @@
 namespace trace {
 
 struct FolderFiles {
-  std::vector<std::filesystem::path> files;       ///< wanted, seen from the folder, in the order of names
-  std::vector<std::filesystem::path> unreadable;  ///< perhaps wanted: what they hold could not be seen
+  std::vector<std::filesystem::path> files;  ///< wanted, seen from the folder, in the order of names
+  std::vector<std::filesystem::path>
+      others;  ///< perhaps meant to be wanted: who reads one learns why it is not
+  std::vector<std::filesystem::path> noFiles;  ///< pipes and devices, which must not be read
   std::map<std::filesystem::path, std::string> unreadableFolders;  ///< and why
 };
 
-/// What is in and below the folder. Links are followed, but not into a folder that they stand in. `wanted`
-/// may throw Error where it cannot tell. Throws Error(Fault::io) if the folder itself cannot be read.
-FolderFiles filesBelow(const std::string& folder, bool (*wanted)(const std::filesystem::path&));
+/// What a file is to those who look for some kind of it.
+enum class FileKind { wanted, perhaps, unwanted };
+
+/// What is in and below the folder. `kindOf` reads no pipe and no device. Links are followed, but not into a
+/// folder that they stand in. Throws Error(Fault::io) if the folder itself cannot be read.
+FolderFiles filesBelow(const std::string& folder, FileKind (*kindOf)(const std::filesystem::path&));
 
 /// A to Z as a to z.
 std::string lowerCase(std::string text);
 
-/// By the suffix, in any case.
-bool isPictureFile(const std::filesystem::path& file);
+/// Of a picture, by the suffix in any case.
+FileKind pictureKind(const std::filesystem::path& file);
 
-/// By what it holds. Throws Error(Fault::io).
-bool isSceneFile(const std::filesystem::path& file);
+/// In any case.
+bool hasSceneSuffix(const std::filesystem::path& file);
+
+/// Of a scene, by what it holds. What no format recognises or nobody can read is perhaps one; a picture is
+/// not.
+FileKind sceneKind(const std::filesystem::path& file);
 
 }  // namespace trace

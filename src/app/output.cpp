@@ -70,9 +70,29 @@ bool holdsSomething(const std::string& path) {
   return error ? fs::exists(path, error) : size > 0;
 }
 
-/// Whether words stay with a picture of the format.
-bool keepsWords(const PictureFormat& format) {
-  return !format.metadata(format.encode(Picture(1, 1), Rounding::truncate, {{"Word", "kept"}})).empty();
+/// The words of the picture or the pass.
+Metadata wordsOf(const Output& output, const Metadata& metadata) {
+  Metadata words = metadata;
+  if (!output.pass.empty()) words.emplace_back(kPass, output.pass);
+  return words;
+}
+
+/// The name of a fragment beside the picture; there may be several, numbered from 1.
+std::string besidePicture(const fs::path& picture, int number) {
+  const std::string name = picture.stem().string() + kPartial +
+                           (number == 1 ? "" : "-" + std::to_string(number)) + picture.extension().string();
+  return (picture.parent_path() / name).string();
+}
+
+/// Whether the words of the file say that it is a part of the picture, or pass, with these words.
+bool isFragmentOf(const Output& output, const Metadata& metadata) {
+  try {
+    Metadata stored = readMetadata(output.path);
+    const bool incomplete = std::erase_if(stored, [](const auto& word) { return word.first == kIncomplete; });
+    return incomplete && whatCounts(stored) == whatCounts(wordsOf(output, metadata));
+  } catch (const std::exception&) {  // whatever it is, it is not ours
+    return false;
+  }
 }
 
 /// Whether the file is a picture of which a part was never rendered.
@@ -80,14 +100,18 @@ bool isFragment(const std::string& path) {
   try {
     for (const auto& [key, text] : readMetadata(path))
       if (key == kIncomplete) return true;
-    return !keepsWords(pictureFormatFor(path)) &&
-           fs::path(path).filename().string().find(kPartial) != std::string::npos;
+    return !keepsWords(path) && fs::path(path).filename().string().find(kPartial) != std::string::npos;
   } catch (const std::exception&) {  // whatever it is, it is not ours
     return false;
   }
 }
 
 }  // namespace
+
+bool keepsWords(const std::string& path) {
+  const PictureFormat& format = pictureFormatFor(path);
+  return !format.metadata(format.encode(Picture(1, 1), Rounding::truncate, {{"Word", "kept"}})).empty();
+}
 
 std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   std::vector<Output> all{{path, -1, ""}};
@@ -102,9 +126,7 @@ bool isRendered(const Output& output, const Size& size, const Metadata& metadata
   try {
     const std::string bytes = readFile(output.path);
     const Metadata stored = pictureFormatOf(bytes, output.path).metadata(bytes);
-    Metadata expected = metadata;
-    if (!output.pass.empty()) expected.emplace_back(kPass, output.pass);
-    if (stored.empty() || whatCounts(stored) != whatCounts(expected)) return false;
+    if (stored.empty() || whatCounts(stored) != whatCounts(wordsOf(output, metadata))) return false;
     const Picture picture = decodePicture(bytes, output.path);  // a part of a file may have all its words
     return picture.width == size.width && picture.height == size.height;
   } catch (const std::exception&) {  // not a sound picture
@@ -132,12 +154,14 @@ void checkIsNoInput(const std::string& path, const InputFiles& inputs) {
                   "name another file for the output, as in -o out.png");
 }
 
+bool PictureFiles::isInput(const std::string& path) const {
+  return std::any_of(inputs_.all().begin(), inputs_.all().end(),
+                     [&](const InputFile& input) { return sameFile(path, input.path); });
+}
+
 bool PictureFiles::isFree(const std::string& path, const Settings& settings) const {
-  for (const Output& output : outputs(path, settings)) {
-    if (holdsSomething(output.path) && !isFragment(output.path)) return false;
-    for (const InputFile& input : inputs_.all())
-      if (sameFile(output.path, input.path)) return false;
-  }
+  for (const Output& output : outputs(path, settings))
+    if (isInput(output.path) || (holdsSomething(output.path) && !isFragment(output.path))) return false;
   return true;
 }
 
@@ -145,14 +169,24 @@ std::string PictureFiles::placeOfFragment(const Settings& settings) const {
   constexpr int kMost = 1000;
   if (!fragment_.empty()) return fragment_;
   if (isFree(path_, settings)) return path_;
-  const fs::path path(path_);
-  for (int i = 1; i <= kMost; ++i) {
-    const std::string name =
-        path.stem().string() + kPartial + (i == 1 ? "" : "-" + std::to_string(i)) + path.extension().string();
-    if (std::string beside = (path.parent_path() / name).string(); isFree(beside, settings)) return beside;
-  }
+  for (int i = 1; i <= kMost; ++i)
+    if (std::string beside = besidePicture(path_, i); isFree(beside, settings)) return beside;
   throw Error(Fault::io, "cannot write \"" + path_ + "\": it holds a picture that is whole, and so do " +
                              std::to_string(kMost) + " files beside it");
+}
+
+void PictureFiles::removeFragments(const Settings& settings, const Metadata& metadata) {
+  const auto remove = [&](const std::string& path) {
+    std::error_code ignored;
+    if (!isInput(path) && fs::remove(path, ignored)) removed_.push_back(path);
+  };
+  if (!fragment_.empty() && fragment_ != path_)
+    for (const Output& output : outputs(fragment_, settings)) remove(output.path);
+  fragment_.clear();
+  std::error_code ignored;
+  for (int i = 1; fs::exists(besidePicture(path_, i), ignored); ++i)
+    for (const Output& output : outputs(besidePicture(path_, i), settings))
+      if (isFragmentOf(output, metadata)) remove(output.path);
 }
 
 std::string PictureFiles::write(const Film& film, const Settings& settings, const Metadata& metadata) {
@@ -160,18 +194,13 @@ std::string PictureFiles::write(const Film& film, const Settings& settings, cons
   const std::string place = whole ? path_ : placeOfFragment(settings);
   if (!whole) fragment_ = place;
   for (const Output& output : outputs(place, settings)) {
-    Metadata words = metadata;
-    if (!output.pass.empty()) words.emplace_back(kPass, output.pass);
+    Metadata words = wordsOf(output, metadata);
     if (!whole) words.emplace_back(kIncomplete, "the render was stopped");
     withPictureOf(output, film, settings, [&](const Picture& picture) {
       writePicture(output.path, picture, settings.rounding, words);
     });
   }
-  if (whole && !fragment_.empty() && fragment_ != path_) {
-    std::error_code ignored;
-    for (const Output& output : outputs(fragment_, settings)) fs::remove(output.path, ignored);
-  }
-  if (whole) fragment_.clear();
+  if (whole) removeFragments(settings, metadata);
   return place;
 }
 

@@ -23,6 +23,9 @@ struct Output {
 /// layers.
 std::vector<Output> outputs(const std::string& path, const Settings& settings);
 
+/// Whether a picture file of that name has room for words, such as how it was made.
+bool keepsWords(const std::string& path);
+
 /// Is the whole file there, of this size, rendered to its end, and were its words those of `metadata`?
 /// Options that do not change pixels, such as --pass-name, do not count. Never of a format that keeps no
 /// words.
@@ -50,17 +53,24 @@ class PictureFiles {
   /// Writes the picture and its passes: what is done of the film so far, and `metadata`, to which the words
   /// Pass, of a pass, and Incomplete are added. A picture gets the tone of the settings unless its format
   /// keeps values above 1; passes are raw in OpenEXR only. Returns the picture's name: path(), or where a
-  /// fragment went. The whole picture takes away the fragment that this wrote beside it. Throws
-  /// Error(Fault::io), Error(Fault::usage).
+  /// fragment went. The whole picture takes away the fragment that this wrote beside it, and those of earlier
+  /// runs whose words say that they are fragments of the very same picture. Throws Error(Fault::io),
+  /// Error(Fault::usage).
   std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
 
+  /// The fragments that were taken away so.
+  const std::vector<std::string>& removed() const { return removed_; }
+
  private:
+  void removeFragments(const Settings& settings, const Metadata& metadata);
+  bool isInput(const std::string& path) const;
   std::string placeOfFragment(const Settings& settings) const;
   bool isFree(const std::string& path, const Settings& settings) const;
 
   std::string path_;
   InputFiles inputs_;
   std::string fragment_;  ///< where this has put one; "" before
+  std::vector<std::string> removed_;
 };
 
 }  // namespace trace

@@ -66,20 +66,28 @@ void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesP
                 "choose a smaller --width, or a larger --max-memory");
 }
 
+Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
+                           Messages& messages, Real& time) {
+  time = resolve({choices}).time;
+  Scene scene = readScene(file, bytes, messages, time);
+  const Real chosen = resolve({scene.choices, choices}).time;
+  if (chosen == time) return scene;
+  time = chosen;
+  messages = {};
+  return readScene(file, bytes, messages, time);
+}
+
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
   const Stopwatch watch;
   const Work work("reading the scene");
+  lookAtBudget();  // so that a late one ends with a message before anybody ends it by force
+  if (budgetOfThread.budget) budgetOfThread.budget->letFinish(false);
   strict_ = strict;
   messages_ = {};
   const std::string bytes = readFile(file);
-  const auto readAt = [&](Real time) {
-    messages_ = {};
-    scene_ = readScene(file, bytes, messages_, time);
-    settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
-  };
-  const Real time = resolve({choices}).time;
-  readAt(time);
-  if (settings_.time != time) readAt(settings_.time);  // the file chooses the moment
+  Real time = 0;
+  scene_ = readSceneAtItsMoment(file, bytes, choices, messages_, time);
+  settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
   fingerprint_ = scene_.inputs.fingerprint();
   messages_.throwIfFailed(strict_);
   if (budgetOfThread.budget) budgetOfThread.budget->limitTime(settings_.timeLimit);  // also the file's own
@@ -109,7 +117,7 @@ void Session::build(const Session* before) {
   phases_.push_back(watch.stop("build"));
 }
 
-RenderResult Session::render() {
+RenderResult Session::renderPicture() {
   const Stopwatch watch;
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
   RenderResult result = trace::render(*world_, *integrator_, settings_, *film_, job_);

@@ -25,6 +25,11 @@ struct Phase {
   double wall = 0, cpu = 0;
 };
 
+/// The scene at the moment that the choices name, or else its own settings: it is read again if these choose
+/// another one than it was first read at. Sets `time` to the moment, in seconds. Throws as readScene().
+Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
+                           Messages& messages, Real& time);
+
 class Session {
  public:
   /// Reads the scene and settles the settings: defaults < file < choices.
@@ -45,24 +50,24 @@ class Session {
   const World& world() const { return *world_; }
   const Integrator& integrator() const { return *integrator_; }
 
-  /// Renders; blocks. Others may watch and stop it through job() and picture().
-  RenderResult render();
+  /// Traces the picture; blocks. Others may watch and stop it through job() and picture().
+  RenderResult renderPicture();
   Job& job() { return job_; }
 
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
-  /// while render() runs. Throws Error(Fault::usage) outside the picture.
+  /// while renderPicture() runs. Throws Error(Fault::usage) outside the picture.
   Explanation explain(int x, int y, int sample, const std::function<bool()>& cancelled = {}) const {
     return trace::explain(*world_, *integrator_, settings_, size(), x, y, sample, cancelled);
   }
 
-  /// What is rendered so far. May be asked from other threads while render() runs.
+  /// What is rendered so far. May be asked from other threads while renderPicture() runs.
   const Film& film() const { return *film_; }
   Picture picture() const { return film_->picture(); }
   /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of what was read.
   Metadata metadata() const;
   /// The files of a picture of that name, for save().
   PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs}; }
-  /// Writes them, and returns the picture's name; not while render() runs, since both note their time.
+  /// Writes them, and returns the picture's name; not while renderPicture() runs, since both note their time.
   /// Throws Error(Fault::io), Error(Fault::usage).
   std::string save(PictureFiles& files);
   std::string save(const std::string& path);

@@ -24,16 +24,11 @@ std::string inWords(const std::vector<Budget::Step>& steps) {
 
 }  // namespace
 
-double Budget::seconds() const { return std::chrono::duration<double>(Clock::now() - start_.load()).count(); }
+double Budget::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 const Budget* Budget::lateOne() const {
   if (limit_ > 0 && seconds() > limit_) return this;
   return outer_ ? outer_->lateOne() : nullptr;
-}
-
-void Budget::startAgain() {
-  start_ = Clock::now();
-  finishes_ = false;
 }
 
 void Budget::look() const {

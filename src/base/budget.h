@@ -38,10 +38,8 @@ class Budget {
   double timeLimit() const { return limit_; }
   double seconds() const;  ///< since the start
   bool timeIsOver() const { return lateOne() != nullptr; }
-  /// Counts from now on: the next of several pieces of work, such as frames, begins.
-  void startAgain();
-  /// What is done is going to be kept: from now on nobody ends the process for being late.
-  void letFinish() { finishes_ = true; }
+  /// What is done is going to be kept: until this is taken back nobody ends the process for being late.
+  void letFinish(bool finishes = true) { finishes_ = finishes; }
   bool finishes() const { return finishes_; }
 
   /// Throws Error(Fault::limit) if the time is over.
@@ -65,7 +63,7 @@ class Budget {
 
   Budget* const outer_ = nullptr;
   const std::function<void()> look_;
-  std::atomic<Clock::time_point> start_{Clock::now()};
+  const Clock::time_point start_ = Clock::now();
   std::atomic<double> limit_{0};
   std::atomic<bool> finishes_{false};
   mutable std::mutex mutex_;  // of what follows

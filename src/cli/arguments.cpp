@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "cli/commands.h"
 #include "cli/flags.h"
 #include "scene/option_words.h"
 
@@ -29,7 +30,7 @@ bool isOneOf(std::string_view word, std::string_view values) {
 }
 
 /// Flags whose value may be left out become `--name=value`: CLI11 would take the scene for the value.
-std::vector<std::string> withValues(const std::vector<std::string>& words, std::string_view command) {
+std::vector<std::string> withValues(const std::vector<std::string>& words, Verb command) {
   std::vector<std::string> result;
   for (size_t i = 0; i < words.size(); ++i) {
     std::string word = words[i];
@@ -39,7 +40,7 @@ std::vector<std::string> withValues(const std::vector<std::string>& words, std::
         word.find('=') == word.size() - 1)
       throw Error(Fault::usage, "\"" + word + "\": expected a value after \"=\"");
     for (const Flag& flag : flags()) {
-      if (!knows(command, flag) || flag.takes != Flag::Takes::optional) continue;
+      if (!flag.commands.has(command) || flag.takes != Flag::Takes::optional) continue;
       const std::string name = "--" + std::string(flag.name);
       if (word != name && !(flag.letter && word == std::string("-") + flag.letter)) continue;
       word = name, value = flag.alone;
@@ -61,11 +62,11 @@ std::vector<std::string> withValues(const std::vector<std::string>& words, std::
 /// One parser for one sub-command: its flags, and what each occurrence does.
 class Parser {
  public:
-  explicit Parser(std::string_view command) : command_(command) {
+  explicit Parser(Verb command) : command_(command) {
     app_.set_help_flag();
     app_.allow_extras();
     for (const Flag& flag : flags())
-      if (knows(command, flag)) add(flag);
+      if (flag.commands.has(command)) add(flag);
     for (const Option& option : options())
       if (takesOption(command, option)) add(option);
     if (!takesOptions(command)) return;
@@ -156,12 +157,13 @@ class Parser {
         break;
       }
     for (const Flag& flag : flags())
-      if (name == "--" + std::string(flag.name)) hint = "it belongs to: " + std::string(flag.commands);
+      if (name == "--" + std::string(flag.name)) hint = "it belongs to: " + namesOf(flag.commands);
     if (hint.empty()) hint = "ray --help all lists the flags";
-    throw Error(Fault::usage, "unknown flag \"" + name + "\" of ray " + command_, std::move(hint));
+    throw Error(Fault::usage, "unknown flag \"" + name + "\" of ray " + std::string(commandOf(command_).name),
+                std::move(hint));
   }
 
-  std::string command_;
+  const Verb command_;
   CLI::App app_;
   std::map<const CLI::Option*, Action> actions_;
   std::vector<std::string> names_;
@@ -189,7 +191,7 @@ void readEnvironment(Arguments& arguments) {
 
 }  // namespace
 
-Arguments parse(const std::vector<std::string>& words, std::string_view command) {
+Arguments parse(const std::vector<std::string>& words, Verb command) {
   Arguments arguments;
   if (takesOptions(command)) readEnvironment(arguments);
   const size_t fromEnvironment = arguments.choices.size();

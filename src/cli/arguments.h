@@ -9,12 +9,17 @@
 #include <vector>
 
 #include "app/difference.h"
+#include "base/enum_set.h"
 #include "cli/console.h"
 #include "cli/progress.h"
 #include "image/flip.h"
 #include "scene/options.h"
 
 namespace trace::cli {
+
+/// The sub-commands, in the order of their table (commands.h).
+enum class Verb { render, gui, info, bench, explain, lint, diff, grade, convert, features, help };
+using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
 
@@ -57,8 +62,8 @@ struct Arguments {
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 
-/// `command` is the name of a sub-command: it decides which flags are known. The environment variables
-/// RAY_THREADS and RAY_LOG stand for flags at the very beginning. Throws Error(Fault::usage).
-Arguments parse(const std::vector<std::string>& words, std::string_view command);
+/// The sub-command decides which flags are known. The environment variables RAY_THREADS and RAY_LOG stand for
+/// flags at the very beginning. Throws Error(Fault::usage).
+Arguments parse(const std::vector<std::string>& words, Verb command);
 
 }  // namespace trace::cli

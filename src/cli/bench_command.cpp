@@ -62,7 +62,7 @@ std::string benchJson(const Session& session, const RayBench& bench) {
 
 }  // namespace
 
-int bench(const Arguments& arguments, const Console& console) {
+int benchCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray bench: expected the name of one scene file, found " +

@@ -29,7 +29,7 @@ std::string page(const Command* command, bool all) {
   return command && command->name != "help" ? helpText(*command, all) : helpText(all);
 }
 
-int help(const Arguments& arguments, const Console&) {
+int helpCommand(const Arguments& arguments, const Console&) {
   const std::vector<std::string>& words = arguments.files;
   const Command* command = words.empty() ? nullptr : findCommand(words[0]);
   const std::size_t place = command ? 1 : 0;  // of the word "all"
@@ -51,20 +51,30 @@ std::string whyNothing(const Error& error, bool understood) {
     case Fault::io: return "a file could not be read or written";
     case Fault::usage:
       return understood ? error.messages().front().what : "the command line is not right; see ray --help";
-    case Fault::scene: return "the scene has " + counted(error.messages().size(), "error");
+    case Fault::scene: {
+      const std::size_t errors = error.messages().size();
+      const bool perhapsMore = errors == Messages::kMostErrors;  // where reading ends
+      return std::string("the scene has ") + (perhapsMore ? "at least " : "") + counted(errors, "error");
+    }
     case Fault::limit: return "a limit of size, memory or time was met";
   }
   return "it failed";
 }
 
+/// The exit code of what went wrong.
+int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
+  return command.failed ? command.failed(arguments) : static_cast<int>(fault);
+}
+
 /// Within the limits of memory and time that the command line gives.
 int runLimited(const Command& command, const Arguments& arguments, const Console& console, Budget& budget) {
-  if (command.run == gui) return command.run(arguments, console);  // has no end of its own
+  if (command.verb == Verb::gui) return command.run(arguments, console);  // has no end of its own
   const Settings given = resolve({arguments.choices});
   limitMemory(allowedMemory(given), given.threads > 0 ? given.threads : hardwareThreads());
   budget.limitTime(given.timeLimit);
   const BudgetScope scope(&budget);
-  const Overseer overseer(budget, console, arguments.progress);
+  const Overseer overseer(budget, console, arguments.progress,
+                          {codeOf(command, arguments, Fault::limit), command.writes});
   return command.run(arguments, console);
 }
 
@@ -74,11 +84,12 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
   endWithMessage();
   Budget budget;
   Console console;
+  Arguments arguments;
   std::string why;
-  int code = kFailed;
+  Fault fault = Fault::io;
   bool understood = false;
   try {
-    const Arguments arguments = parse(words, command.name);
+    arguments = parse(words, command.verb);
     understood = true;
     console = Console(arguments.logLevel, arguments.quiet);
     if (arguments.help) return printResult(page(named ? &command : nullptr, arguments.helpAll)), kDone;
@@ -88,31 +99,30 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     liftMemoryLimit();
     console.error(error);
     why = whyNothing(error, understood);
-    code = static_cast<int>(error.fault());
+    fault = error.fault();
   } catch (const ReaderGone&) {
     return kReaderGone;
   } catch (const std::bad_alloc&) {
     liftMemoryLimit();
     console.error(outOfMemory(budget.brokenOff()));
     why = "out of memory";
-    code = static_cast<int>(Fault::limit);
+    fault = Fault::limit;
   } catch (const std::length_error&) {  // more of something than addresses
     console.error(outOfMemory(budget.brokenOff()));
     why = "out of memory";
-    code = static_cast<int>(Fault::limit);
+    fault = Fault::limit;
   } catch (const std::system_error& error) {
     const bool noThread = error.code() == std::errc::resource_unavailable_try_again;
-    const Fault fault = noThread ? Fault::limit : Fault::io;
+    fault = noThread ? Fault::limit : Fault::io;
     liftMemoryLimit();
     why = noThread ? "the system starts no more threads" : error.what();
     console.error(Error(fault, why, noThread ? "a thread needs memory for its stack; -t 1 takes one" : ""));
-    code = static_cast<int>(fault);
   } catch (const std::exception& error) {
     why = error.what();
-    console.error(Error(Fault::io, why));
+    console.error(Error(fault, why));
   }
   if (command.writes) console.line(LogLevel::error, "nothing written: " + why);
-  return code;
+  return understood ? codeOf(command, arguments, fault) : static_cast<int>(fault);
 }
 
 /// Nothing was typed, and there is no window to open.
@@ -125,8 +135,8 @@ int runAlone() {
 
 }  // namespace
 
-Error outOfMemory(const std::string& doing) {
-  return {Fault::limit, "out of memory" + (doing.empty() ? "" : " while " + doing),
+Error outOfMemory(const std::string& doing, const std::string& file) {
+  return {Fault::limit, Place{.file = file}, "out of memory" + (doing.empty() ? "" : " while " + doing),
           "--max-memory N allows N MiB; without it half of what the machine has is allowed"};
 }
 
@@ -149,25 +159,41 @@ std::string_view chosenFormat(const Arguments& arguments, std::string_view comma
               didYouMean(*arguments.format, known));
 }
 
+const Command& commandOf(Verb verb) { return commands()[static_cast<std::size_t>(verb)]; }
+
+std::string namesOf(Verbs verbs) {
+  std::string names;
+  for (const Command& command : commands())
+    if (verbs.has(command.verb)) names += (names.empty() ? "" : ", ") + std::string(command.name);
+  return names;
+}
+
 std::span<const Command> commands() {
   static constexpr std::array kTable{
-      Command{"render", "SCENE [OUT]", "render a scene to a picture file; the word render may be left out",
-              true, render},
-      Command{"gui", "[SCENE]",
-              "open the studio, a window that renders and shows the rays; ray alone does too", false, gui},
-      Command{"info", "SCENE", "what is in a scene, and what a render would make of it", false, info},
-      Command{"bench", "SCENE", "how fast the scene's rays are answered, and how large its hierarchies are",
-              false, bench},
-      Command{"explain", "SCENE --pixel X,Y", "why a pixel has its colour: every ray, with its numbers",
-              false, explain},
-      Command{"lint", "SCENE", "look for what is likely a mistake in a scene", false, lint},
-      Command{"diff", "A B", "how far two pictures are apart, in numbers and as a picture", false, diff},
-      Command{"grade", "DIR --reference DIR",
-              "compare a folder of pictures, or of scenes, with reference pictures", false, grade},
-      Command{"convert", "IN OUT", "write a scene or mesh in another format, by the suffix of OUT", true,
-              convert},
-      Command{"features", "", "extras, picture and scene formats, integrators", false, features},
-      Command{"help", "[COMMAND] [all]", "print help, of one command, or all of it", false, help},
+      Command{Verb::render, "render", "SCENE [OUT]",
+              "render a scene to a picture file; the word render may be left out", true, renderCommand},
+      Command{Verb::gui, "gui", "[SCENE]",
+              "open the studio, a window that renders and shows the rays; ray alone does too", false,
+              guiCommand},
+      Command{Verb::info, "info", "SCENE", "what is in a scene, and what a render would make of it", false,
+              infoCommand},
+      Command{Verb::bench, "bench", "SCENE",
+              "how fast the scene's rays are answered, and how large its hierarchies are", false,
+              benchCommand},
+      Command{Verb::explain, "explain", "SCENE --pixel X,Y",
+              "why a pixel has its colour: every ray, with its numbers", false, explainCommand},
+      Command{Verb::lint, "lint", "SCENE", "look for what is likely a mistake in a scene", false,
+              lintCommand},
+      Command{Verb::diff, "diff", "A B", "how far two pictures are apart, in numbers and as a picture", false,
+              diffCommand, failedDiff},
+      Command{Verb::grade, "grade", "DIR --reference DIR",
+              "compare a folder of pictures, or of scenes, with reference pictures", false, gradeCommand},
+      Command{Verb::convert, "convert", "IN OUT",
+              "write a scene or mesh in another format, by the suffix of OUT", true, convertCommand},
+      Command{Verb::features, "features", "", "extras, picture and scene formats, integrators", false,
+              featuresCommand},
+      Command{Verb::help, "help", "[COMMAND] [all]", "print help, of one command, or all of it", false,
+              helpCommand},
   };
   return kTable;
 }

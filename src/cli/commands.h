@@ -1,4 +1,4 @@
-// THE table of sub-commands. A new one is a function and a row in commands.cpp.
+// THE table of sub-commands. A new one is a value of Verb, a function and a row in commands.cpp.
 #pragma once
 
 #include <span>
@@ -17,21 +17,28 @@ inline constexpr int kDone = 0, kFailed = 1, kStopped = 4, kFound = 6;
 inline constexpr int kReaderGone = 141;
 
 struct Command {
+  Verb verb;
   std::string_view name;
   std::string_view arguments;  ///< as help shows them
   std::string_view help;       ///< one sentence, no full stop
   bool writes;                 ///< ends with a line that says what was written, or why nothing was
   /// Returns the exit code. Throws Error.
   int (*run)(const Arguments&, const Console&);
+  /// The exit code when something goes wrong, if the command's codes are its own; else it is the Fault.
+  int (*failed)(const Arguments&) = nullptr;
 };
 
+/// In the order of Verb.
 std::span<const Command> commands();
+const Command& commandOf(Verb verb);
+/// "render, info".
+std::string namesOf(Verbs verbs);
 
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
-/// That memory does not suffice; `doing`, if any, follows on "while".
-Error outOfMemory(const std::string& doing);
+/// That memory does not suffice; `doing`, if any, follows on "while". `file`, if any, is what was worked on.
+Error outOfMemory(const std::string& doing, const std::string& file = {});
 
 /// Throws Error(Fault::usage) if both are names of one file: what is read is not written over. The files that
 /// a scene is made of are known once it is read: checkIsNoInput().
@@ -47,15 +54,16 @@ std::string studioProgram();
 Error noStudio();
 
 // The functions of the table; each in its own file.
-int render(const Arguments& arguments, const Console& console);
-int info(const Arguments& arguments, const Console& console);
-int bench(const Arguments& arguments, const Console& console);
-int explain(const Arguments& arguments, const Console& console);
-int lint(const Arguments& arguments, const Console& console);
-int diff(const Arguments& arguments, const Console& console);
-int grade(const Arguments& arguments, const Console& console);
-int convert(const Arguments& arguments, const Console& console);
-int features(const Arguments& arguments, const Console& console);
-int gui(const Arguments& arguments, const Console& console);
+int renderCommand(const Arguments& arguments, const Console& console);
+int infoCommand(const Arguments& arguments, const Console& console);
+int benchCommand(const Arguments& arguments, const Console& console);
+int explainCommand(const Arguments& arguments, const Console& console);
+int lintCommand(const Arguments& arguments, const Console& console);
+int diffCommand(const Arguments& arguments, const Console& console);
+int gradeCommand(const Arguments& arguments, const Console& console);
+int failedDiff(const Arguments& arguments);
+int convertCommand(const Arguments& arguments, const Console& console);
+int featuresCommand(const Arguments& arguments, const Console& console);
+int guiCommand(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

@@ -58,7 +58,12 @@ void Console::warnings(std::span<const Message> messages) const {
   if (shows(LogLevel::warning)) print(messages, "warning");
 }
 
-void Console::error(const Error& error) const { print(error.messages(), "error"); }
+void Console::error(const Error& error) const {
+  print(error.messages(), "error");
+  if (error.messages().size() == Messages::kMostErrors)
+    cli::print("... and perhaps more: reading ends at the " + std::to_string(Messages::kMostErrors) +
+               "th error\n");
+}
 
 void Console::line(LogLevel importance, const std::string& text) const {
   if (importance == LogLevel::error || shows(importance)) cli::print(printable(text) + "\n");

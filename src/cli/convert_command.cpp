@@ -1,17 +1,20 @@
 // ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <chrono>
-#include <optional>
-#include <utility>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
 
 #include "app/output.h"
 #include "app/remaining_time.h"
+#include "app/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/memory_limit.h"
 #include "cli/scene_facts.h"
-#include "cli/terminal.h"
+#include "cli/watch.h"
 #include "formats/format.h"
 #include "formats/ray_format.h"
 #include "formats/revolve.h"
@@ -19,6 +22,33 @@
 
 namespace trace::cli {
 namespace {
+
+/// "y.obj and y.mtl".
+std::string namesText(const std::vector<NamedBytes>& files) {
+  std::string names;
+  for (const NamedBytes& file : files) names += (names.empty() ? "" : " and ") + file.file;
+  return names;
+}
+
+/// "2 objects, 12 triangles" of what was written.
+std::string contentsText(const NamedBytes& written, const Scene& scene) {
+  const auto [objects, triangles] =
+      written.holds.value_or(NamedBytes::Contents{scene.objects.size(), countTriangles(scene)});
+  return counted(objects, "object") + (triangles > 0 ? ", " + counted(triangles, "triangle") : "");
+}
+
+/// What is said of files that have the usual name of one that was written, and belong to something else.
+std::string sparedText(const std::vector<NamedBytes>& files) {
+  namespace fs = std::filesystem;
+  std::string text;
+  for (const NamedBytes& file : files) {
+    const std::string usual =
+        fs::path(files.front().file).replace_extension(fs::path(file.file).extension()).string();
+    if (&file != &files.front() && file.file != usual)
+      text += "; " + keptText(usual) + ", for " + files.front().file + " did not name it";
+  }
+  return text;
+}
 
 /// What the words of a flag say, read as a .ray file.
 Scene readWords(const std::string& flag, const std::string& text, const Console& console) {
@@ -60,53 +90,66 @@ void change(Scene& scene, const Conversion& conversion, const Console& console) 
   }
 }
 
+/// The scene of the file, at the moment that it chooses.
+Scene sceneToConvert(const std::string& in, const Conversion& conversion, Messages& messages) {
+  const Work work("reading the scene");
+  const std::string bytes = readFile(in);
+  if (conversion.revolve) return revolvedScene(in, bytes, conversion.steps, messages);
+  Real time = 0;
+  Scene scene = readSceneAtItsMoment(in, bytes, {}, messages, time);
+  if (changesWithTime(in, bytes))
+    messages.warn(Place{.file = in}, "what changes with time is written as it is at " + toText(time) + " s",
+                  "settings { time = ...; } in the scene chooses another moment");
+  return scene;
+}
+
+/// Returns the last line.
+std::string convert(const std::string& in, const std::string& out, const Arguments& arguments,
+                    const Console& console) {
+  const auto start = std::chrono::steady_clock::now();
+  const Conversion& conversion = arguments.conversion;
+  const SceneFormat& format = writableFormatFor(out);
+  checkDistinct(in, out);
+  checkWritable(out);
+  Messages messages;
+  Scene scene = sceneToConvert(in, conversion, messages);
+  std::vector<NamedBytes> files;
+  {
+    const Work work("converting the scene");
+    change(scene, conversion, console);
+    files = format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);
+  }
+  messages.throwIfFailed(arguments.strict);
+  console.warnings(messages.all());
+
+  for (const NamedBytes& file : files) {  // all of them before any is written
+    checkDistinct(in, file.file);
+    checkIsNoInput(file.file, scene.inputs);
+    checkWritable(file.file);
+  }
+  for (const NamedBytes& file : files) writeFile(file.file, file.bytes);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return "wrote " + namesText(files) + " (" + contentsText(files.front(), scene) + ") in " +
+         durationText(seconds) + sparedText(files);
+}
+
 }  // namespace
 
-int convert(const Arguments& arguments, const Console& console) {
-  const auto start = std::chrono::steady_clock::now();
+int convertCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 2)
     throw Error(
         Fault::usage,
         "ray convert: expected the names of two files, found " + std::to_string(arguments.files.size()),
         "ray convert IN OUT");
   const std::string &in = arguments.files[0], &out = arguments.files[1];
-  const Conversion& conversion = arguments.conversion;
-  const SceneFormat& format = writableFormatFor(out);
-  checkDistinct(in, out);
-  checkWritable(out);
-  std::optional<Work> reading(std::in_place, "reading the scene");
-  const std::string bytes = readFile(in);
-  Messages messages;
-  Scene scene = conversion.revolve ? revolvedScene(in, bytes, conversion.steps, messages)
-                                   : readScene(in, bytes, messages);
-  if (!conversion.revolve && changesWithTime(in, bytes)) {
-    const Real time = resolve({scene.choices}).time;  // the file chooses the moment
-    messages = {};
-    scene = readScene(in, bytes, messages, time);
-    messages.warn(Place{.file = in}, "what changes with time is written as it is at " + toText(time) + " s",
-                  "settings { time = ...; } in the scene chooses another moment");
+  try {
+    console.last(true, convert(in, out, arguments, console));
+  } catch (const std::bad_alloc&) {
+    liftMemoryLimit();
+    throw outOfMemory(budgetOfThread.budget->brokenOff(), in);
+  } catch (const std::length_error&) {  // more of something than addresses
+    throw outOfMemory(budgetOfThread.budget->brokenOff(), in);
   }
-  reading.reset();
-  change(scene, conversion, console);
-  const std::vector<NamedBytes> files =
-      format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);
-  messages.throwIfFailed(arguments.strict);
-  console.warnings(messages.all());
-
-  std::string names;
-  for (const NamedBytes& file : files) {  // all of them before any is written
-    checkDistinct(in, file.file);
-    checkIsNoInput(file.file, scene.inputs);
-    checkWritable(file.file);
-  }
-  for (const NamedBytes& file : files) {
-    writeFile(file.file, file.bytes);
-    names += (names.empty() ? "" : " and ") + file.file;
-  }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::string held = counted(scene.objects.size(), "object");
-  if (const std::size_t triangles = countTriangles(scene)) held += ", " + counted(triangles, "triangle");
-  console.last(true, "wrote " + names + " (" + held + ") in " + durationText(seconds));
   return kDone;
 }
 

@@ -5,8 +5,8 @@
 // limits[] of {metric, limit, met}, difference (name of the picture written, or null).
 #include <array>
 #include <cmath>
-#include <new>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/difference.h"
 #include "base/budget.h"
@@ -14,7 +14,6 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/memory_limit.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 
@@ -114,8 +113,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
-  const PictureDifference d = difference(loadPicture(arguments.files[0]), loadPicture(arguments.files[1]),
-                                         {arguments.tolerance, arguments.pixelsPerDegree});
+  LoadedPicture reference = loadPicture(arguments.files[0]), test = loadPicture(arguments.files[1]);
+  const Work work("comparing the pictures");
+  const PictureDifference d =
+      difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});
   printResult(json                        ? diffJson(d, arguments)
               : arguments.printed.empty() ? diffText(d, arguments)
                                           : printed(d, arguments));
@@ -133,19 +134,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
 
 }  // namespace
 
-int diff(const Arguments& arguments, const Console& console) {
-  Finding finding = Finding::failed;
-  try {
-    finding = findDifference(arguments, console);
-  } catch (const Error& error) {
-    console.error(error);
-  } catch (const std::bad_alloc&) {
-    liftMemoryLimit();
-    console.error(outOfMemory(doingNow()));
-  } catch (const std::exception& error) {
-    console.error(Error(Fault::limit, error.what()));
-  }
-  return exitCode(finding, arguments.idiffCodes);
+int diffCommand(const Arguments& arguments, const Console& console) {
+  return exitCode(findDifference(arguments, console), arguments.idiffCodes);
 }
+
+int failedDiff(const Arguments& arguments) { return exitCode(Finding::failed, arguments.idiffCodes); }
 
 }  // namespace trace::cli

@@ -56,7 +56,7 @@ std::string_view formatOf(const Arguments& arguments) {
 
 }  // namespace
 
-int explain(const Arguments& arguments, const Console& console) {
+int explainCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray explain: expected the name of one scene file, found " +
@@ -85,7 +85,8 @@ int explain(const Arguments& arguments, const Console& console) {
   console.warnings(session.messages().all());
   const Work work("explaining the pixel");
   const Explanation explanation = session.explain(x, y, sample);
-  if (const RenderResult result = session.render(); result.end != End::finished)  // not the whole pixel
+  if (const RenderResult result = session.renderPicture();
+      result.end != End::finished)  // not the whole pixel
     throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
   const Size size = session.size();
   const PixelFacts facts{session.scene(), explanation, size.width, size.height, session.picture().at(x, y)};

@@ -42,7 +42,7 @@ std::string featuresText() {
 
 }  // namespace
 
-int features(const Arguments& arguments, const Console&) {
+int featuresCommand(const Arguments& arguments, const Console&) {
   if (!arguments.files.empty())
     throw Error(Fault::usage, "ray features: expected no file, found \"" + arguments.files.front() + "\"");
   printResult(arguments.markdown ? optionsMarkdown() : featuresText());

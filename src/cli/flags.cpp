@@ -11,8 +11,16 @@ namespace trace::cli {
 namespace {
 
 using Takes = Flag::Takes;
-constexpr std::string_view kEverywhere =
-    "render gui info bench explain lint diff grade convert features help";
+constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
+    kConvert{Verb::convert}, kFeatures{Verb::features}, kComparing{Verb::diff, Verb::grade},
+    kOfScenes{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade},
+    kStrict{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade, Verb::convert},
+    kWorking{Verb::render, Verb::info, Verb::bench, Verb::explain,
+             Verb::lint,   Verb::diff, Verb::grade, Verb::convert},
+    kWithOutput{Verb::render, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
+    kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
+    kEverywhere{Verb::render, Verb::gui,   Verb::info,    Verb::bench,    Verb::explain, Verb::lint,
+                Verb::diff,   Verb::grade, Verb::convert, Verb::features, Verb::help};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -151,122 +159,120 @@ void setOutput(Arguments& arguments, std::string_view value) {
 
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
-      Flag{"output", 'o', Takes::value, "FILE", "", "render explain lint diff grade", true,
+      Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
            "file to write; of a render, by default the scene's name with .png, in this folder; of diff a "
            "picture of "
            "the difference, of grade an HTML page",
            setOutput},
-      Flag{"frames", 0, Takes::value, "A-B", "", "render", false,
+      Flag{"frames", 0, Takes::value, "A-B", "", kRender, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
-           "number; frames that are there already with the same settings are skipped",
+           "number; frames that are there already with the same settings are skipped, but for .bmp "
+           "and .tga, which cannot say how they were made",
            setFrames},
-      Flag{"fps", 0, Takes::value, "X", "", "render", false,
+      Flag{"fps", 0, Takes::value, "X", "", kRender, false,
            "frames per second: frame F shows the time F / X; default 24",
            [](Arguments& a, std::string_view value) {
              a.framesPerSecond = numberOf("fps", value, 0);
              if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
            }},
-      Flag{"quick", 0, Takes::nothing, "", "", "render info bench explain lint grade", true,
+      Flag{"quick", 0, Takes::nothing, "", "", kOfScenes, true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
-      Flag{"enable", 0, Takes::value, "NAME", "", "render info bench explain lint grade", true,
+      Flag{"enable", 0, Takes::value, "NAME", "", kOfScenes, true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
-      Flag{"disable", 0, Takes::value, "NAME", "", "render info bench explain lint grade", true,
-           "switch an extra off", disable},
-      Flag{"set", 0, Takes::value, "NAME=VALUE", "", "render info bench explain lint grade", false,
-           "give any option a value", set},
-      Flag{"stats", 0, Takes::optional, "table|json", "table", "render", true,
+      Flag{"disable", 0, Takes::value, "NAME", "", kOfScenes, true, "switch an extra off", disable},
+      Flag{"set", 0, Takes::value, "NAME=VALUE", "", kOfScenes, false, "give any option a value", set},
+      Flag{"stats", 0, Takes::optional, "table|json", "table", kRender, true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 2> kNames{"table", "json"};
              a.stats = pick("stats", value, kNames) == 0 ? StatsStyle::table : StatsStyle::json;
            }},
-      Flag{"progress", 0, Takes::optional, "auto|bar|plain|json|none", "auto", "render", true,
+      Flag{"progress", 0, Takes::optional, "auto|bar|plain|json|none", "auto", kRender, true,
            "how far it is: a bar on a terminal, else a line now and then (auto)",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};
              a.progress = static_cast<ProgressStyle>(pick("progress", value, kNames));
            }},
-      Flag{"camera", 0, Takes::value, "FIELDS", "", "convert", false,
+      Flag{"camera", 0, Takes::value, "FIELDS", "", kConvert, false,
            "a camera in place of the scene's, as inside camera { } of a .ray file",
            [](Arguments& a, std::string_view value) { a.conversion.camera = value; }},
-      Flag{"light", 0, Takes::value, "NODE", "", "convert", false,
+      Flag{"light", 0, Takes::value, "NODE", "", kConvert, false,
            "a light in place of the scene's, as in a .ray file; may be repeated",
            [](Arguments& a, std::string_view value) { a.conversion.lights.emplace_back(value); }},
-      Flag{"material", 0, Takes::value, "FIELDS", "", "convert", false,
+      Flag{"material", 0, Takes::value, "FIELDS", "", kConvert, false,
            "a material for all objects, as inside material { } of a .ray file",
            [](Arguments& a, std::string_view value) { a.conversion.material = value; }},
-      Flag{"digits", 0, Takes::value, "N", "", "convert", false,
+      Flag{"digits", 0, Takes::value, "N", "", kConvert, false,
            "digits of numbers in text that count, 1 to 17; by default as many as are needed to read the same "
            "back",
            [](Arguments& a, std::string_view value) {
              a.conversion.digits = wholeNumber("digits", value, 1, 17);
            }},
-      Flag{"ascii", 0, Takes::nothing, "", "", "convert", false, "write PLY as text",
+      Flag{"ascii", 0, Takes::nothing, "", "", kConvert, false, "write PLY as text",
            [](Arguments& a, std::string_view) { a.conversion.ascii = true; }},
-      Flag{"revolve", 0, Takes::nothing, "", "", "convert", false,
+      Flag{"revolve", 0, Takes::nothing, "", "", kConvert, false,
            "the input is a profile, lines of \"x y\", to be turned about the y axis",
            [](Arguments& a, std::string_view) { a.conversion.revolve = true; }},
-      Flag{"steps", 0, Takes::value, "N", "", "convert", false,
+      Flag{"steps", 0, Takes::value, "N", "", kConvert, false,
            "steps of --revolve around the axis, 3 to 100000; default 64",
            [](Arguments& a, std::string_view value) {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
-      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "",
-           "render info bench explain lint diff grade convert", false,
+      Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", kWorking, false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
-      Flag{"quiet", 'q', Takes::nothing, "", "", "render info bench explain lint diff grade convert", true,
+      Flag{"quiet", 'q', Takes::nothing, "", "", kWorking, true,
            "show errors only: no warnings, no progress, no last line when all went well",
            [](Arguments& a, std::string_view) {
              a.quiet = true;
              a.logLevel = LogLevel::error, a.progress = ProgressStyle::none;
            }},
-      Flag{"strict", 0, Takes::nothing, "", "", "render info bench explain lint grade convert", true,
-           "warnings about the scene are errors", [](Arguments& a, std::string_view) { a.strict = true; }},
-      Flag{"tolerance", 0, Takes::value, "X", "", "diff grade", false,
+      Flag{"strict", 0, Takes::nothing, "", "", kStrict, true, "warnings about the scene are errors",
+           [](Arguments& a, std::string_view) { a.strict = true; }},
+      Flag{"tolerance", 0, Takes::value, "X", "", kComparing, false,
            "differences up to this do not count as beyond; in levels of 255, or in linear values where a "
            "picture is .exr or .hdr; default 0",
            [](Arguments& a, std::string_view value) { a.tolerance = numberOf("tolerance", value, 0); }},
-      Flag{"limit", 0, Takes::value, "METRIC=X", "", "diff grade", false,
+      Flag{"limit", 0, Takes::value, "METRIC=X", "", kComparing, false,
            "pictures are equal enough while this holds: max, mean, rmse, flip, beyond, pixels at most, psnr "
            "at "
            "least X; may be given again; without it, beyond=0",
            [](Arguments& a, std::string_view value) {
              withFlag("limit", [&] { a.limits.push_back(parseLimit(value)); });
            }},
-      Flag{"show", 0, Takes::value, "heat|absolute|signed|flip", "", "diff", false,
+      Flag{"show", 0, Takes::value, "heat|absolute|signed|flip", "", kDiff, false,
            "what the picture of the difference shows; default heat, the largest of a pixel in false colour",
            setShow},
-      Flag{"magnify", 0, Takes::value, "X", "", "diff grade", false,
+      Flag{"magnify", 0, Takes::value, "X", "", kComparing, false,
            "differences are multiplied by this before they are shown; default 8",
            [](Arguments& a, std::string_view value) { a.magnify = numberOf("magnify", value, 0); }},
-      Flag{"ppd", 0, Takes::value, "X", "", "diff grade", false,
+      Flag{"ppd", 0, Takes::value, "X", "", kComparing, false,
            "pixels per degree of the eye for which FLIP is computed; default 67",
            [](Arguments& a, std::string_view value) { a.pixelsPerDegree = numberOf("ppd", value, 1); }},
-      Flag{"print", 0, Takes::value, "METRIC,METRIC", "", "diff", false,
+      Flag{"print", 0, Takes::value, "METRIC,METRIC", "", kDiff, false,
            "print these numbers only, on one line, for scripts", setPrinted},
-      Flag{"idiff-codes", 0, Takes::nothing, "", "", "diff", false,
+      Flag{"idiff-codes", 0, Takes::nothing, "", "", kDiff, false,
            "exit with 0 identical, 1 within the limits, 2 beyond, 3 sizes differ, 4 error, as idiff does",
            [](Arguments& a, std::string_view) { a.idiffCodes = true; }},
-      Flag{"reference", 0, Takes::value, "DIR", "", "grade", false,
+      Flag{"reference", 0, Takes::value, "DIR", "", kGrade, false,
            "folder of the pictures that should have come out",
            [](Arguments& a, std::string_view value) { a.reference = value; }},
-      Flag{"render", 0, Takes::nothing, "", "", "grade", false,
+      Flag{"render", 0, Takes::nothing, "", "", kGrade, false,
            "render the scenes of the folder, with the options given, instead of reading pictures",
            [](Arguments& a, std::string_view) { a.renderScenes = true; }},
-      Flag{"pixel", 0, Takes::value, "X,Y", "", "explain", true,
+      Flag{"pixel", 0, Takes::value, "X,Y", "", kExplain, true,
            "the pixel to explain; 0,0 is at the top left",
            [](Arguments& a, std::string_view value) { a.pixel = value; }},
-      Flag{"sample", 0, Takes::value, "K", "", "explain", true,
+      Flag{"sample", 0, Takes::value, "K", "", kExplain, true,
            "which of the pixel's camera rays; default 0, the first",
            [](Arguments& a, std::string_view value) { a.sample = value; }},
-      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", "info bench explain lint diff grade", true,
+      Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", kAnswering, true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) { a.format = value; }},  // each command knows its own
-      Flag{"markdown", 0, Takes::nothing, "", "", "features", false, "print docs/options.md",
+      Flag{"markdown", 0, Takes::nothing, "", "", kFeatures, false, "print docs/options.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
-      Flag{"print-defaults", 0, Takes::nothing, "", "", "render", false,
+      Flag{"print-defaults", 0, Takes::nothing, "", "", kRender, false,
            "print every option as NAME=VALUE with its default, and end",
            [](Arguments& a, std::string_view) { a.printDefaults = true; }},
       Flag{"help", 'h', Takes::optional, "all", "common", kEverywhere, true,
@@ -282,26 +288,11 @@ std::span<const Flag> flags() {
   return kTable;
 }
 
-bool knows(std::string_view command, const Flag& flag) {
-  for (size_t at = flag.commands.find(command); at != std::string_view::npos;
-       at = flag.commands.find(command, at + 1)) {
-    const size_t end = at + command.size();
-    if ((at == 0 || flag.commands[at - 1] == ' ') &&
-        (end == flag.commands.size() || flag.commands[end] == ' '))
-      return true;
-  }
-  return false;
-}
+bool takesOptions(Verb command) { return command == Verb::gui || kOfScenes.has(command); }
 
-bool takesOptions(std::string_view command) {
-  constexpr std::array<std::string_view, 7> kScenes{"render",  "gui",  "info", "bench",
-                                                    "explain", "lint", "grade"};
-  return std::find(kScenes.begin(), kScenes.end(), command) != kScenes.end();
-}
-
-bool takesOption(std::string_view command, const Option& option) {
+bool takesOption(Verb command, const Option& option) {
   const bool limit = option.name == "time-limit" || option.name == "max-memory";
-  return takesOptions(command) || (limit && (command == "convert" || command == "diff"));
+  return takesOptions(command) || (limit && kWorking.has(command));
 }
 
 std::span<const ShortFlag> shortFlags() {

@@ -15,21 +15,20 @@ struct Flag {
   std::string_view name;  ///< without "--"
   char letter;            ///< short form, or 0
   Takes takes;
-  std::string_view values;    ///< what it takes, as help shows it
-  std::string_view alone;     ///< Takes::optional: the value that `--name` by itself stands for
-  std::string_view commands;  ///< names of the sub-commands that know it, with spaces between
-  bool common;                ///< on the one screen of `--help`
-  std::string_view help;      ///< one sentence, no full stop
+  std::string_view values;  ///< what it takes, as help shows it
+  std::string_view alone;   ///< Takes::optional: the value that `--name` by itself stands for
+  Verbs commands;           ///< the sub-commands that know it
+  bool common;              ///< on the one screen of `--help`
+  std::string_view help;    ///< one sentence, no full stop
   /// Throws Error(Fault::usage).
   void (*apply)(Arguments&, std::string_view value);
 };
 
 std::span<const Flag> flags();
-bool knows(std::string_view command, const Flag& flag);
 /// Whether the flags of the options table belong to the sub-command.
-bool takesOptions(std::string_view command);
+bool takesOptions(Verb command);
 /// Whether that option is a flag of the sub-command: limits of time and memory are of every one that works.
-bool takesOption(std::string_view command, const Option& option);
+bool takesOption(Verb command, const Option& option);
 
 /// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
 struct ShortFlag {

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "app/remaining_time.h"
-#include "base/budget.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"
@@ -15,7 +14,6 @@ namespace trace::cli {
 namespace {
 
 void open(Session& session, const Arguments& arguments, int frame) {
-  if (budgetOfThread.budget) budgetOfThread.budget->startAgain();  // the time limit is of each frame
   std::vector<Choice> choices = arguments.choices;
   choices.push_back({"time", toText(frame / arguments.framesPerSecond), {}});
   session.open(arguments.files[0], choices, arguments.strict);
@@ -39,6 +37,16 @@ void checkAllPlaces(const Session& session, const std::string& pattern, const st
   for (const int frame : frames)
     for (const Output& file : outputs(frameName(pattern, frame), session.settings()))
       if (std::filesystem::exists(file.path, ignored)) checkIsNoInput(file.path, session.scene().inputs);
+}
+
+/// Where the command stopped, and how to go on: all frames from `stoppedAt` on are still to come.
+std::string howToGoOn(const std::vector<int>& frames, int stoppedAt) {
+  const std::string first = std::to_string(stoppedAt);
+  std::string rest = first;
+  if (stoppedAt != frames.back()) rest += "-" + std::to_string(frames.back());
+  if (const int step = frames.size() > 1 ? frames[1] - frames[0] : 1; step > 1 && rest != first)
+    rest += "/" + std::to_string(step);
+  return "; stopped at frame " + first + ": --frames " + rest + " goes on there";
 }
 
 /// "a.0000.png to a.0099.png".
@@ -69,6 +77,10 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     throw Error(Fault::usage,
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",
                 "-o frame.####.png");
+  if (!keepsWords(pattern))
+    console.line(LogLevel::info, "note: " + std::filesystem::path(pattern).extension().string() +
+                                     " files cannot say how they were made, so frames that are there are "
+                                     "rendered again; those of .png are skipped");
   Signals signals;
   std::vector<int> missing;
   for (int frame : arguments.frames)
@@ -82,7 +94,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
 
   Progress progress = makeProgress(arguments.progress, console);
   int code = kDone;
-  std::string size, stopped;
+  std::string size, stopped, removed;
   std::size_t done = 0;
   for (; done < missing.size(); ++done) {
     const std::string picture = frameName(pattern, missing[done]);
@@ -105,7 +117,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     const auto frameStart = elapsed();
     const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
     PictureFiles files = session.filesFor(picture);
-    const RenderResult result = renderWatched(session, signals, console, progress, files, part);
+    const RenderResult result = renderPictureWatched(session, signals, console, progress, files, part);
     reportBadSamples(result, console);
     if (result.end != End::finished) {
       code = exitCode(result), stopped = whyStopped(result);
@@ -120,6 +132,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       ++done;
       break;
     }
+    removed += removedText(files);
     size = pictureText(session, 1) + andPasses(session.settings());
     console.line(LogLevel::debug, "wrote " + picture);
   }
@@ -129,11 +142,11 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
           ? "nothing written"
           : "wrote " + span(pattern, {missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(done)});
   const std::string of = done < missing.size() ? " of " + std::to_string(missing.size()) : "";
-  console.last(code == kDone,
-               stopped + what + " (" +
-                   (of.empty() ? counted(done, "frame") : std::to_string(done) + of + " frames") +
-                   (size.empty() ? "" : ", " + size) + (skipped.empty() ? "" : "; " + skipped) + ") in " +
-                   durationText(elapsed()));
+  console.last(
+      code == kDone,
+      stopped + what + " (" + (of.empty() ? counted(done, "frame") : std::to_string(done) + of + " frames") +
+          (size.empty() ? "" : ", " + size) + (skipped.empty() ? "" : "; " + skipped) + ") in " +
+          durationText(elapsed()) + removed + (of.empty() ? "" : howToGoOn(arguments.frames, missing[done])));
   return code;
 }
 

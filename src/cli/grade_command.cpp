@@ -78,7 +78,7 @@ std::string gradesText(const Grades& grades) {
   for (const GradedPair& pair : grades.pairs)
     if (!pair.problem.empty())
       text += pair.name + ": " + pair.problem.substr(0, pair.problem.find('\n')) + "\n";
-  if (!grades.extra.empty()) text += "without a reference: " + counted(grades.extra.size(), "file") + "\n";
+  for (const std::string& file : grades.extra) text += file + ": has no reference\n";
   return text + std::to_string(grades.passed) + " of " + std::to_string(grades.pairs.size()) +
          " within the limits\n";
 }
@@ -109,7 +109,7 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
 
 }  // namespace
 
-int grade(const Arguments& arguments, const Console& console) {
+int gradeCommand(const Arguments& arguments, const Console& console) {
   const bool asJson = chosenFormat(arguments, "grade", kFormats) == "json";
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);

@@ -20,7 +20,7 @@ Error noStudio() {
           "builds it; ray SCENE renders without a window"};
 }
 
-int gui(const Arguments& arguments, const Console&) {
+int guiCommand(const Arguments& arguments, const Console&) {
   if (arguments.files.size() > 1)
     throw Error(Fault::usage,
                 "ray gui: expected at most one scene, found also \"" + arguments.files[1] + "\"");

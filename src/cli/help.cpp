@@ -159,13 +159,6 @@ std::string cell(std::string_view text) {
   return result;
 }
 
-/// "render info" as "render, info".
-std::string spaced(std::string_view words) {
-  std::string result;
-  for (char c : words) result += c == ' ' ? std::string(", ") : std::string(1, c);
-  return result;
-}
-
 std::string code(std::string_view text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
 
 /// The options of a picture: by groups, or the common ones.
@@ -213,8 +206,12 @@ std::string helpText(const Command& command, bool all) {
   const std::string name(command.name);
   std::string text = entry(usageOf(command), std::string(command.help)) + "\nIts flags\n";
   for (const Flag& flag : flags())
-    if (knows(command.name, flag)) text += entry(flagsOf(flag), std::string(flag.help));
-  if (!takesOptions(command.name)) return text;
+    if (flag.commands.has(command.verb)) text += entry(flagsOf(flag), std::string(flag.help));
+  if (!takesOptions(command.verb)) {
+    for (const Option& option : options())
+      if (takesOption(command.verb, option)) text += optionEntry(option, all);
+    return text;
+  }
   text += optionsText(all);
   return all ? text : text + "\nEvery option: ray " + name + " --help all\n";
 }
@@ -258,7 +255,7 @@ std::string optionsMarkdown() {
   }
   text += "\n## The program\n\n| flag | of | what it does |\n|---|---|---|\n";
   for (const Flag& flag : flags())
-    text += "| " + code(flagsOf(flag)) + " | " + spaced(flag.commands) + " | " + cell(flag.help) + " |\n";
+    text += "| " + code(flagsOf(flag)) + " | " + namesOf(flag.commands) + " | " + cell(flag.help) + " |\n";
   text += "\nExit codes: " + std::string(kExitCodes) + ".\n\nSignals: " + std::string(kSignals) + ".\n";
   return text;
 }

@@ -132,7 +132,7 @@ std::string infoJson(const Facts& facts) {
 
 }  // namespace
 
-int info(const Arguments& arguments, const Console& console) {
+int infoCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray info: expected the name of one scene file, found " +

@@ -43,7 +43,7 @@ std::string lintJson(const std::string& scene, std::span<const LintFinding> find
 
 }  // namespace
 
-int lint(const Arguments& arguments, const Console& console) {
+int lintCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray lint: expected the name of one scene file, found " +

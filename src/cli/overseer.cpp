@@ -28,10 +28,11 @@ void print(const std::string& text) {
 
 }  // namespace
 
-Overseer::Overseer(const Budget& budget, const Console& console, ProgressStyle style)
+Overseer::Overseer(const Budget& budget, const Console& console, ProgressStyle style, LateEnd lateEnd)
     : budget_(budget),
       shows_(console.shows(LogLevel::info) && style != ProgressStyle::none && style != ProgressStyle::json),
-      draws_(style == ProgressStyle::bar || (style == ProgressStyle::automatic && canRedraw())) {
+      draws_(style == ProgressStyle::bar || (style == ProgressStyle::automatic && canRedraw())),
+      lateEnd_(lateEnd) {
   try {
     thread_ = std::thread([this] { run(); });
   } catch (const std::system_error&) {
@@ -61,12 +62,11 @@ void Overseer::endIfLate() const {
   const double limit = budget_.timeLimit();
   if (limit <= 0 || budget_.finishes() || budget_.seconds() < limit + kGrace) return;
   const std::string doing = budget_.outermost().first.doing;
-  const std::string text = "error: the time limit of " + toText(limit) + " s is over" +
-                           (doing.empty() ? "" : " while " + doing) +
-                           "\nnothing written: a limit of size, memory or time was met\n";
-  constexpr int kCode = static_cast<int>(Fault::limit);
-  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(kCode);
-  ::_exit(kCode);
+  const std::string text =
+      "error: the time limit of " + toText(limit) + " s is over" + (doing.empty() ? "" : " while " + doing) +
+      "\n" + (lateEnd_.writes ? "nothing written: a limit of size, memory or time was met\n" : "");
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(lateEnd_.code);
+  ::_exit(lateEnd_.code);
 }
 
 void Overseer::report() {

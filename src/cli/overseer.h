@@ -16,7 +16,13 @@ namespace trace::cli {
 /// process with a message some seconds later.
 class Overseer {
  public:
-  Overseer(const Budget& budget, const Console& console, ProgressStyle style);
+  /// How the process ends if it has to be ended.
+  struct LateEnd {
+    int code;     ///< of the exit
+    bool writes;  ///< says that nothing was written
+  };
+
+  Overseer(const Budget& budget, const Console& console, ProgressStyle style, LateEnd lateEnd);
   ~Overseer();
   Overseer(const Overseer&) = delete;
   Overseer& operator=(const Overseer&) = delete;
@@ -29,6 +35,7 @@ class Overseer {
 
   const Budget& budget_;
   const bool shows_, draws_;
+  const LateEnd lateEnd_;
   double lastPrint_ = 0;  // seconds of the budget
   bool drawn_ = false;
   std::mutex mutex_;

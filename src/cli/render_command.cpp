@@ -60,7 +60,7 @@ void checkIsScene(const std::string& scene) {
 
 }  // namespace
 
-int render(const Arguments& arguments, const Console& console) {
+int renderCommand(const Arguments& arguments, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.printDefaults) return printResult(defaultsText()), kDone;
 
@@ -85,7 +85,7 @@ int render(const Arguments& arguments, const Console& console) {
   signals.renderingBegins();
   Progress progress = makeProgress(arguments.progress, console);
   PictureFiles files = session.filesFor(output);
-  const RenderResult result = renderWatched(session, signals, console, progress, files, Part{});
+  const RenderResult result = renderPictureWatched(session, signals, console, progress, files, Part{});
   reportBadSamples(result, console);
 
   const std::string stopped = whyStopped(result);
@@ -103,7 +103,7 @@ int render(const Arguments& arguments, const Console& console) {
                                                    : "";
   console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + where);
+                                  durationText(seconds) + where + removedText(files));
   return code;
 }
 

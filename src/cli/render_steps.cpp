@@ -29,10 +29,10 @@ void checkOutputs(const Session& session, const std::string& output) {
   checkPlaces(session, output);
 }
 
-RenderResult renderWatched(Session& session, Signals& signals, const Console& console, Progress& progress,
-                           PictureFiles& files, const Part& part) {
+RenderResult renderPictureWatched(Session& session, Signals& signals, const Console& console,
+                                  Progress& progress, PictureFiles& files, const Part& part) {
   const Watch watch(session, signals, console, progress, files, part);
-  return session.render();
+  return session.renderPicture();
 }
 
 void reportBadSamples(const RenderResult& result, const Console& console) {
@@ -61,6 +61,12 @@ SavedPicture save(Session& session, PictureFiles& files, const Console& console)
     fs::remove(folder, ignored);  // if it is empty
     throw;
   }
+}
+
+std::string removedText(const PictureFiles& files) {
+  std::string names;
+  for (const std::string& name : files.removed()) names += (names.empty() ? "; removed " : ", ") + name;
+  return names;
 }
 
 bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,

@@ -21,8 +21,8 @@ void checkPlaces(const Session& session, const std::string& output);
 void checkOutputs(const Session& session, const std::string& output);
 
 /// Renders with an eye on progress and signals.
-RenderResult renderWatched(Session& session, Signals& signals, const Console& console, Progress& progress,
-                           PictureFiles& files, const Part& part);
+RenderResult renderPictureWatched(Session& session, Signals& signals, const Console& console,
+                                  Progress& progress, PictureFiles& files, const Part& part);
 
 /// Warns of samples that were left out.
 void reportBadSamples(const RenderResult& result, const Console& console);
@@ -34,6 +34,9 @@ struct SavedPicture {
 /// Writes the picture and its passes; if their own place fails after all, to a new folder among the system's
 /// temporary files.
 SavedPicture save(Session& session, PictureFiles& files, const Console& console);
+
+/// "; removed out.partial.png", of the fragments that the whole picture took away; "" for none.
+std::string removedText(const PictureFiles& files);
 
 /// What --stats asked for, if it did. False, after a message, if stdout does not take it.
 bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,

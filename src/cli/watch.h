@@ -23,8 +23,8 @@ struct Part {
 /// What `auto` means here and now, drawn on stderr.
 Progress makeProgress(ProgressStyle style, const Console& console);
 
-/// Lives while Session::render() runs. Event::stop cancels the job; Event::save writes the finished tiles to
-/// `files`, which are the thread's own meanwhile.
+/// Lives while Session::renderPicture() runs. Event::stop cancels the job; Event::save writes the finished
+/// tiles to `files`, which are the thread's own meanwhile.
 class Watch {
  public:
   Watch(Session& session, Signals& signals, const Console& console, Progress& progress, PictureFiles& files,

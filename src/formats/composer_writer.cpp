@@ -177,7 +177,10 @@ class Writer {
 
 std::vector<NamedBytes> writeComposer(const Scene& scene, const std::string& file,
                                       const WriteOptions& options, Messages& messages) {
-  return {{file, cf::writeText(Writer(scene, messages).write(), options.digits)}};
+  const cf::File written = Writer(scene, messages).write();
+  NamedBytes::Contents holds{written.objects.size(), 0};
+  for (const cf::Object& object : written.objects) holds.triangles += object.polygons.counts.size();
+  return {{file, cf::writeText(written, options.digits), holds}};
 }
 
 }  // namespace trace

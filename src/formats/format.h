@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,7 +17,13 @@ namespace trace {
 
 /// A file to be written.
 struct NamedBytes {
+  struct Contents {
+    std::size_t objects = 0, triangles = 0;
+  };
+
   std::string file, bytes;
+  std::optional<Contents>
+      holds{};  ///< where that is not what the scene holds, as when shapes become triangles
 };
 
 struct WriteOptions {

@@ -9,8 +9,10 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
+#include "base/file.h"
 #include "base/match.h"
 #include "base/names.h"
 #include "base/text.h"
@@ -19,6 +21,8 @@
 
 namespace trace {
 namespace {
+
+namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little,
               "binary PLY files are written as the memory has them");
@@ -112,6 +116,34 @@ std::map<std::uint32_t, std::string> materialNames(const Scene& scene, const std
   return names;
 }
 
+/// Whether the OBJ file that is there now, if any, names that file for its materials.
+bool namesMaterials(const std::string& obj, const std::string& materials) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(obj, ignored)) return false;
+  std::istringstream lines(readFile(obj));
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::string_view kKeyword = "mtllib ";
+    if (!line.starts_with(kKeyword)) continue;
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line.size() > kKeyword.size() && sameFile(besideFile(obj, line.substr(kKeyword.size())), materials))
+      return true;
+  }
+  return false;
+}
+
+/// Where the materials of an OBJ file go: to NAME.mtl beside it, or NAME-2.mtl and so on if that is there and
+/// belongs to something else than the OBJ file that is replaced.
+std::string placeOfMaterials(const std::string& obj) {
+  std::error_code ignored;
+  const fs::path path(obj);
+  for (int number = 1;; ++number) {
+    const std::string name =
+        path.stem().string() + (number == 1 ? "" : "-" + std::to_string(number)) + ".mtl";
+    std::string place = (path.parent_path() / name).string();
+    if (!fs::exists(place, ignored) || namesMaterials(obj, place)) return place;
+  }
+}
+
 class ObjWriter {
  public:
   explicit ObjWriter(const WriteOptions& options) : digits_(options.digits) {}
@@ -173,7 +205,9 @@ class ObjWriter {
 
 std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
-  const MeshData mesh = merged(worldMeshes(scene, messages));
+  std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const std::size_t objects = meshes.size();
+  const MeshData mesh = merged(std::move(meshes));
   const auto& m = mesh.materials;
   const bool colored = std::adjacent_find(m.begin(), m.end(), std::not_equal_to<>()) != m.end();
   std::string out = "ply\nformat " + std::string(options.ascii ? "ascii" : "binary_little_endian") +
@@ -202,20 +236,21 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
     for (std::uint32_t corner : t) row.add(static_cast<std::int32_t>(corner));
     row.end();
   }
-  return {{file, std::move(out)}};
+  return {{file, std::move(out), NamedBytes::Contents{objects, mesh.triangles.size()}}};
 }
 
 std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
   const std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
   const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
-  const std::string materialFile = std::filesystem::path(file).replace_extension(".mtl").string();
+  const std::string materialFile = placeOfMaterials(file);
   ObjWriter materials(options), objects(options);
   for (const auto& [index, name] : names) materials.material(name, phongOf(scene, index));
 
-  objects.line("mtllib", onOneLine(std::filesystem::path(materialFile).filename().string()));
-  std::size_t colored = 0;
+  objects.line("mtllib", onOneLine(fs::path(materialFile).filename().string()));
+  std::size_t colored = 0, triangles = 0;
   for (const WorldMesh& part : meshes) {
+    triangles += part.mesh.triangles.size();
     if (const std::string name = objName(part.name); !name.empty()) objects.line("o", name);
     objects.line("usemtl", names.at(part.material));
     objects.mesh(part.mesh);
@@ -225,7 +260,8 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
     messages.warn(Place{scene.file, 0, 0, {}}, "an OBJ file holds no materials of points: left out for " +
                                                    std::to_string(colored) +
                                                    (colored == 1 ? " mesh" : " meshes"));
-  return {{file, objects.take()}, {materialFile, materials.take()}};
+  return {{file, objects.take(), NamedBytes::Contents{meshes.size(), triangles}},
+          {materialFile, materials.take()}};
 }
 
 }  // namespace trace

@@ -13,7 +13,8 @@ namespace trace {
 std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages);
 
-/// An object for each, and their materials in a file NAME.mtl beside it.
+/// An object for each, and their materials in a file beside it: NAME.mtl, or another name if that file is
+/// there and is not the one that the OBJ file in this place names.
 std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages);
 

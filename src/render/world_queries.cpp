@@ -35,6 +35,7 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& sta
 
 void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
   const auto ask = [&](std::uint32_t object) {
+    checkBudget();
     closestOf(object, ray, faces, statistics, best);
     return false;
   };
@@ -126,6 +127,7 @@ void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& stati
 void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
                             VisitFound visit) const {
   const auto ask = [&](std::uint32_t object) {
+    checkBudget();
     return crossingsOf(object, ray, tMost, faces, statistics, visit);
   };
   bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, ask, ray.leaves);

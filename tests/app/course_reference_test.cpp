@@ -43,7 +43,7 @@ Pair compareWithCourse(const std::string& scene, const std::string& reference,
   Session session;
   session.open(kScenes + "ubc/scenes/" + scene, choices);
   session.build();
-  session.render();
+  session.renderPicture();
   const Settings& settings = session.settings();
   const PassRow& depth = *passesOf(settings).at(0);
   Pair pair{
@@ -88,7 +88,7 @@ TEST(CourseReference, TheSceneOfNoSceneIsTheRedSquare) {
   Session session;
   session.open(test::sourceFolder() + "/scenes/cpsc314-default.ray", {});
   session.build();
-  session.render();
+  session.renderPicture();
   const Settings& settings = session.settings();
   const std::string reference = kReference + "ubc/ubc2016/noarg_default";
   EXPECT_EQ(agreement(toned(session.picture(), settings.tone), reference + "_out.bmp").exact, 1);
@@ -144,7 +144,7 @@ TEST(CourseReference, TextAndBinaryTwinsAreTheSamePicture) {
         session.open(kScenes + "composer/" + set + "/" + name + (i ? ".scene" : ".ascii"),
                      std::vector<Choice>{{"width", "64", {}}, {"height", "64", {}}});
         session.build();
-        session.render();
+        session.renderPicture();
         pictures[i] = session.picture();
       }
       // Text has six digits, binary floats have seven.
@@ -167,7 +167,7 @@ TEST(CourseReference, EverySceneLoadsAndRenders) {
         Session session;
         session.open(scene, std::vector<Choice>{{"width", "32", {}}, {"height", "24", {}}});
         session.build();
-        const RenderResult result = session.render();
+        const RenderResult result = session.renderPicture();
         EXPECT_EQ(result.end, End::finished) << scene;
         EXPECT_EQ(result.statistics.badSamples, 0u) << scene;
         ++rendered;

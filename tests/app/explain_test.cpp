@@ -24,7 +24,7 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   Session session;
   session.open(file, choices);
   session.build();
-  session.render();
+  session.renderPicture();
   const Picture picture = session.picture();
   std::size_t rays = 0;
   for (int y = 0; y < picture.height; ++y)

@@ -87,7 +87,7 @@ void useAll(const std::string& file) {
   Session session;
   session.open(file, std::vector<Choice>{{"width", "8", {}}, {"threads", "1", {}}});
   session.build();
-  session.render();
+  session.renderPicture();
   const Explanation explanation = session.explain(4, 4, 0);
   drawRays(session.scene(), session.settings(), session.world(), explanation.tree);
   const Scene copy = session.scene();

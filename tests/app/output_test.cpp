@@ -21,7 +21,7 @@ class OutputTest : public testing::Test {
     choices.push_back({"width", "24", {}});
     session_.open(test::sourceFolder() + "/scenes/shapes.ray", choices);
     session_.build();
-    session_.render();
+    session_.renderPicture();
     session_.save(folder_ / name);
   }
 
@@ -172,6 +172,34 @@ TEST_F(Fragment, StaysTogetherWithItsPasses) {
   EXPECT_FALSE(exists("a.png"));
   EXPECT_EQ(makeBoth(files, 2), path("a.png"));
   EXPECT_FALSE(exists("a.partial.png") || exists("a.partial.depth.exr"));  // of no use any more
+}
+
+TEST_F(Fragment, OfAnEarlierRunGoesWhenTheSamePictureIsWhole) {
+  write("a.png", 2);
+  const Metadata other{{"Software", "a test"}, {"Settings", "spp=9"}};
+  PictureFiles(path("a.png"), {}).write(film(1), settings_, other);
+  std::filesystem::rename(path("a.partial.png"), path("a.partial-2.png"));
+  EXPECT_EQ(write("a.png", 1), "a.partial.png");
+  PictureFiles files(path("a.png"), {});
+  EXPECT_EQ(write(files, 2), "a.png");
+  EXPECT_FALSE(exists("a.partial.png"));
+  EXPECT_EQ(files.removed(), std::vector<std::string>{path("a.partial.png")});
+  EXPECT_TRUE(exists("a.partial-2.png")) << "a part of another picture, perhaps a dearer one";
+}
+
+TEST_F(Fragment, WhatOnlyHasTheNameOfOneStays) {
+  writeFile(path("a.partial.png"), "notes");
+  write("b.partial.png", 2);             // whole
+  write("c.bmp", 2), write("c.bmp", 1);  // without words
+  write("d.png", 2), write("d.png", 1);  // what the scene is made of
+  InputFiles inputs;
+  inputs.noteNamed(path("d.partial.png"));
+  for (const char* name : {"a.png", "b.png", "c.bmp"}) EXPECT_EQ(write(name, 2), name);
+  PictureFiles files(path("d.png"), inputs);
+  EXPECT_EQ(write(files, 2), "d.png");
+  EXPECT_TRUE(files.removed().empty());
+  for (const char* name : {"a.partial.png", "b.partial.png", "c.partial.bmp", "d.partial.png"})
+    EXPECT_TRUE(exists(name)) << name;
 }
 
 TEST_F(Fragment, SaysThatItIsOne) {

@@ -42,7 +42,7 @@ Outcome renderAndCompare(const std::string& scene, const std::string& reference,
   Session session;
   session.open(scene, choices);
   session.build();
-  session.render();
+  session.renderPicture();
   const Bytes ours = toBytes(session.picture(), session.settings().rounding);
   const Bytes theirs = toBytes(readPicture(reference), Rounding::nearest);
   Outcome outcome;
@@ -116,7 +116,7 @@ TEST(Reference, EverySceneLoadsAndRenders) {
       Session session;
       session.open(scene, std::vector<Choice>{{"width", "40", {}}});
       session.build();
-      const RenderResult result = session.render();
+      const RenderResult result = session.renderPicture();
       EXPECT_EQ(result.end, End::finished) << scene;
       EXPECT_EQ(result.statistics.badSamples, 0u) << scene;
       ++rendered;

@@ -7,7 +7,10 @@
 #include <fstream>
 #include <map>
 
+#include "base/budget.h"
+#include "base/file.h"
 #include "image/codec.h"
+#include "support/folder.h"
 #include "support/paths.h"
 #include "support/random.h"
 #include "support/shared.h"
@@ -21,7 +24,7 @@ Picture renderFile(const std::string& file, std::vector<Choice> choices) {
   Session session;
   session.open(file, choices);
   session.build();
-  session.render();
+  session.renderPicture();
   return session.picture();
 }
 
@@ -70,7 +73,7 @@ TEST(Session, PicturesKeepHowTheyWereMade) {
   Session session;
   session.open(kExamples + "/shapes.ray", std::vector<Choice>{{"width", "20", {}}, {"like", "ut", {}}});
   session.build();
-  session.render();
+  session.renderPicture();
   session.save(path);
   std::map<std::string, std::string> metadata;
   for (const auto& [key, value] : readMetadata(path)) metadata[key] = value;
@@ -108,6 +111,28 @@ TEST(Session, MemoryStaysFlatOverTwoHundredRenders) {
   const long before = residentMemory();
   renders(200);
   EXPECT_LT(residentMemory() - before, 2048) << "KiB more after 200 renders";
+}
+
+/// A single ray may take long where many objects lie in one place.
+TEST(Session, RaysLookAtTheBudgetForEveryObjectTheyMeet) {
+  constexpr int kSpheres = 4000, kLeastLooks = kSpheres / 200;
+  std::string text = "SBT-raytracer 1.0\ncamera { }\n";
+  for (int i = 0; i < kSpheres; ++i) text += "sphere { material = { transmissive = (1, 1, 1); } }\n";
+  const Folder folder;
+  writeFile(folder / "spheres.ray", text);
+  Session session;
+  session.open(folder / "spheres.ray", {});
+  session.build();
+  int looks = 0;
+  Budget budget([&] { ++looks; });
+  const BudgetScope scope(&budget);
+  const Ray ray{{0, 0, 5}, {0, 0, -1}};
+  Statistics statistics;
+  session.world().closest(ray, Faces::both, statistics);
+  EXPECT_GE(looks, kLeastLooks) << "the closest";
+  looks = 0;
+  session.world().crossings(ray, kInfinity, Faces::both, statistics, [](const Found&) { return false; });
+  EXPECT_GE(looks, kLeastLooks) << "all";
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
   Session session;
   session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
   session.build();
-  session.render();
+  session.renderPicture();
   EXPECT_EQ(workspace.render.picture(), session.picture());
   workspace.savePicture(path("out.png"));
   ASSERT_TRUE(settled(workspace));

@@ -110,13 +110,13 @@ TEST(Budget, AnInnerLimitDoesNotReplaceTheOuterOne) {
   EXPECT_EQ(errorOf(checkOften), "the time limit of 1e-09 s is over");
 }
 
-TEST(Budget, StartsAgain) {
+TEST(Budget, FinishesUntilThatIsTakenBack) {
   Budget budget;
-  budget.limitTime(3600);
-  budget.letFinish();
-  budget.startAgain();
   EXPECT_FALSE(budget.finishes());
-  EXPECT_LT(budget.seconds(), 1800);
+  budget.letFinish();
+  EXPECT_TRUE(budget.finishes());
+  budget.letFinish(false);
+  EXPECT_FALSE(budget.finishes());
 }
 
 TEST(Budget, AScopeGivesBackTheOneBefore) {

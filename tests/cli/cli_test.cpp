@@ -113,6 +113,22 @@ TEST_F(Cli, HelpGoesToStdout) {
   EXPECT_EQ(run({"--version"}).out.substr(0, 6), "Trace ");
 }
 
+TEST_F(Cli, ErrorsBeyondThoseShownAreNotDenied) {
+  std::string errors = "SBT-raytracer 1.0\n";
+  for (int i = 0; i < 50000; ++i) errors += "sphere { material = { diffuse = 1 1 } }\n";
+  write("many.ray", errors);
+  const Run many = run({"many.ray"});
+  EXPECT_EQ(many.code, 3);
+  EXPECT_EQ(many.last, "nothing written: the scene has at least 20 errors");
+  EXPECT_TRUE(contains(many.err, "\n... and perhaps more: reading ends at the 20th error\n"));
+  write("few.ray",
+        "SBT-raytracer 1.0\nsphere { material = { diffuse = 1 1 } }\nsphere { material = { diffuse = 1 1 } "
+        "}\n");
+  const Run few = run({"few.ray"});
+  EXPECT_EQ(few.last, "nothing written: the scene has 2 errors");
+  EXPECT_EQ(few.err.find("perhaps more"), std::string::npos);
+}
+
 TEST_F(Cli, EachCommandHasItsOwnHelp) {
   for (const cli::Command& command : cli::commands()) {
     const std::string name(command.name);
@@ -127,8 +143,14 @@ TEST_F(Cli, EachCommandHasItsOwnHelp) {
     EXPECT_EQ(run({"help", name, "all"}).out, run({name, "--help", "all"}).out);
     for (const cli::Flag& flag : cli::flags()) {
       const bool told = r.out.find("--" + std::string(flag.name)) != std::string::npos;
-      EXPECT_TRUE(told || !cli::knows(name, flag)) << name << " " << flag.name;
+      EXPECT_TRUE(told || !flag.commands.has(command.verb)) << name << " " << flag.name;
     }
+    const std::string all = run({name, "--help", "all"}).out;
+    for (const Option& option : options()) {
+      const bool told = all.find("--" + std::string(option.name) + " ") != std::string::npos;
+      EXPECT_EQ(told, cli::takesOption(command.verb, option)) << name << " " << option.name;
+    }
+    EXPECT_EQ(&cli::commandOf(command.verb), &command) << name;
   }
   EXPECT_TRUE(contains(run({"explain", "--help"}).out, "--pixel X,Y"));
   EXPECT_EQ(run({"explain", "--help"}).out.find("--tolerance"), std::string::npos);

@@ -55,12 +55,56 @@ TEST_F(Convert, TurnsAProfile) {
 }
 
 TEST_F(Convert, WritesNothingWhereOneOfItsFilesCannotBeWritten) {
-  write("kept.obj", "precious");
+  const std::string precious = "mtllib kept.mtl\nprecious";
+  write("kept.obj", precious);
   std::filesystem::create_directory(path("kept.mtl"));
   const auto refused = run({"convert", "tri.off", "kept.obj"});
   EXPECT_EQ(refused.code, 1) << refused.err;
   EXPECT_TRUE(refused.last.starts_with("nothing written")) << refused.last;
-  EXPECT_EQ(read("kept.obj"), "precious");
+  EXPECT_EQ(read("kept.obj"), precious);
+}
+
+TEST_F(Convert, SparesMaterialsThatBelongToSomethingElse) {
+  write("y.mtl", "precious");
+  const auto first = run({"convert", "tri.off", "y.obj"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(read("y.mtl"), "precious");
+  EXPECT_TRUE(first.last.starts_with("wrote y.obj and y-2.mtl (1 object, 1 triangle) in ")) << first.last;
+  EXPECT_TRUE(first.last.ends_with("; y.mtl is kept as it is, for y.obj did not name it")) << first.last;
+  EXPECT_TRUE(test::contains(read("y.obj"), "mtllib y-2.mtl\n"));
+  EXPECT_TRUE(test::contains(read("y-2.mtl"), "newmtl "));
+  write("y-2.mtl", "of y.obj");
+  EXPECT_EQ(run({"convert", "tri.off", "y.obj"}).code, 0);
+  EXPECT_TRUE(test::contains(read("y-2.mtl"), "newmtl ")) << "y.obj names it, so it is replaced with it";
+  EXPECT_FALSE(exists("y-3.mtl"));
+}
+
+TEST_F(Convert, ReplacesTheMaterialsOfTheFileItReplaces) {
+  ASSERT_EQ(run({"convert", "tri.off", "z.obj"}).code, 0);
+  const auto again = run({"convert", "tri.off", "z.obj", "--material", "diffuse = (0.25, 0, 0)"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.last.starts_with("wrote z.obj and z.mtl (")) << again.last;
+  EXPECT_EQ(again.last.find("kept"), std::string::npos) << again.last;
+  EXPECT_TRUE(test::contains(read("z.mtl"), "Kd 0.25 0 0"));
+  EXPECT_FALSE(exists("z-2.mtl"));
+}
+
+TEST_F(Convert, CountsWhatItWrote) {
+  write("mixed.ray",
+        "SBT-raytracer 1.0\ncamera { }\nsphere { }\nplane { }\ntranslate(3, 0, 0, cylinder { })\n");
+  ASSERT_EQ(run({"convert", "mixed.ray", "mixed.obj"}).code, 0);
+  std::istringstream lines(read("mixed.obj"));
+  std::size_t triangles = 0;
+  for (std::string line; std::getline(lines, line);) triangles += line.starts_with("f ");
+  ASSERT_GT(triangles, 100u);
+  const std::string counts = "(2 objects, " + std::to_string(triangles) + " triangles)";
+  for (const char* name : {"mixed.obj", "mixed.ply"})
+    EXPECT_TRUE(test::contains(run({"convert", "mixed.ray", name}).last, counts)) << name;
+  const auto composer = run({"convert", "mixed.ray", "mixed.out"});  // keeps spheres as they are
+  EXPECT_TRUE(test::contains(run({"info", "mixed.out"}).out, "objects (2)"));
+  EXPECT_TRUE(test::contains(composer.last, "(2 objects, ")) << composer.last;
+  EXPECT_FALSE(test::contains(composer.last, counts)) << composer.last;
+  EXPECT_TRUE(test::contains(run({"convert", "mixed.ray", "all.ray"}).last, "(3 objects)"));
 }
 
 TEST_F(Convert, TakesTheMomentThatTheSceneChooses) {

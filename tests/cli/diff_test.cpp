@@ -1,5 +1,6 @@
 // ray diff and ray grade: what they print and their exit codes.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -128,6 +129,44 @@ TEST_F(Diff, GradeRendersScenes) {
   picture("ref/white.png", 1);
   const Run r = run({"grade", "scenes", "--reference", "ref", "--render", "-w", "6", "--height", "4"});
   EXPECT_EQ(r.code, 0) << r.out << r.err;
+}
+
+TEST_F(Diff, GradeSaysWhatIsWrongWithEachScene) {
+  std::filesystem::create_directories(path("scenes"));
+  write("scenes/garbled.ray", "no scene at all");
+  write("scenes/garbled.mtl", "no scene either");
+  write("scenes/broken.ray", "SBT-raytracer 1.0\nsphere {");
+  write("scenes/alone.ray", kWhite);
+  ASSERT_EQ(::mkfifo(path("scenes/pipe.ray").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", path("scenes/zero.ray"));
+  for (const char* name : {"garbled", "broken", "pipe", "zero", "none"})
+    picture(std::string("ref/") + name + ".png", 1);
+  const Run r = run({"grade", "scenes", "--reference", "ref", "--render", "-w", "6", "--height", "4"});
+  EXPECT_EQ(r.code, 6) << r.err;
+  EXPECT_TRUE(
+      contains(r.out, "\ngarbled.png: cannot be read: scenes/garbled.ray: error: expected a scene, "));
+  EXPECT_TRUE(contains(r.out, "\nbroken.png: cannot be read: scenes/broken.ray:2:"));
+  EXPECT_TRUE(contains(r.out, "\npipe.png: \"scenes/pipe.ray\" is not a file\n"));
+  EXPECT_TRUE(contains(r.out, "\nzero.png: \"scenes/zero.ray\" is not a file\n"));
+  EXPECT_TRUE(contains(r.out, "\nalone.ray: has no reference\n"));
+  EXPECT_TRUE(contains(r.out, "\nmissing     none.png\n"));
+  for (const char* name : {"garbled", "broken", "pipe", "zero"})
+    EXPECT_TRUE(contains(r.out, std::string("\nunreadable  ") + name + ".png\n"));
+}
+
+TEST_F(Diff, GradeReadsNoPipesAndDevices) {
+  for (const char* name : {"a", "b", "c"}) picture(std::string("ref/") + name + ".png", 1);
+  picture("out/extra.png", 1), picture("out/d.png", 1);
+  ASSERT_EQ(::mkfifo(path("out/a.png").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", path("out/b.png"));
+  ASSERT_EQ(::mkfifo(path("ref/d.png").c_str(), 0600), 0);
+  const Run r = run({"grade", "out", "--reference", "ref"});
+  EXPECT_EQ(r.code, 6) << r.err;
+  EXPECT_TRUE(contains(r.out, "\na.png: \"out/a.png\" is not a file\n"));
+  EXPECT_TRUE(contains(r.out, "\nb.png: \"out/b.png\" is not a file\n"));
+  EXPECT_TRUE(contains(r.out, "\nd.png: \"ref/d.png\" is not a file\n"));
+  EXPECT_TRUE(contains(r.out, "\nextra.png: has no reference\n"));
+  EXPECT_TRUE(contains(r.out, "\nmissing     c.png\n"));
 }
 
 }  // namespace

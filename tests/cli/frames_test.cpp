@@ -98,6 +98,36 @@ TEST_F(Frames, WrongOnesAreRefused) {
   EXPECT_EQ(render({"--fps", "0"}).code, 2);
 }
 
+TEST_F(Frames, TheTimeLimitIsOfAllOfThem) {
+  const Run r = render({"--time-limit", "2"}, "0-20000/2");
+  EXPECT_EQ(r.code, 5) << r.err;
+  const std::string word = "; stopped at frame ";
+  const std::size_t at = r.last.find(word);
+  ASSERT_NE(at, std::string::npos) << r.err;
+  const int frame = std::stoi(r.last.substr(at + word.size()));
+  EXPECT_GT(frame, 0);
+  EXPECT_TRUE(r.last.ends_with(word + std::to_string(frame) + ": --frames " + std::to_string(frame) +
+                               "-20000/2 goes on there"));
+  for (int done = 0; done < frame; done += 2)
+    EXPECT_EQ(readPicture(path(frameName("glow.####.png", done))).width, 8) << done;
+  EXPECT_FALSE(exists(frameName("glow.####.png", frame)));
+  const std::string rest = std::to_string(frame - 2) + "-" + std::to_string(frame);
+  EXPECT_TRUE(contains(render({}, rest + "/2").last, "(1 frame, 8x4; 1 already there)"));
+}
+
+TEST_F(Frames, ThoseWithoutRoomForWordsAreRenderedAgainAndSaySo) {
+  const std::string note = "note: .bmp files cannot say how they were made";
+  for (int again = 0; again < 2; ++again) {
+    const Run r = render({"-o", "f.##.bmp"});
+    EXPECT_TRUE(contains(r.last, "(5 frames, 8x4)"));
+    EXPECT_TRUE(contains(r.err, note));
+    EXPECT_EQ(r.err.find(note), r.err.rfind(note)) << "once is enough";
+  }
+  EXPECT_EQ(render({"-o", "f.##.bmp", "-q"}).err, "");
+  EXPECT_FALSE(contains(render().err, "note:"));
+  EXPECT_TRUE(contains(run({"render", "--help"}).out, ".bmp"));
+}
+
 TEST_F(Frames, CtrlCLeavesFinishedFrames) {
   write("slow.ray", std::string(kGlow) + "scale(5, sphere { material = { reflective = (0.9, 0.9, 0.9); } })");
   Program program(folder(),

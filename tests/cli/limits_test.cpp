@@ -97,7 +97,7 @@ TEST_F(Limits, DiffEndsInTime) {
   const Run r = run({"diff", "white.png", "white.png", "--ppd", "1000", "--time-limit", "0.2"});
   EXPECT_TRUE(r.code == 0 || r.code == 2) << r.code;  // its own scale: 2 is an error
   if (r.code == 2) {
-    EXPECT_TRUE(contains(r.err, "time limit"));
+    EXPECT_TRUE(contains(r.err, "error: the time limit of 0.2 s is over while "));
   }
 }
 
@@ -105,8 +105,8 @@ TEST_F(Limits, TheMessageSaysWhatWasDoneAndHowFar) {
   const Run converted = run({"convert", "waves.ray", "out.obj", "--time-limit", "0.1"});
   EXPECT_EQ(converted.code, kLimit);
   EXPECT_TRUE(contains(converted.err,
-                       "error: the time limit of 0.1 s is over while making triangles of the objects (0 of 1 "
-                       "done)"));
+                       "error: the time limit of 0.1 s is over while converting the scene, making triangles "
+                       "of the objects (0 of 1 done)"));
   EXPECT_TRUE(contains(converted.last, "nothing written: a limit of size, memory or time was met"));
   EXPECT_FALSE(exists("out.obj"));
   const Run read = run({"info", "mesh.ray", "--time-limit", "0.1"});
@@ -134,6 +134,17 @@ TEST_F(Limits, APipeThatNobodyFillsEnds) {
   EXPECT_TRUE(contains(r.err, "the time limit of 0.2 s is over"));
 }
 
+TEST_F(Limits, ADiffThatIsLateEndsWithACodeOfItsOwn) {
+  ASSERT_EQ(::mkfifo(path("pipe.png").c_str(), 0600), 0);
+  for (const char* name : {"plain", "idiff"}) std::filesystem::create_directory(path(name));
+  Program plain(path("plain"), {"diff", "../pipe.png", "../pipe.png", "--time-limit", "0.2"});
+  Program idiff(path("idiff"), {"diff", "../pipe.png", "a.png", "--time-limit", "0.2", "--idiff-codes"});
+  EXPECT_EQ(plain.wait(), 2);
+  EXPECT_EQ(idiff.wait(), 4);
+  EXPECT_TRUE(plain.lastLine() == "error: the time limit of 0.2 s is over while reading a picture")
+      << plain.err();
+}
+
 TEST_F(Limits, WhatHasNoEndIsNotReadForEver) {
   const Run late = run({"info", "/dev/zero", "--time-limit", "0.05"});
   EXPECT_EQ(late.code, kLimit);
@@ -158,6 +169,21 @@ TEST_F(Limits, MemoryEndsEveryCommand) {
         << words[0];
     EXPECT_TRUE(contains(r.err, "hint: --max-memory N allows N MiB")) << words[0];
   }
+}
+
+TEST_F(Limits, LackOfMemoryNamesWhatIsConverted) {
+  if (kSanitized) GTEST_SKIP() << "a sanitizer's memory would count";
+  std::string spheres = kBegin;
+  for (int i = 0; i < 5000; ++i) spheres += "sphere { }\n";
+  write("spheres.ray", spheres);
+  const Run r = run({"convert", "spheres.ray", "out.obj", "--max-memory", "100"});
+  EXPECT_EQ(r.code, kLimit) << r.err;
+  EXPECT_TRUE(
+      r.err.starts_with("spheres.ray: error: out of memory while converting the scene, making triangles "
+                        "of the objects ("))
+      << r.err;
+  EXPECT_TRUE(contains(r.err, " of 5000 done)\n  hint: --max-memory N allows N MiB"));
+  EXPECT_FALSE(exists("out.obj"));
 }
 
 TEST_F(Limits, MemoryEndsARender) {

@@ -150,6 +150,18 @@ TEST_F(Stop, AFragmentGoesBesideAWholePicture) {
   EXPECT_EQ(files(), 5u);
 }
 
+TEST_F(Stop, TheWholePictureTakesItsFragmentAway) {
+  ASSERT_EQ(run({"white.ray", "out.png", "-w", "40"}).code, 0);
+  Metadata words = readMetadata(path("out.png"));
+  words.emplace_back("Incomplete", "the render was stopped");
+  writePicture(path("out.partial.png"), readPicture(path("out.png")), Rounding::truncate, words);
+  EXPECT_TRUE(run({"white.ray", "out.png", "-w", "41"}).last.ends_with(" s")) << "another picture";
+  EXPECT_TRUE(exists("out.partial.png"));
+  const Run r = run({"white.ray", "out.png", "-w", "40"});
+  EXPECT_TRUE(r.last.ends_with(" s; removed out.partial.png")) << r.last;
+  EXPECT_FALSE(exists("out.partial.png"));
+}
+
 TEST_F(Stop, NothingIsLeftOfWhatWasBeingWritten) {
   for (int round = 0; round < 5; ++round) {
     std::vector<std::string> words = longRender();
