@@ -58,7 +58,7 @@ std::optional<double> taken(double typed, const NumberLook& look, bool whole) {
   if (!any || now != typed)
     remarks().push_back(std::string(look.name) + (look.name.empty() ? "" : ": ") + "expected " +
                         rangeText(look, whole) + ", found " + toText(typed) +
-                        (any ? "; taken as " + toText(now) : "; not taken"));
+                        (any ? "; the nearest is " + toText(now) : "; not taken"));
   if (!any) return {};
   return now;
 }
