@@ -66,8 +66,10 @@ void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
 /// Over its file, where that is one of the studio's own.
 void saveSceneAnd(Studio& studio, std::function<void()> then) {
   if (!studio.workspace.document.savesOverItsFile()) return saveSceneAsAnd(studio, std::move(then));
+  const std::uint64_t failures = studio.workspace.failures();
   studio.workspace.saveSceneOver();
-  studio.leaving = std::move(then);
+  if (studio.workspace.failures() > failures) return studio.show("Log");  // nobody leaves then
+  if (then) studio.leaving = std::move(then);
 }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
 void zoomText(Studio& studio, float factor) {

@@ -29,7 +29,9 @@ for ((i = 0; i < 5; ++i)); do step; done
 step 'select none 0' # 67
 for ((i = 0; i < 5; ++i)); do step; done
 step 'panel Controls' # 73
-for ((i = 0; i < 10; ++i)); do step; done
+for ((i = 0; i < 6; ++i)); do step; done
+step 'set spp 3' 'drop scene.ray' # 80
+for ((i = 0; i < 5; ++i)); do step; done
 "$studio" scene.ray --script script >log 2>&1 &
 program=$!
 await 0
@@ -159,6 +161,16 @@ press Return
 sleep 1
 next
 is file other.ray "Enter opens the file that was clicked"
+
+# Leaving a scene that was changed: Save writes it over its file and goes on.
+skipTo 80
+is popup open "it is asked first"
+goTo button Save
+xdotool click 1
+sleep 1
+next
+is file scene.ray "what was interrupted goes on"
+grep -q 'spp = 3' other.ray || fail "Save does not write over the file"
 kill $program
 program=''
 echo "menus, lists, fields, deleting, saving: all by keyboard and mouse"
