@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/ray_format.h"
+#include "formats/ray_patch.h"
 #include "scene/picture_size.h"
 
 namespace trace {
@@ -59,7 +60,10 @@ Document::Reading Document::read(const Source& source) {
   const Real time = source.time();
   if (const Real chosen = readAt(time); chosen != time) readAt(chosen);  // the file chooses the moment
   text.scene = reading.scene;
-  if (!keepsText(reading.scene->format)) text.bytes.reset();
+  if (keepsText(reading.scene->format))
+    text.lookAt = lookAtIn(source.file, bytes, text.time);
+  else
+    text.bytes.reset();
   reading.text = std::make_shared<const SceneText>(text);
   reading.fingerprint = reading.scene->inputs.fingerprint();
   reading.changesWithTime = trace::changesWithTime(source.file, bytes);
@@ -83,6 +87,7 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
   const Reading reading = read({file, commandLine, {}});
   take(reading, true);
   file_ = file, commandLine_ = std::move(commandLine);
+  ownFile_ = keepsText(reading.scene->format) ? file : "";
   editions_ = {{"", reading.scene, reading.text, {}}};
   current_ = 0;
   settle();
@@ -198,6 +203,15 @@ void Document::redo() {
   settle();
 }
 
+std::optional<Vec3> Document::lookAt() const {
+  const Camera& camera = scene().camera;
+  const std::optional<Vec3>& said = editions_[current_].text->lookAt;
+  const bool looks = said && normalize(*said - camera.position) == camera.viewdir;
+  return looks ? said : std::nullopt;
+}
+
+bool Document::savesOverItsFile() const { return isOpen() && file_ == ownFile_; }
+
 bool Document::sceneEdited() const {
   return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_);
 }
@@ -252,7 +266,9 @@ void Document::noteSaved(const Saved& saved) {
   const bool ours = std::any_of(editions_.begin(), editions_.end(),
                                 [&](const Edition& edition) { return edition.scene == saved.what.scene; });
   if (!ours) return;
-  file_ = saved.what.file, written_ = saved.written, onDisk_ = saved.what.scene;
+  file_ = saved.what.file;
+  ownFile_ = keepsText(writableFormatFor(file_).name) ? file_ : "";
+  written_ = saved.written, onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
   choicesOnDisk_ = saved.what.choices;
   fingerprint_ = saved.fingerprint;

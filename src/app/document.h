@@ -64,6 +64,10 @@ class Document {
   /// Saving would write something else than what was read or saved last: of the scene, or of the options
   /// that a scene has, with the command line's over them.
   bool edited() const;
+  /// The file is a .ray file whose text is kept, or was written here, so that a scene may be saved over it.
+  bool savesOverItsFile() const;
+  /// The point that the file says the camera looks at, as long as it does.
+  std::optional<Vec3> lookAt() const;
   /// The fingerprint of what was read; "" if the scene was edited, whatever was chosen.
   std::string fileFingerprint() const { return sceneEdited() ? "" : fingerprint_; }
   /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
@@ -149,6 +153,7 @@ class Document {
   bool sceneEdited() const;
 
   std::string file_;
+  std::string ownFile_;  // the file, if it may be saved over
   std::filesystem::file_time_type written_{};
   std::vector<Choice> commandLine_;
   std::vector<Edition> editions_;

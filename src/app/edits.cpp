@@ -8,6 +8,10 @@ void followEdit(Phong& now, const Phong&, std::string_view keyword) {
   if (keyword == "reflective") now.mirrorsSpecular = false;
 }
 
+void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt) {
+  if (keyword == "position" && lookAt) now.viewdir = normalize(*lookAt - now.position);
+}
+
 void followEdit(Background& now, const Background& before, std::string_view) {
   std::vector<Real>& limits = now.limits;
   const std::size_t wanted = now.colors.empty() ? 0 : now.colors.size() - 1;

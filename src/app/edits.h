@@ -1,9 +1,11 @@
 // What else follows when a person has set one field of a struct of the scene by hand.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "shading/background.h"
+#include "shading/camera.h"
 #include "shading/phong.h"
 
 namespace trace {
@@ -14,6 +16,9 @@ void followEdit(Struct&, const Struct&, std::string_view) {}
 
 /// Who sets the mirror does not want it to follow the highlight any more.
 void followEdit(Phong& now, const Phong& before, std::string_view keyword);
+
+/// A camera that the file says looks at a point goes on doing so when it is moved.
+void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
 
 /// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
 /// limits of their own; who takes a limit out wants equal bands again.

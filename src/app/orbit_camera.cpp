@@ -44,18 +44,34 @@ CameraFrame fitted(const CameraFrame& camera, Real viewAspect) {
   return wide;
 }
 
-OrbitCamera::OrbitCamera(const Box3& target, const Camera& camera) {
+OrbitCamera::OrbitCamera() : height_(2 * std::tan(kFieldOfView * kPi / 360)) {}
+
+OrbitCamera::OrbitCamera(const Box3& target, const Camera& camera) : OrbitCamera() {
   Box3 all = target;
   all.extend(camera.position);
   target_ = all.center();
   distance_ = std::max(1e-30, kMargin * length(all.size()) / 2 / std::sin(kFieldOfView * kPi / 360));
+  face(normalize(-camera.viewdir), camera.updir);
+  azimuth_ += kBeside;
+  elevation_ = std::clamp(elevation_ + kAbove, -kSteepest, kSteepest);
+}
+
+OrbitCamera OrbitCamera::from(const CameraFrame& camera, const Vec3& updir, Real distance) {
+  OrbitCamera orbit;
+  const Vec3 look = normalize(camera.look);
+  orbit.face(-look, updir);
+  orbit.target_ = camera.eye + look * distance;
+  orbit.distance_ = distance;
+  orbit.height_ = length(camera.up) / length(camera.look);
+  return orbit;
+}
+
+void OrbitCamera::face(const Vec3& back, const Vec3& updir) {
   for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(camera.updir[axis]) > std::abs(camera.updir[up_])) up_ = axis;
-  sign_ = camera.updir[up_] < 0 ? -1 : 1;
-  const Vec3 back = normalize(-camera.viewdir);
-  azimuth_ = std::atan2(back[(up_ + 2) % 3], back[(up_ + 1) % 3]) + kBeside;
-  elevation_ =
-      std::clamp(std::asin(std::clamp(sign_ * back[up_], -1.0, 1.0)) + kAbove, -kSteepest, kSteepest);
+    if (std::abs(updir[axis]) > std::abs(updir[up_])) up_ = axis;
+  sign_ = updir[up_] < 0 ? -1 : 1;
+  azimuth_ = std::atan2(back[(up_ + 2) % 3], back[(up_ + 1) % 3]);
+  elevation_ = std::clamp(std::asin(std::clamp(sign_ * back[up_], -1.0, 1.0)), -kSteepest, kSteepest);
 }
 
 void OrbitCamera::turn(Real azimuth, Real elevation) {
@@ -83,8 +99,7 @@ CameraFrame OrbitCamera::frame(Real viewAspect) const {
   Vec3 up;
   up[up_] = sign_;
   const Vec3 right = normalize(cross(up, back));
-  const Real height = 2 * std::tan(kFieldOfView * kPi / 360);
-  return {target_ + back * distance_, -back, right * (height * viewAspect), cross(back, right) * height};
+  return {target_ + back * distance_, -back, right * (height_ * viewAspect), cross(back, right) * height_};
 }
 
 }  // namespace trace

@@ -26,11 +26,13 @@ CameraFrame fitted(const CameraFrame& camera, Real viewAspect);
 
 class OrbitCamera {
  public:
-  static constexpr Real kFieldOfView = 35;  ///< degrees, vertical
+  static constexpr Real kFieldOfView = 35;  ///< degrees, vertical, at first
 
   /// Looks at the box from beside and above the scene's camera, so that both are in sight.
   OrbitCamera(const Box3& target, const Camera& camera);
-  OrbitCamera() = default;
+  OrbitCamera();
+  /// Begins where a scene's camera is, with the same view of what lies `distance` ahead, but upright.
+  static OrbitCamera from(const CameraFrame& camera, const Vec3& updir, Real distance);
 
   void turn(Real azimuth, Real elevation);  ///< radians
   /// In shares of the view's height.
@@ -43,10 +45,12 @@ class OrbitCamera {
 
  private:
   Vec3 toEye() const;
+  void face(const Vec3& back, const Vec3& updir);
 
   Vec3 target_;
   Real distance_ = 5, azimuth_ = 0.5, elevation_ = 0.3;
-  int up_ = 1;  ///< the axis that is up
+  Real height_;  ///< of the view, at distance 1
+  int up_ = 1;   ///< the axis that is up
   Real sign_ = 1;
 };
 

@@ -16,13 +16,9 @@ Affine turned(const Affine& placed, const Vec3& degrees) {
   return result;
 }
 
-Affine stretched(const Affine& placed, const Vec3& factors) {
-  constexpr Real kMost = 1e6;
-  const auto sane = [](Real f) {
-    return std::isfinite(f) && std::abs(f) <= kMost && std::abs(f) >= 1 / kMost ? f : 1;
-  };
-  return placed * Affine::scaling({sane(factors.x), sane(factors.y), sane(factors.z)});
-}
+bool isFactor(Real factor) { return std::abs(factor) <= 1e6 && std::abs(factor) >= 1e-6; }
+
+Affine stretched(const Affine& placed, const Vec3& factors) { return placed * Affine::scaling(factors); }
 
 bool keepsObject(const Affine& placed) { return isFinite(placed.offset) && invertible(placed); }
 

@@ -9,8 +9,10 @@ namespace trace {
 /// Turned about the axes x, y and z, in this order, through the object's origin, which stays; degrees.
 Affine turned(const Affine& placed, const Vec3& degrees);
 
-/// Stretched along the object's own axes. A factor that would leave nothing to see, or to take back, counts
-/// as 1.
+/// A factor by which an object may be stretched: it leaves something to see, and can be taken back.
+bool isFactor(Real factor);
+
+/// Stretched along the object's own axes. Precondition: the factors are such.
 Affine stretched(const Affine& placed, const Vec3& factors);
 
 /// An object that is placed so is still there when the scene is read again: the transform is finite and does

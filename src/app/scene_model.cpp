@@ -1,8 +1,9 @@
 #include "app/scene_model.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
-#include "base/match.h"
 #include "geometry/mesh.h"
 #include "geometry/tessellate.h"
 
@@ -15,33 +16,66 @@ constexpr int kLooks = 24;        // rays across and down, to find what a camera
 constexpr double kAside = 0.2;    // share of the picture on each side that is not asked
 constexpr double kFarOut = 0.15;  // share of the points seen that is left out on each side
 
+constexpr double kFarther = 1e6;  // times as far from the camera as the first quarter: left out
+
 /// Glass has hardly a colour of its own; what it lets through is shown instead.
-Color lookOf(const MaterialModel& model) {
-  return match(model, [](const auto& m) {
-    const Color own = m.diffuse + m.ambient * 0.3 + m.emissive + (m.reflective + m.specular) * 0.3;
-    return clamp01(own + m.transmissive * 0.8 + Color(0.06));
-  });
+Color lookOf(const Phong& m) {
+  const Color own = m.diffuse + m.ambient * 0.3 + m.emissive + (m.reflective + m.specular) * 0.3;
+  return clamp01(own + m.transmissive * 0.8 + Color(0.06));
 }
 
-/// Around the objects that have an end, and the camera; with room to spare if some have none.
-Box3 frameOf(const Scene& scene) {
-  Box3 frame;
-  bool endless = false;
-  for (const Object& object : scene.objects) {
+Real opacityOf(const Phong& m) {
+  constexpr Real kLeast = 0.12;  // of the clearest glass, which is to be seen
+  return m.transmits() ? std::clamp(1 - maxComponent(m.transmissive), kLeast, 1.0) : 1;
+}
+
+/// The farthest coordinate of the box from the point.
+Real reach(const Box3& box, const Vec3& from) {
+  Real farthest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    farthest =
+        std::max({farthest, std::abs(box.low[axis] - from[axis]), std::abs(box.high[axis] - from[axis])});
+  return farthest;
+}
+
+/// What each object takes of the world: everything if it has no end, nothing if it is not drawn.
+std::vector<Box3> drawnBoxes(const Scene& scene) {
+  std::vector<Box3> boxes(scene.objects.size());
+  std::vector<Real> reaches;
+  const Vec3& eye = scene.camera.position;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Object& object = scene.objects[i];
     if (!invertible(object.worldFromObject)) continue;
-    const Box3 box = drawnBounds(object.shape, kEverywhere);
-    if (box.unbounded())
-      endless = true;
-    else
-      frame.extend(object.worldFromObject * box);
+    const Box3 own = drawnBounds(object.shape, kEverywhere);
+    const Box3 box = own.unbounded() ? kEverywhere : object.worldFromObject * own;
+    if (box.empty() || box.unbounded() != own.unbounded()) continue;
+    boxes[i] = box;
+    if (!own.unbounded()) reaches.push_back(reach(box, eye));
   }
+  if (reaches.empty()) return boxes;
+  const auto near = reaches.begin() + static_cast<std::ptrdiff_t>((reaches.size() - 1) / 4);
+  std::nth_element(reaches.begin(), near, reaches.end());
+  for (Box3& box : boxes)
+    if (*near > 0 && !box.unbounded() && reach(box, eye) > kFarther * *near) box = {};
+  return boxes;
+}
+
+/// Around those that have an end; with room to spare if some have none.
+Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
+  Box3 frame;
+  for (const Box3& box : boxes)
+    if (!box.unbounded()) frame.extend(box);
+  const bool endless =
+      std::any_of(boxes.begin(), boxes.end(), [](const Box3& box) { return box.unbounded(); });
   if (frame.empty() || !endless) return frame;
-  frame.extend(scene.camera.position);
+  frame.extend(eye);
   const Vec3 room = frame.size() / 2;
   return {frame.low - room, frame.high + room};
 }
 
 }  // namespace
+
+Box3 frameOf(const Scene& scene) { return frameAround(drawnBoxes(scene), scene.camera.position); }
 
 SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& within,
                                               std::vector<Made>& kept) const {
@@ -62,7 +96,8 @@ SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& wi
 
 SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
   SceneModel model;
-  const Box3 frame = frameOf(scene);
+  const std::vector<Box3> boxes = drawnBoxes(scene);
+  const Box3 frame = frameAround(boxes, scene.camera.position);
   if (!frame.empty()) {
     model.origin = frame.center();
     model.scale = std::max(length(frame.size()) / 2, 1e-30);
@@ -71,42 +106,46 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
   std::vector<Made> kept;
   for (std::uint32_t i = 0; i < scene.objects.size() && !(cancelled && cancelled()); ++i) {
     const Object& object = scene.objects[i];
-    if (!invertible(object.worldFromObject) || object.material >= scene.materials.size()) continue;
+    if (boxes[i].empty() || object.material >= scene.materials.size()) continue;
     const Affine objectFromWorld = inverse(object.worldFromObject);
     Box3 within = frame.empty() ? kFarthest : objectFromWorld * frame;
     within.extend(Vec3{});  // through which a plane goes
-    const Corners corners = cornersOf(object.shape, within, kept);
-
-    const MaterialModel& material = scene.materials[object.material].model;
-    ScenePart part{i,
-                   lookOf(material),
-                   match(material, [](const auto& m) { return m.transmits(); }),
-                   model.corners.size() / 6,
-                   corners->size(),
-                   {}};
     const Box3 bounds = drawnBounds(object.shape, within);
+    const Corners corners = cornersOf(object.shape, within, kept);
+    std::array<Vec3, 8> box;
     for (std::size_t corner = 0; corner < 8; ++corner)
-      part.box[corner] = object.worldFromObject * Vec3{corner & 1 ? bounds.high.x : bounds.low.x,
-                                                       corner & 2 ? bounds.high.y : bounds.low.y,
-                                                       corner & 4 ? bounds.high.z : bounds.low.z};
-    for (const SurfaceCorner& corner : *corners) {
-      const auto p = model.local(object.worldFromObject * corner.point);
-      const Vec3 n = normalize(transposed(objectFromWorld, corner.normal));
-      for (const float x : p) model.corners.push_back(x);
-      for (int axis = 0; axis < 3; ++axis) model.corners.push_back(static_cast<float>(n[axis]));
+      box[corner] = object.worldFromObject * Vec3{corner & 1 ? bounds.high.x : bounds.low.x,
+                                                  corner & 2 ? bounds.high.y : bounds.low.y,
+                                                  corner & 4 ? bounds.high.z : bounds.low.z};
+
+    std::map<std::uint32_t, std::vector<std::size_t>> triangles;  // by their material: first corners
+    for (std::size_t first = 0; first < corners->size(); first += 3) {
+      const std::uint32_t given = (*corners)[first].material;
+      triangles[given == SurfaceCorner::kOwn ? object.material : given].push_back(first);
     }
-    model.parts.push_back(part);
+    for (const auto& [material, firsts] : triangles) {
+      if (material >= scene.materials.size()) continue;  // as if nothing were there
+      const Phong& phong = *std::get_if<Phong>(&scene.materials[material].model);
+      model.parts.push_back(
+          {i, lookOf(phong), opacityOf(phong), model.corners.size() / 6, 3 * firsts.size(), box});
+      for (const std::size_t first : firsts)
+        for (std::size_t corner = first; corner < first + 3; ++corner) {
+          const auto p = model.local(object.worldFromObject * (*corners)[corner].point);
+          const Vec3 n = normalize(transposed(objectFromWorld, (*corners)[corner].normal));
+          for (const float x : p) model.corners.push_back(x);
+          for (int axis = 0; axis < 3; ++axis) model.corners.push_back(static_cast<float>(n[axis]));
+        }
+    }
   }
   made_ = std::move(kept);
   return model;
 }
 
-Box3 seenBy(const World& world) {
+Box3 seenBy(const World& world, const Box3& frame) {
   std::vector<Real> seen[3];
   Statistics statistics;
-  Box3 near = world.bounds();  // beyond it there is only what has no end, up to the horizon
-  const Vec3 room = near.size() / 2;
-  near = {near.low - room, near.high + room};
+  const Vec3 room = frame.size() / 2;  // beyond it there is only what has no end, up to the horizon
+  const Box3 near{frame.low - room, frame.high + room};
   const auto place = [](int i) { return kAside + (1 - 2 * kAside) * (i + 0.5) / kLooks; };
   for (int y = 0; y < kLooks; ++y)
     for (int x = 0; x < kLooks; ++x) {
@@ -114,7 +153,7 @@ Box3 seenBy(const World& world) {
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;
       const Vec3 p = ray.at(found->t);
-      if (!near.empty() && !near.contains(p)) continue;
+      if (!frame.empty() && !near.contains(p)) continue;
       for (int axis = 0; axis < 3; ++axis) seen[axis].push_back(p[axis]);
     }
   Box3 box;
@@ -128,11 +167,13 @@ Box3 seenBy(const World& world) {
   return box;
 }
 
-bool sameSurfaces(const Scene& a, const Scene& b) {
-  return std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
-                    [](const Object& x, const Object& y) {
-                      return x.shape == y.shape && x.worldFromObject == y.worldFromObject;
-                    });
+bool sameModel(const Scene& a, const Scene& b) {
+  return a.materials == b.materials && std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(),
+                                                  b.objects.end(), [](const Object& x, const Object& y) {
+                                                    return x.shape == y.shape &&
+                                                           x.worldFromObject == y.worldFromObject &&
+                                                           x.material == y.material;
+                                                  });
 }
 
 }  // namespace trace

@@ -14,10 +14,11 @@
 
 namespace trace {
 
+/// What of an object is of one material.
 struct ScenePart {
   std::uint32_t object = 0;          ///< index into Scene::objects
   Color color;                       ///< what it looks like in white light
-  bool clear = false;                ///< lets light through
+  Real opacity = 1;                  ///< less of what lets light through
   std::size_t first = 0, count = 0;  ///< of SceneModel::corners
   std::array<Vec3, 8> box;  ///< of the object's own bounds, in the world: bits of the index are x, y, z
 };
@@ -36,12 +37,16 @@ struct SceneModel {
   }
 };
 
+/// Around the objects that have an end and the camera, but for those so far out that the others would be a
+/// dot beside them. Empty if there are none.
+Box3 frameOf(const Scene& scene);
+
 /// Makes models of a scene that is edited, and keeps the triangles of shapes that stay as they are.
 class SceneModeler {
  public:
-  /// Of all objects; those whose transform cannot be undone are left out, as in a render. Objects without end
-  /// are cut off some way around the others and the camera. `cancelled`, if any, is asked after every object;
-  /// then the rest is left out.
+  /// Of all objects; those whose transform cannot be undone are left out, as in a render, and those that
+  /// frameOf() leaves out. Objects without end are cut off some way around the others and the camera.
+  /// `cancelled`, if any, is asked after every object; then the rest is left out.
   SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
 
  private:
@@ -56,11 +61,11 @@ class SceneModeler {
   std::vector<Made> made_;  // the shapes of the last model, each once
 };
 
-/// What the camera looks at: a box around most of the points in the middle of its picture. Empty if it sees
-/// nothing.
-Box3 seenBy(const World& world);
+/// What the camera looks at: a box around most of the points in the middle of its picture, those well outside
+/// the frame left out. Empty if it sees nothing.
+Box3 seenBy(const World& world, const Box3& frame);
 
-/// Whether a modeler would make the same model, but for colours.
-bool sameSurfaces(const Scene& a, const Scene& b);
+/// Whether a modeler would make the same model.
+bool sameModel(const Scene& a, const Scene& b);
 
 }  // namespace trace

@@ -94,14 +94,17 @@ void Workspace::adopt(Document opened) {
   reading_ = 0;
   if (another) inspector.forget();
   giveUpWanted();
-  const std::string path = document.file();
-  std::erase(recent_, path);
-  recent_.insert(recent_.begin(), path);
-  recent_.resize(std::min(recent_.size(), kMostRecent));
-  note("opened " + shown(path));
+  putFirst(document.file());
+  note("opened " + shown(document.file()));
   reportReading();
   seen_ = document.revision();
   startRender();
+}
+
+void Workspace::putFirst(const std::string& file) {
+  std::erase(recent_, file);
+  recent_.insert(recent_.begin(), file);
+  recent_.resize(std::min(recent_.size(), kMostRecent));
 }
 
 void Workspace::choose(const std::string& option, const std::string& value, bool continues) {
@@ -217,6 +220,14 @@ void Workspace::saveScene(const std::string& file) {
   });
 }
 
+void Workspace::saveSceneOver() {
+  const bool changed = document.changedOnDisk() || (wanted_ && wanted_->anew);
+  if (saving() || !changed) return saveScene(document.file());
+  fail({{.place = {.file = document.file()},
+         .what = "not saved: the file was changed by another program",
+         .hint = "it is read again now; undo brings back what was edited here, which can be saved then"}});
+}
+
 void Workspace::takeSaved() {
   while (const std::optional<Outcome<Saved>> outcome = saving_.take()) {
     if (!outcome->value) {
@@ -226,6 +237,7 @@ void Workspace::takeSaved() {
     for (const std::string& file : outcome->value->files) note("wrote " + shown(file));
     if (!outcome->value->scene) continue;
     document.noteSaved(*outcome->value->scene);
+    putFirst(outcome->value->scene->what.file);
     report(outcome->value->scene->what.messages.all());
   }
 }

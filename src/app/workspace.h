@@ -62,6 +62,9 @@ class Workspace {
   void savePicture(const std::string& file);
   /// Writes the scene as a .ray file, which is the document's from now on.
   void saveScene(const std::string& file);
+  /// Over its own file, unless that has changed since it was read: then it is read again first. Precondition:
+  /// document.savesOverItsFile().
+  void saveSceneOver();
   /// "scene.png" beside the scene.
   std::string defaultPictureFile() const;
 
@@ -129,6 +132,7 @@ class Workspace {
   };
 
   void adopt(Document opened);
+  void putFirst(const std::string& file);  ///< of recent()
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();

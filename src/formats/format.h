@@ -37,6 +37,7 @@ struct SceneText {
   std::shared_ptr<const std::string> bytes;
   Real time = 0;
   std::shared_ptr<const Scene> scene;
+  std::optional<Vec3> lookAt{};  ///< the point that the text says the camera looks at, if it is said so
 };
 
 /// A row of the table. A format has `read` or `readAt`, or, if it holds meshes that other scenes may name,

@@ -587,9 +587,11 @@ class Reader {
     std::vector<Object> found = std::exchange(scene_.objects, {});
     object(item, {});
     found.swap(scene_.objects);
-    if (Notes* notes = findings_.notes(); notes && !found.empty())
-      notes->operands[whole.offset()].push_back(found.size() > 1 ? Notes::kSeveral
-                                                                 : syntax_.offsetOf(found.front().place));
+    if (Notes* notes = findings_.notes(); notes && !found.empty()) {
+      Notes::OperandText text{item.offset(), {}};
+      for (const Object& o : found) text.calls.push_back(syntax_.offsetOf(o.place));
+      notes->operands[whole.offset()].push_back(std::move(text));
+    }
     std::vector<Operand> parts;
     for (Object& o : found) {
       if (!mayBeOpen && !Placed(o.shape, {}).solid())

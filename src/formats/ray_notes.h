@@ -26,8 +26,6 @@ struct NotedMaterial : Material {
 };
 
 struct Notes {
-  static constexpr std::size_t kSeveral = std::numeric_limits<std::size_t>::max();
-
   /// A block `{ ... }` of a material, in the order of reading.
   struct Block {
     std::uint32_t inherits;  ///< the block that it starts as a copy of
@@ -44,8 +42,14 @@ struct Notes {
 
   /// By the offset of an object's call: the material in force there, which its own inherits from.
   std::map<std::size_t, NotedMaterial> inForce;
-  /// By the offset of a solid of solids: the calls of its operands; kSeveral for a group that is one operand.
-  std::map<std::size_t, std::vector<std::size_t>> operands;
+  /// The text of an operand, with the transforms around it, and the calls that it is made of: several for a
+  /// group, which is the union of them.
+  struct OperandText {
+    std::size_t offset;
+    std::vector<std::size_t> calls;
+  };
+  /// By the offset of a solid of solids.
+  std::map<std::size_t, std::vector<OperandText>> operands;
   /// What is in force at the end of the file.
   NotedMaterial last;
 };

@@ -6,12 +6,17 @@
 // alone is written anew; and only if that does not help either, the whole file (ray_writer.h).
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/format.h"
 
 namespace trace {
+
+/// What `look_at` of the camera says at that moment. Precondition: the text can be read.
+std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time);
 
 /// The scene as `file`. Warns of what was written anew or is lost. Throws Error(Fault::scene) as writeRay().
 std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,

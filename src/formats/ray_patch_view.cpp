@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "base/text.h"
+#include "formats/ray_keys.h"
+#include "formats/ray_patch.h"
 
 namespace trace::rayfile {
 namespace {
@@ -174,3 +176,19 @@ void changeView(TextEdits& edits, const Scene& from, const Scene& to) {
 }
 
 }  // namespace trace::rayfile
+
+namespace trace {
+
+std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time) {
+  if (bytes.find("look_at") == bytes.npos) return {};  // the look is cheap, the syntax not
+  rayfile::Syntax syntax(file, bytes);
+  rayfile::settleKeys(syntax, time);
+  const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);
+  if (blocks.empty()) return {};
+  const std::optional<rayfile::Item> field = rayfile::fieldOf(blocks.back(), "look_at");
+  Real n[3];
+  if (!field || !rayfile::numbers(field->value(), n, 3)) return {};
+  return Vec3{n[0], n[1], n[2]};
+}
+
+}  // namespace trace

@@ -11,6 +11,7 @@
 #include "formats/ray_patch_view.h"
 #include "formats/ray_same.h"
 #include "formats/ray_writer.h"
+#include "geometry/csg.h"
 #include "geometry/csg_tree.h"
 #include "geometry/height_field.h"
 #include "geometry/mesh.h"
@@ -162,42 +163,83 @@ class Round {
     return shaped && place(placed, was.placed, is.placed);
   }
 
+  // --- operands ---
+
+  using OperandTexts = std::vector<Notes::OperandText>;
+
   bool operands(const Item& call, const std::vector<Operand>& was, const std::vector<Operand>& is) {
     const auto found = notes_.operands.find(call.offset());
     if (found == notes_.operands.end()) return was.empty() && is.empty();
-    const std::vector<std::size_t>& offsets = found->second;
-    if (offsets.size() != was.size()) return false;
-    if (is.size() < was.size()) return withoutSome(offsets, was, is);
-    for (std::size_t i = 0; i < was.size(); ++i) {
-      const PlacedCall* placed = outline_.find(offsets[i]);
-      if (placed ? !change(*placed, partOf(was[i]), partOf(is[i])) : !(was[i] == is[i])) return false;
-    }
-    for (std::size_t i = was.size(); i < is.size(); ++i) {
-      std::string text =
-          writtenObject(to_, {is[i].name, is[i].shape, is[i].wholeFromOperand, is[i].material, {}},
-                        [&](std::uint32_t m, bool) { return MaterialEdits::fullText(to_.materials.at(m)); });
-      while (text.back() == '\n') text.pop_back();
-      edits_.addField(call.value(), text);
-    }
+    const OperandTexts& texts = found->second;
+    if (!operands(texts, was, is)) return false;
+    for (std::size_t i = was.size(); i < is.size(); ++i) edits_.addField(call.value(), operandText(is[i]));
     return true;
   }
 
-  bool withoutSome(const std::vector<std::size_t>& offsets, const std::vector<Operand>& was,
+  /// All but those that are new.
+  bool operands(const OperandTexts& texts, const std::vector<Operand>& was, const std::vector<Operand>& is) {
+    if (texts.size() != was.size()) return false;
+    if (is.size() < was.size()) return withoutSome(texts, was, is);
+    for (std::size_t i = 0; i < was.size(); ++i)
+      if (!operand(texts[i], was[i], is[i])) operandAnew(texts[i], is[i]);
+    return true;
+  }
+
+  bool withoutSome(const OperandTexts& texts, const std::vector<Operand>& was,
                    const std::vector<Operand>& is) {
     std::size_t kept = 0;
-    std::vector<const PlacedCall*> gone;
+    std::vector<Item> gone;
     for (std::size_t i = 0; i < was.size(); ++i) {
-      if (kept < is.size() && was[i] == is[kept]) {
-        const PlacedCall* placed = outline_.find(offsets[i]);
-        if (placed && !change(*placed, partOf(was[i]), partOf(is[kept]))) return false;
+      if (kept < is.size() && sameOperand(from_, was[i], to_, is[kept])) {
+        if (!operand(texts[i], was[i], is[kept])) return false;
         ++kept;
       } else {
-        gone.push_back(outline_.find(offsets[i]));
+        gone.push_back(*syntax_.itemAt(texts[i].offset));
       }
     }
-    if (kept < is.size() || std::find(gone.begin(), gone.end(), nullptr) != gone.end()) return false;
-    for (const PlacedCall* placed : gone) drop(placed->whole());
+    if (kept < is.size()) return false;
+    for (const Item& item : gone) drop(item);
     return true;
+  }
+
+  /// False if only writing it anew helps.
+  bool operand(const Notes::OperandText& text, const Operand& was, const Operand& is) {
+    if (text.calls.size() > 1) return group(text, was, is) || sameOperand(from_, was, to_, is);
+    const PlacedCall* placed = outline_.find(text.calls.front());
+    return placed ? change(*placed, partOf(was), partOf(is)) : sameOperand(from_, was, to_, is);
+  }
+
+  /// The union that a group is has no name, place and material of its own.
+  bool group(const Notes::OperandText& text, const Operand& was, const Operand& is) {
+    const Material& own = wanted_.materials.at(was.material).value_or(from_.materials.at(was.material));
+    const std::size_t parts = is.shape.operands().list().size();
+    if (!is.shape.is<Union>() || is.name != was.name || !(is.wholeFromOperand == was.wholeFromOperand) ||
+        !(own == to_.materials.at(is.material)) || parts < 2 || parts > text.calls.size())
+      return false;
+    OperandTexts texts;
+    std::set<std::size_t> known;
+    for (std::size_t call : text.calls) {
+      const PlacedCall* placed = outline_.find(call);
+      if (!placed || !known.insert(call).second) return false;  // several objects of one call
+      texts.push_back({placed->whole().offset(), {call}});
+    }
+    return operands(texts, was.shape.operands().list(), is.shape.operands().list());
+  }
+
+  void operandAnew(const Notes::OperandText& text, const Operand& is) {
+    const Item item = *syntax_.itemAt(text.offset);
+    edits_.replace(item, operandText(is));
+    materials_.drop(item.offset(), endOf(item));
+    messages_.warn(syntax_.shortPlace(text.offset),
+                   "this part of a solid is written anew: comments and nesting within it are lost");
+  }
+
+  std::string operandText(const Operand& operand) const {
+    std::string text =
+        writtenObject(to_, {operand.name, operand.shape, operand.wholeFromOperand, operand.material, {}},
+                      [&](std::uint32_t i, bool) { return MaterialEdits::fullText(to_.materials.at(i)); });
+    while (text.back() == '\n') text.pop_back();
+    return text;
   }
 
   // --- transforms ---

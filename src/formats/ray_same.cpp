@@ -18,10 +18,8 @@ bool sameMaterials(const Scene& a, const std::vector<std::uint32_t>& x, const Sc
 
 bool sameOperands(const Scene& a, const std::vector<Operand>& x, const Scene& b,
                   const std::vector<Operand>& y) {
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [&](const Operand& p, const Operand& q) {
-    return p.name == q.name && a.materials.at(p.material) == b.materials.at(q.material) &&
-           nearlyEqual(p.wholeFromOperand, q.wholeFromOperand) && sameShape(a, p.shape, b, q.shape);
-  });
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [&](const Operand& p, const Operand& q) { return sameOperand(a, p, b, q); });
 }
 
 bool sameMesh(const Scene& a, const MeshData& x, const Scene& b, const MeshData& y) {
@@ -42,6 +40,11 @@ Shape withoutNumbers(Shape shape) {
 }
 
 }  // namespace
+
+bool sameOperand(const Scene& a, const Operand& x, const Scene& b, const Operand& y) {
+  return x.name == y.name && a.materials.at(x.material) == b.materials.at(y.material) &&
+         nearlyEqual(x.wholeFromOperand, y.wholeFromOperand) && sameShape(a, x.shape, b, y.shape);
+}
 
 bool sameShape(const Scene& a, const Shape& x, const Scene& b, const Shape& y) {
   if (&x.type() != &y.type()) return false;

@@ -7,6 +7,7 @@ namespace trace::rayfile {
 
 /// Transforms may differ by the rounding of a few operations.
 bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y);
+bool sameOperand(const Scene& a, const Operand& x, const Scene& b, const Operand& y);
 bool sameShape(const Scene& a, const Shape& x, const Scene& b, const Shape& y);
 /// All options but those of the machine.
 bool sameSettings(const Scene& a, const Scene& b);

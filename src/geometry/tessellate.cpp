@@ -58,7 +58,7 @@ class Grid {
       for (std::size_t i = 0; i < 4; ++i) {
         const std::size_t cell = cellAround(edge, i);
         if (!points[cell]) points[cell] = place(cell);
-        quad[i] = {*points[cell], smoothNormal(cell, edge.normal, solid)};
+        quad[i] = {*points[cell], smoothNormal(cell, edge.normal, solid), edge.material};
       }
       for (const std::size_t i : {0, 1, 2, 0, 2, 3}) corners.push_back(quad[i]);
     }
@@ -70,6 +70,7 @@ class Grid {
     int axis;
     std::size_t i, j, k;  ///< interval along the axis, lines along the two others
     Vec3 normal;
+    std::uint32_t material;
   };
 
   static int next(int axis) { return (axis + 1) % 3; }
@@ -108,7 +109,9 @@ class Grid {
       last = i;
       const SurfacePoint surface = shape.surface(ray, crossing);
       if (!isFinite(surface.point) || !isFinite(surface.normal)) continue;
-      const Edge edge{axis, i, j, k, surface.normal};
+      const MaterialMix mix = shape.material(crossing.part, SurfaceCorner::kOwn);
+      const auto most = std::max_element(mix.weight, mix.weight + mix.count) - mix.weight;
+      const Edge edge{axis, i, j, k, surface.normal, mix.material[most]};
       for (std::size_t corner = 0; corner < 4; ++corner) {
         std::uint32_t& head = heads_[cellAround(edge, corner)];
         samples_.push_back({surface.point, surface.normal, head});
@@ -173,7 +176,8 @@ std::vector<SurfaceCorner> meshCorners(const MeshData& given) {
     if (!(length(face) > 0)) continue;
     for (const std::uint32_t corner : data.triangles[i]) {
       const Vec3 n = data.normals.empty() ? face : Vec3(data.normals[corner]);
-      result.push_back({Vec3(data.points[corner]), normalize(length(n) > 0 ? n : face)});
+      result.push_back({Vec3(data.points[corner]), normalize(length(n) > 0 ? n : face),
+                        data.materials.empty() ? SurfaceCorner::kOwn : data.materials[data.triangles[i][0]]});
     }
   }
   return result;

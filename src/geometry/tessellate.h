@@ -7,15 +7,20 @@
 // enclose nothing are welcome: it matters that an edge is crossed, not what is inside.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "geometry/materials.h"
 #include "geometry/shape.h"
 #include "math/box.h"
 
 namespace trace {
 
 struct SurfaceCorner {
-  Vec3 point, normal;  ///< in the shape's space; normals are unit and on either side
+  static constexpr std::uint32_t kOwn = MaterialMix::kClear - 1;  ///< the material of the whole
+
+  Vec3 point, normal;             ///< in the shape's space; normals are unit and on either side
+  std::uint32_t material = kOwn;  ///< that most of the place is made of: of Scene::materials, kOwn, or kClear
 };
 
 /// Where a shape without end is cut off, in its own space, unless something else is said.

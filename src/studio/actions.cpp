@@ -10,12 +10,13 @@
 #include "image/codec.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
+#include "studio/selection.h"
 
 namespace trace::studio {
 namespace {
 
-constexpr int kEscape = KeyPress::kEscape, kEnter = KeyPress::kEnter, kF1 = KeyPress::kF1,
-              kF5 = KeyPress::kF5;
+constexpr int kEscape = KeyPress::kEscape, kEnter = KeyPress::kEnter, kDelete = KeyPress::kDelete,
+              kF1 = KeyPress::kF1, kF5 = KeyPress::kF5, kF10 = KeyPress::kF10;
 
 bool always(const Studio&) { return true; }
 bool hasScene(const Studio& studio) { return studio.workspace.document.isOpen(); }
@@ -48,18 +49,27 @@ void openReference(Studio& studio) {
   studio.dialog.open("Open a picture to compare with", FileDialog::Purpose::read, near, pictureSuffixes(),
                      [&studio](const std::string& file) { studio.workspace.openReference(file); });
 }
-void savePicture(Studio& studio) {
-  studio.dialog.open("Save the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
+void exportPicture(Studio& studio) {
+  studio.dialog.open("Export the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
                      pictureSuffixes(),
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
 }
 /// With `then`, what waits until the scene is saved; if that fails, it is asked about again.
-void saveSceneAnd(Studio& studio, std::function<void()> then) {
+void saveSceneAsAnd(Studio& studio, std::function<void()> then) {
   studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.document.file(), {".ray"},
                      [&studio, then = std::move(then)](const std::string& file) {
                        studio.workspace.saveScene(file);
                        if (then) studio.leaving = then;
                      });
+}
+void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
+/// Over its file, where that is one of the studio's own.
+void saveSceneAnd(Studio& studio, std::function<void()> then) {
+  if (!studio.workspace.document.savesOverItsFile()) return saveSceneAsAnd(studio, std::move(then));
+  const std::uint64_t failures = studio.workspace.failures();
+  studio.workspace.saveSceneOver();
+  if (studio.workspace.failures() > failures) return studio.show("Log");  // nobody leaves then
+  if (then) studio.leaving = std::move(then);
 }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
 void zoomText(Studio& studio, float factor) {
@@ -74,10 +84,12 @@ constexpr std::array kTable{
     Action{"File", "Close reference", 0, false, false, "compare no more",
            [](Studio& s) { s.workspace.closeReference(), s.picture.view = View::picture; }, hasReference,
            nullptr},
-    Action{"File", "Save picture...", 'S', true, false, "write the picture to a file", savePicture,
+    Action{"File", "Save scene", 'S', true, false, "write the scene, as edited, to its .ray file", saveScene,
+           hasScene, nullptr},
+    Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to another .ray file",
+           saveSceneAs, hasScene, nullptr},
+    Action{"File", "Export picture...", 'E', true, false, "write the picture to a file", exportPicture,
            hasPicture, nullptr},
-    Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to a .ray file",
-           saveScene, hasScene, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back",
@@ -85,6 +97,10 @@ constexpr std::array kTable{
            [](const Studio& s) { return !s.workspace.undoName().empty(); }, nullptr},
     Action{"Edit", "Redo", 'Y', true, false, "make the change again", [](Studio& s) { s.workspace.redo(); },
            [](const Studio& s) { return s.workspace.document.canRedo(); }, nullptr},
+    Action{"Edit", "Duplicate", 'D', true, false, "the selected object once more", duplicateSelected,
+           canDuplicate, nullptr},
+    Action{"Edit", "Delete", kDelete, false, false, "take the selected object or light out", deleteSelected,
+           canDelete, nullptr},
     Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
            [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
     Action{"Render", "Stop", kEscape, false, false, "stop; what is done stays",
@@ -134,6 +150,7 @@ bool belongsToText(const KeyPress& press) {
 }
 
 void takeKeys(Studio& studio) {
+  if (studio.pressed(kEnter)) enterPresses();
   if (modalIsOpen(studio)) return;
   // Menus and lists take the plain keys; Dear ImGui closes them on Esc.
   constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
@@ -146,15 +163,20 @@ void takeKeys(Studio& studio) {
         action.run(studio);
     if (press.alt)
       for (const Panel& panel : panels())
-        if (panel.key == press.key) studio.show(std::string(panel.name));
+        if (panel.key == press.key) studio.goTo(std::string(panel.name));
+    for (const Action& action : kTable)
+      if (press.alt ? action.menu[0] == press.key : press.key == kF10 && &action == kTable.data())
+        studio.menuToOpen = action.menu;
   }
 }
 
 void recentMenu(Studio& studio) {
   const auto recent = studio.workspace.recent();  // a copy: opening one changes the list
   if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
-  for (const std::string& file : recent)
+  for (const std::string& file : recent) {
     if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
+    landmark("recent " + std::filesystem::path(file).filename().string());
+  }
   ImGui::EndMenu();
 }
 
@@ -167,7 +189,7 @@ void drawHelp(Studio& studio) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 3);
+  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 4);
   ImGui::SetNextWindowSize({characters(96), std::min(rows, ImGui::GetMainViewport()->Size.y * 0.9f)},
                            ImGuiCond_Appearing);
   bool open = true;
@@ -191,6 +213,7 @@ void drawHelp(Studio& studio) {
     for (const Panel& panel : panels())
       line(std::string("Alt+") + static_cast<char>(panel.key), std::string(panel.name),
            std::string(panel.help));
+    line("F10, Alt+F", "Open a menu", "Alt with its first letter; arrows, Enter and Esc go on");
     line("wheel", "Zoom", "in the picture at the cursor; in the 3D view");
     line("drag", "Move", "the picture with the right or middle button");
     line("Ctrl+click", "Type a number", "on any slider; Enter takes it, Esc does not");
@@ -218,12 +241,15 @@ void drawLeaving(Studio& studio) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
   ImGui::TextUnformatted("What was changed is not in a file yet.");
-  const ImVec2 size{characters(20), 0};
+  const ImVec2 size{characters(16), 0};
   const auto close = [&] {
     ImGui::CloseCurrentPopup();
     return std::exchange(studio.leaving, nullptr);
   };
-  if (ImGui::Button("Save as...", size)) saveSceneAnd(studio, close());
+  if (ImGui::Button("Save", size)) saveSceneAnd(studio, close());
+  landmark("button Save");
+  ImGui::SameLine();
+  if (ImGui::Button("Save as...", size)) saveSceneAsAnd(studio, close());
   landmark("button Save as");
   ImGui::SameLine();
   if (ImGui::Button("Discard it", size)) close()();
@@ -245,6 +271,7 @@ std::string keyText(const Action& action) {
     case kEscape: return text + "Esc";
     case kF1: return text + "F1";
     case kF5: return text + "F5";
+    case kDelete: return text + "Delete";
     case '=': return text + "+";
     default: return text + static_cast<char>(action.key);
   }
@@ -253,8 +280,10 @@ std::string keyText(const Action& action) {
 void drawMenu(Studio& studio) {
   takeKeys(studio);
   if (!ImGui::BeginMainMenuBar()) return;
+  const std::string asked = std::exchange(studio.menuToOpen, "");
   for (std::size_t i = 0; i < kTable.size();) {
     const char* menu = kTable[i].menu;
+    if (asked == menu) ImGui::OpenPopup(menu), showKeyboardCursor();
     const bool open = ImGui::BeginMenu(menu);
     if (!open) landmark("menu " + std::string(menu));
     for (; i < kTable.size() && std::string_view(kTable[i].menu) == menu; ++i) {
@@ -263,6 +292,7 @@ void drawMenu(Studio& studio) {
       const bool checked = action.checked && action.checked(studio);
       if (ImGui::MenuItem(action.name, keyText(action).c_str(), checked, action.enabled(studio)))
         action.run(studio);
+      landmark("action " + std::string(action.name));
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", action.help);
       if (action.key == 'O') recentMenu(studio);
     }
@@ -271,7 +301,7 @@ void drawMenu(Studio& studio) {
       ImGui::Separator();
       for (const Panel& panel : panels()) {
         const std::string key = std::string("Alt+") + static_cast<char>(panel.key);
-        if (ImGui::MenuItem(panel.name.data(), key.c_str())) studio.show(std::string(panel.name));
+        if (ImGui::MenuItem(panel.name.data(), key.c_str())) studio.goTo(std::string(panel.name));
       }
     }
     ImGui::EndMenu();
@@ -289,7 +319,8 @@ void drawMenu(Studio& studio) {
 }
 
 void drawDialogs(Studio& studio) {
-  studio.dialog.draw(studio.pressed(KeyPress::kEscape));
+  studio.dialog.draw(studio.pressed(kEscape),
+                     studio.pressed(kEnter) || studio.pressed(KeyPress::kKeypadEnter));
   drawLeaving(studio);
   drawHelp(studio);
   drawAbout(studio);

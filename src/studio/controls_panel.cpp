@@ -64,7 +64,8 @@ std::string unitSuffix(const Option& option) {
 
 std::optional<std::string> editInteger(const Option& option, const std::string& value) {
   int number = std::stoi(value);
-  NumberLook look{option.least, option.most, "%d" + unitSuffix(option)};
+  NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option)};
+  look.name = option.name;
   if (option.most <= kMostSlider)
     look.logarithmic = true;
   else
@@ -77,6 +78,7 @@ std::optional<std::string> editReal(const Option& option, const std::string& val
   double number = parseNumber(value)->value;
   const double range = option.most - option.least;
   NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option)};
+  look.name = option.name;
   if (range <= kMostSlider)
     look.logarithmic = range > 10;
   else
@@ -191,11 +193,12 @@ void drawControls(Studio& studio) {
     const bool changed = option.get(now) != option.get(defaults);
     return isAbout(option, filter) && (changed || !onlyChanged);
   };
-  ImGui::BeginChild("options");
+  ImGui::BeginChild("options", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   std::string_view group;
-  bool shown = false, table = false;
+  bool shown = false, table = false, found = false;
   for (const Option& option : options()) {
     if (!wanted(option)) continue;
+    found = true;
     if (option.group != group) {
       if (table) ImGui::EndTable();
       table = false;
@@ -210,6 +213,16 @@ void drawControls(Studio& studio) {
     if (table) row(studio, option, defaults, now);
   }
   if (table) ImGui::EndTable();
+  if (!found) {
+    const std::string among = onlyChanged ? " among the options that were changed" : "";
+    ImGui::PushTextWrapPos();
+    if (filter[0])
+      ImGui::TextDisabled("nothing found for '%s'%s", filter, among.c_str());
+    else
+      ImGui::TextDisabled("no option was changed");
+    landmark("nothing found");
+    ImGui::PopTextWrapPos();
+  }
   ImGui::EndChild();
 }
 

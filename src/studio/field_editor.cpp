@@ -19,7 +19,7 @@ bool drag(const FieldFacts& facts, double* values, int count) {
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
   const std::string format = kFormat + (facts.unit.empty() ? "" : " " + std::string(facts.unit));
-  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed});
+  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, facts.name});
 }
 
 }  // namespace
@@ -56,7 +56,9 @@ bool editValue(const FieldFacts& facts, Color& value) {
   double numbers[3] = {value.r, value.g, value.b};
   if (changed) std::copy(std::begin(picked), std::end(picked), std::begin(numbers));
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  changed = editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3f", 0.005f}) || changed;
+  changed =
+      editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3f", 0.005f, false, true, facts.name}) ||
+      changed;
   if (!changed) return false;
   const auto within = [&](double x) { return std::clamp(x, facts.least, facts.most); };
   value = {within(numbers[0]), within(numbers[1]), within(numbers[2])};
@@ -114,7 +116,8 @@ bool beginList(std::size_t count) {
 
 void listButtons(std::size_t index, ListEdit& edit) {
   const float side = ImGui::GetFrameHeight();
-  if (ImGui::Button("x", {side, 0})) edit = {ListEdit::What::remove, index};
+  const bool again = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
+  if (ImGui::Button("x", {side, 0}) && !again) edit = {ListEdit::What::remove, index};
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("take it out of the list");
   ImGui::SameLine(0, 1);
   if (ImGui::Button("+", {side, 0})) edit = {ListEdit::What::repeat, index};

@@ -23,6 +23,7 @@ namespace trace::studio {
 struct FieldFacts {
   std::string_view unit;
   double least = -kNoLimit, most = kNoLimit;
+  std::string_view name{};
 };
 
 // Each draws the widget and returns true when the value has changed.
@@ -67,7 +68,7 @@ template <class Field, class Value, class Changed>
 void editField(const Field& field, Value& value, Changed&& changed) {
   if constexpr (
       !requires { value.list(); } && !requires { value.indices; }) {
-    const FieldFacts facts{field.unit, field.least, field.most};
+    const FieldFacts facts{field.unit, field.least, field.most, field.keyword};
     ImGui::PushID(field.keyword.data());
     fieldName(field.keyword, field.help, rangeText(facts));
     if (editValue(facts, value)) changed(field.keyword);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "studio/landmarks.h"
 #include "studio/theme.h"
 
 namespace trace::studio {
@@ -59,6 +60,7 @@ void FileDialog::drawEntries() {
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, characters(12));
   std::string entered;
+  focused_.clear();
   const auto row = [&](const std::string& name, bool folder, const std::string& size) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -72,6 +74,8 @@ void FileDialog::drawEntries() {
         name_ = name, overwrite_ = false;
       if (!folder && ImGui::IsMouseDoubleClicked(0)) entered = name;
     }
+    landmark("file " + label);
+    if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible) focused_ = name;
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", size.c_str());
   };
@@ -82,7 +86,7 @@ void FileDialog::drawEntries() {
   if (!entered.empty()) choose(entered);
 }
 
-void FileDialog::draw(bool escape) {
+void FileDialog::draw(bool escape, bool entered) {
   if (!open_) return;
   if (appearing_) ImGui::OpenPopup(title_.c_str());
   const ImGuiViewport& view = *ImGui::GetMainViewport();
@@ -91,6 +95,7 @@ void FileDialog::draw(bool escape) {
                            ImGuiCond_Appearing);
   if (!ImGui::BeginPopupModal(title_.c_str(), &open_)) return;
   if (escape) open_ = false, ImGui::CloseCurrentPopup();
+  const bool typing = ImGui::GetIO().WantTextInput;  // then Enter belongs to the field
 
   std::string typed = folder_;
   ImGui::SetNextItemWidth(-1);
@@ -111,7 +116,11 @@ void FileDialog::draw(bool escape) {
                         {characters(16), 0});
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {characters(16), 0})) open_ = false, ImGui::CloseCurrentPopup();
-  if (done && !name_.empty()) choose(name_);
+  const std::string& named = focused_.empty() ? name_ : focused_;
+  if (done && !name_.empty())
+    choose(name_);
+  else if (entered && !typing && !named.empty() && (!focused_.empty() || !ImGui::GetIO().NavVisible))
+    choose(std::string(named));
   ImGui::EndPopup();
 }
 

@@ -17,7 +17,8 @@ class FileDialog {
   void open(const std::string& title, Purpose purpose, const std::string& at,
             std::vector<std::string> suffixes, std::function<void(const std::string&)> chosen);
   bool isOpen() const { return open_; }
-  void draw(bool escape);
+  /// Of this frame: was Esc pressed, or Enter?
+  void draw(bool escape, bool entered);
 
  private:
   void enter(const std::string& folder);
@@ -28,6 +29,7 @@ class FileDialog {
   bool focusName_ = false;  ///< in the next frame: Enter in the name presses the button
   Purpose purpose_ = Purpose::read;
   std::string title_, folder_, name_, problem_;
+  std::string focused_;  ///< the row that the keyboard is at
   std::vector<std::string> suffixes_;
   std::vector<FolderEntry> entries_;
   std::function<void(const std::string&)> chosen_;

@@ -7,7 +7,7 @@ namespace {
 
 struct Kept {
   bool on = false;
-  std::string field;
+  std::string field, focused;
   std::map<std::string, Landmark> places;
 };
 
@@ -19,7 +19,9 @@ Kept& kept() {
 }  // namespace
 
 void keepLandmarks() { kept().on = true; }
-void forgetLandmarks() { kept().places.clear(); }
+void forgetLandmarks() { kept().places.clear(), kept().focused.clear(); }
+
+const std::string& focusedLandmark() { return kept().focused; }
 
 void landmarksOf(const std::string& field) { kept().field = field; }
 
@@ -27,6 +29,7 @@ void landmark(const std::string& name) {
   if (!kept().on) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const std::string whole = kept().field.empty() ? name : kept().field + " " + name;
+  if (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible) kept().focused = whole;
   if (ImGui::IsItemVisible()) kept().places[whole] = {low.x, low.y, high.x, high.y};
 }
 

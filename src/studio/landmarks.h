@@ -18,6 +18,8 @@ void forgetLandmarks();
 void landmark(const std::string& name);
 /// The field that widgets belong to from now on; "" for none.
 void landmarksOf(const std::string& field);
+/// The one that the keyboard is at, in the last frame; "" if none.
+const std::string& focusedLandmark();
 /// Of the last frame.
 const std::map<std::string, Landmark>& landmarks();
 

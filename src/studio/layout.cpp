@@ -3,9 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "studio/actions.h"
 #include "studio/landmarks.h"
+#include "studio/number_field.h"
 #include "studio/panels.h"
 
 namespace trace::studio {
@@ -59,6 +61,8 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       if (!open) continue;
       studio.layout.front[dock] = panel.name;
       if (asked) studio.layout.ask.clear();
+      if (asked && std::exchange(studio.layout.focus, false))
+        ImGui::SetNextWindowFocus(), showKeyboardCursor();
       ImGui::BeginChild(panel.name.data(), {0, 0}, false, ImGuiWindowFlags_NoScrollWithMouse);
       panel.draw(studio);
       ImGui::EndChild();
@@ -129,6 +133,10 @@ void drawStudio(Studio& studio) {
     splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high}, layout.right, all.x, -1);
   if (low > 0) splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar}, layout.bottom, all.y, -1);
   drawDialogs(studio);
+  std::vector<Message> remarks;
+  for (std::string& remark : takeRemarks())
+    remarks.push_back({.severity = Message::Severity::warning, .what = std::move(remark)});
+  if (!remarks.empty()) studio.workspace.report(remarks), studio.show("Log");
 }
 
 }  // namespace trace::studio

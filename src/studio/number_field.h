@@ -3,15 +3,18 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace trace::studio {
 
 struct NumberLook {
   double least, most;        ///< of what is dragged; of what is typed too, if it is `clamped`
-  std::string format;        ///< of printf: "%d" and so on for int, "%g" and so on for double
+  std::string format;        ///< of printf for double: "%.0f" and so on for whole numbers
   float speed = 0;           ///< for each pixel that it is dragged; 0: a slider
   bool logarithmic = false;  ///< the slider
   bool clamped = true;
+  std::string_view name{};  ///< for remarks
 };
 
 // Each draws the widget, as wide as ImGui::SetNextItemWidth() says, and returns true when the value has
@@ -20,6 +23,8 @@ bool editNumber(const char* id, double& value, const NumberLook& look);
 bool editNumber(const char* id, int& value, const NumberLook& look);
 /// Several in a row, over the rest of the line.
 bool editNumbersInRow(double* values, int count, const NumberLook& look);
+/// What was typed and not taken as it is, since the last call: `depth: expected 0 to 100, found 500`.
+std::vector<std::string> takeRemarks();
 /// `hint` is shown where there is no text.
 bool editText(const char* id, std::string& value, const char* hint = "");
 

@@ -3,11 +3,13 @@
 #include <imgui.h>
 
 #include "app/placing.h"
+#include "base/text.h"
 #include "geometry/csg_tree.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh.h"
 #include "studio/field_editor.h"
 #include "studio/number_field.h"
+#include "studio/selection.h"
 #include "studio/studio.h"
 
 namespace trace::studio {
@@ -17,7 +19,8 @@ using Changed = std::function<void(const std::string& what)>;
 
 constexpr double kAny = 1e300;
 
-bool editThree(const char* name, const char* help, Vec3& value, const NumberLook& look) {
+bool editThree(const char* name, const char* help, Vec3& value, NumberLook look) {
+  look.name = name;
   fieldName(name, help);
   double values[3] = {value.x, value.y, value.z};
   ImGui::PushID(name);
@@ -53,6 +56,11 @@ void editTransform(Studio& studio, Affine& m, const std::string& name, const Cha
   if (editThree("scale",
                 "drag, or type a factor, to stretch along the object's own axes; then it shows 1 again",
                 factors, factor)) {
+    for (int i = 0; i < 3; ++i)
+      if (!isFactor(factors[i]))
+        return studio.refuse("scale " + name +
+                             " was not taken: expected a factor from 1e-6 to 1e6, or below 0, found " +
+                             toText(factors[i]));
     m = stretched(m, factors);
     changed("scale " + name);
   }
@@ -81,7 +89,7 @@ void editMaterialOf(Studio& studio, const std::string& name, std::uint32_t& mate
     ImGui::EndCombo();
   }
   ImGui::SameLine();
-  if (ImGui::Button("edit")) studio.selected = Studio::Selected::material, studio.selectedIndex = material;
+  if (ImGui::Button("edit")) studio.select(Studio::Selected::material, material);
 }
 
 /// The objects of a solid of solids, each folded up.
@@ -95,11 +103,13 @@ void editOperands(Studio& studio, Shape& whole, std::uint32_t material, const Ch
   for (std::size_t i = 0; i < now.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     const std::string name = nameOf(now[i].name, now[i].shape);
+    const ImGuiID node = ImGui::GetID("operand");
     const bool open =
         ImGui::TreeNodeEx("operand", ImGuiTreeNodeFlags_SpanAvailWidth, "%zu: %s", i + 1, name.c_str());
     bool gone = false;
     if (open) {
-      if (ImGui::SmallButton("Delete")) {
+      if (buttonOnce("Delete", true)) {
+        ImGui::GetStateStorage()->SetInt(node, 0);  // the next one comes here, folded up
         std::vector<Operand> list = now;
         list.erase(list.begin() + static_cast<std::ptrdiff_t>(i));
         become(std::move(list), "delete " + name);
@@ -107,7 +117,7 @@ void editOperands(Studio& studio, Shape& whole, std::uint32_t material, const Ch
       }
       ImGui::SameLine();
       ImGui::BeginDisabled(i == 0);
-      if (!gone && ImGui::SmallButton("Up")) {
+      if (!gone && buttonOnce("Up", true)) {
         std::vector<Operand> list = now;
         std::swap(list[i], list[i - 1]);
         become(std::move(list), "order of " + name);

@@ -77,8 +77,8 @@ void drawBar(Studio& studio) {
     for (const Action& action : actions())
       if (std::string_view(action.name) == name) action.run(studio);
   };
-  if (button("Save...", "write the picture to a file (Ctrl+S)", !view.pictureTexture.empty()))
-    runAction("Save picture...");
+  if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
+    runAction("Export picture...");
   if (button("Fit", "the whole picture (F)", true)) view.fit = true;
   if (button("1:1", "one pixel to one of the screen (A)", true)) view.fit = false, view.zoom = 1;
 

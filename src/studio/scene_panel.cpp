@@ -10,24 +10,15 @@
 #include "base/match.h"
 #include "geometry/mesh.h"
 #include "studio/field_editor.h"
+#include "studio/landmarks.h"
 #include "studio/object_editor.h"
 #include "studio/panels.h"
+#include "studio/selection.h"
 
 namespace trace::studio {
 namespace {
 
 using Selected = Studio::Selected;
-
-/// With the line where it stands, for what has no name.
-std::string entryName(const std::string& name, const Place& place) {
-  return place.line > 0 ? name + ", line " + std::to_string(place.line) : name;
-}
-std::string entryName(const Object& object) {
-  return object.name.empty() ? entryName(nameOf("", object.shape), object.place) : object.name;
-}
-std::string entryName(const LightSource& source) {
-  return entryName(std::string(match(source.light, [](const auto& l) { return l.kKeyword; })), source.place);
-}
 
 Material newMaterial() {
   Phong grey;
@@ -52,6 +43,9 @@ void entry(Studio& studio, Selected kind, std::size_t index, const std::string& 
   ImGui::PushID(static_cast<int>(index));
   const bool selected = studio.selected == kind && studio.selectedIndex == index;
   if (ImGui::Selectable(name.c_str(), selected)) studio.selected = kind, studio.selectedIndex = index;
+  landmark("entry " + std::string(Studio::kSelectedNames[static_cast<int>(kind)]) + " " +
+           std::to_string(index));
+  if (selected && studio.revealSelected && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
   ImGui::PopID();
 }
 
@@ -60,9 +54,13 @@ void branch(Studio& studio, Selected kind, const char* title, std::size_t count,
   char label[64];
   std::snprintf(label, sizeof label, "%s (%zu)###%s", title, count, title);
   const ImGuiTreeNodeFlags open = count <= 40 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+  const bool reveals = studio.revealSelected && studio.selected == kind && studio.selectedIndex < count;
+  if (reveals) ImGui::SetNextItemOpen(true);
   if (!ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_SpanAvailWidth | open)) return;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(count));
+  const int revealed = static_cast<int>(studio.selectedIndex);
+  if (reveals) clipper.ForceDisplayRangeByIndices(revealed, revealed + 1);
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
       entry(studio, kind, static_cast<std::size_t>(i), name(static_cast<std::size_t>(i)));
@@ -75,11 +73,10 @@ void addMenu(Studio& studio) {
   const auto add = [&](Selected kind, const std::string& what, auto&& apply) {
     change(studio, "add " + what, apply);
     const Scene& scene = studio.workspace.document.scene();
-    studio.selected = kind;
-    studio.selectedIndex = (kind == Selected::object  ? scene.objects.size()
-                            : kind == Selected::light ? scene.lights.size()
-                                                      : scene.materials.size()) -
-                           1;
+    studio.select(kind, (kind == Selected::object  ? scene.objects.size()
+                         : kind == Selected::light ? scene.lights.size()
+                                                   : scene.materials.size()) -
+                            1);
   };
   ImGui::TextDisabled("Objects");
   shapeMenu([&](Shape shape) {
@@ -119,28 +116,15 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::PopTextWrapPos();
 }
 
-/// True if the thing is to go.
-bool deleteButton() {
-  ImGui::SameLine();
-  return ImGui::Button("Delete");
-}
-
 void editObject(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   Object object = studio.workspace.document.scene().objects[index];
   heading(studio, entryName(object), object.shape.type().help, object.place);
   if (const auto* mesh = object.shape.as<Mesh>())
     ImGui::Text("%zu triangles, %zu points", mesh->data->triangles.size(), mesh->data->points.size());
-  if (ImGui::Button("Duplicate")) {
-    object.place = {};
-    change(studio, "duplicate", [&](Scene& scene) { scene.objects.push_back(object); });
-    studio.selectedIndex = studio.workspace.document.scene().objects.size() - 1;
-    return;
-  }
-  if (deleteButton())
-    return change(studio, "delete " + entryName(object), [&](Scene& scene) {
-      scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(index));
-    });
+  if (buttonOnce("Duplicate")) return duplicateSelected(studio);
+  ImGui::SameLine();
+  if (buttonOnce("Delete")) return deleteSelected(studio);
   editPlacedShape(studio, {object.name, object.shape, object.worldFromObject, object.material},
                   [&](const std::string& what) {
                     change(studio, what, [&](Scene& scene) { scene.objects[index] = object; });
@@ -152,11 +136,7 @@ void editLight(Studio& studio) {
   LightSource source = studio.workspace.document.scene().lights[index];
   match(source.light,
         [&](const auto& light) { heading(studio, entryName(source), light.kHelp, source.place); });
-  ImGui::NewLine();
-  if (deleteButton())
-    return change(studio, "delete light", [&](Scene& scene) {
-      scene.lights.erase(scene.lights.begin() + static_cast<std::ptrdiff_t>(index));
-    });
+  if (buttonOnce("Delete")) return deleteSelected(studio);
   if (!beginFields("light")) return;
   match(source.light, [&](auto& light) {
     editFields(light, [&](std::string_view key) {
@@ -204,11 +184,16 @@ void editOnly(Studio& studio, Thing Scene::*member) {
   Thing thing = before;
   editFields(thing, [&](std::string_view key) {
     followEdit(thing, before, key);
-    if constexpr (std::is_same_v<Thing, Camera>)
+    if constexpr (std::is_same_v<Thing, Camera>) {
+      const std::optional<Vec3> lookAt = studio.workspace.document.lookAt();
+      followMove(thing, key, lookAt);
       if (!cameraSees(thing)) {
         thing = before;
         return studio.refuse("camera: " + std::string(key) + " was not taken: the camera would see nothing");
       }
+      if (lookAt && key == "viewdir")
+        studio.refuse("camera: viewdir is said in place of the file's look_at from now on");
+    }
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();
@@ -231,7 +216,8 @@ void drawScene(Studio& studio) {
   step("Redo", document.redoName(), [&] { studio.workspace.redo(); });
 
   const Scene& scene = document.scene();
-  ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true);
+  ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true,
+                    ImGuiWindowFlags_NavFlattened);
   entry(studio, Selected::camera, 0, "camera");
   entry(studio, Selected::background, 0, "background");
   branch(studio, Selected::light, "lights", scene.lights.size(),
@@ -241,6 +227,7 @@ void drawScene(Studio& studio) {
   branch(studio, Selected::material, "materials", scene.materials.size(),
          [&](std::size_t i) { return nameOf(scene.materials[i], i); });
   ImGui::EndChild();
+  studio.revealSelected = false;
 
   // Undo and deleting may leave the selection beyond the end.
   const std::size_t count = studio.selected == Selected::object     ? scene.objects.size()
@@ -248,7 +235,7 @@ void drawScene(Studio& studio) {
                             : studio.selected == Selected::material ? scene.materials.size()
                                                                     : 1;
   if (studio.selectedIndex >= count) studio.selected = Selected::camera, studio.selectedIndex = 0;
-  ImGui::BeginChild("fields");
+  ImGui::BeginChild("fields", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   ImGui::PushID(static_cast<int>(studio.selectedIndex));
   switch (studio.selected) {
     case Selected::camera: editOnly(studio, &Scene::camera); break;
@@ -256,6 +243,7 @@ void drawScene(Studio& studio) {
     case Selected::object: editObject(studio); break;
     case Selected::light: editLight(studio); break;
     case Selected::material: editMaterial(studio); break;
+    case Selected::none: ImGui::TextDisabled("nothing is selected"); break;
   }
   ImGui::PopID();
   ImGui::EndChild();

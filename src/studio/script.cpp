@@ -63,7 +63,9 @@ std::string state(const Studio& studio) {
        << (studio.rays.drawer ? studio.rays.drawer->drawn() : 0) << "\npopup "
        << (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ? "open"
                                                                                               : "none")
-       << "\nlog " << workspace.log().size() << "\n";
+       << "\nlog " << workspace.log().size() << "\n"
+       << "logged " << (workspace.log().empty() ? "" : workspace.log().back().text) << "\n"
+       << "focused " << focusedLandmark() << "\n";
   if (const auto session = workspace.render.session(); session && studio.picture.pixel) {
     const PixelPlace pixel = studio.picture.pixel.in(session->size());
     text << "pixel " << pixel.x << " " << pixel.y << "\n";
@@ -71,6 +73,8 @@ std::string state(const Studio& studio) {
   if (const TracedPixel* traced = workspace.inspector.traced())
     text << "traced " << traced->x << " " << traced->y << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
+  if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
+  text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";
   text << "selected " << Studio::kSelectedNames[static_cast<int>(studio.selected)] << " "
        << studio.selectedIndex << "\n";
   if (workspace.document.isOpen())
@@ -144,15 +148,15 @@ constexpr std::array kTable{
               return showBadSample(s, bad[static_cast<std::size_t>(whole(a[0]))]), true;
             }},
     Command{"select", "KIND NUMBER", 2, 2,
-            "in the panel Scene: camera, background, object, light or material, from 0",
+            "in the panel Scene: camera, background, object, light, material or none, from 0",
             [](Studio& s, const std::vector<std::string>& a) {
               const auto kind =
                   std::find(std::begin(Studio::kSelectedNames), std::end(Studio::kSelectedNames), a[0]);
               if (kind == std::end(Studio::kSelectedNames))
                 throw Error(Fault::usage,
-                            "expected camera, background, object, light or material, found " + a[0]);
-              s.selected = static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames));
-              s.selectedIndex = static_cast<std::size_t>(std::max(0, whole(a[1])));
+                            "expected camera, background, object, light, material or none, found " + a[0]);
+              s.select(static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames)),
+                       static_cast<std::size_t>(std::max(0, whole(a[1]))));
               return true;
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",

@@ -3,56 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
-#include "base/match.h"
 #include "studio/landmarks.h"
 #include "studio/rays_view.h"
+#include "studio/space_lines.h"
 #include "studio/studio.h"
 
 namespace trace::studio {
 namespace {
 
-using Lines = std::vector<DrawLine>;
-
-constexpr float kNear = 6;  // pixels from a ray that count as on it
-constexpr std::size_t kMostNormals = 4000;
+constexpr float kNear = 6;       // pixels from a ray that count as on it
 constexpr float kHidden = 0.6f;  // opacity of what lies behind surfaces
-
-/// Collects lines, given in world space.
-class Pen {
- public:
-  Pen(const SceneModel& model, float scale) : model_(model), scale_(scale) {}
-  Lines lines;
-
-  void line(const Vec3& a, const Vec3& b, const Color& c, float opacity, float width, float dash = 0) {
-    lines.push_back({model_.local(a),
-                     model_.local(b),
-                     {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), opacity},
-                     width * scale_,
-                     dash * scale_});
-  }
-  /// Corners numbered by bits: x, y, z.
-  void box(const std::array<Vec3, 8>& corners, const Color& c, float opacity, float width) {
-    for (std::size_t i = 0; i < 8; ++i)
-      for (const std::size_t bit : {1u, 2u, 4u})
-        if (!(i & bit)) line(corners[i], corners[i | bit], c, opacity, width);
-  }
-
- private:
-  const SceneModel& model_;
-  float scale_;
-};
-
-Color toColor(const ImVec4& c) { return {c.x, c.y, c.z}; }
 
 /// Asks for the scene's triangles when they have changed, and takes those that have come.
 void updateModel(Studio& studio) {
   RaysView& view = studio.rays;
   const auto scene = studio.workspace.document.sharedScene();
   if (view.modelScene != scene) {
-    const bool same = view.modelScene && sameSurfaces(*view.modelScene, *scene) &&
-                      view.modelScene->materials == scene->materials;
-    if (!same)
+    if (!view.modelScene || !sameModel(*view.modelScene, *scene))
       view.modelTask.start([scene, modeler = view.modeler](const Cancelled& cancelled) {
         try {
           return modeler->model(*scene, cancelled);
@@ -73,127 +43,21 @@ void updateOrbit(Studio& studio) {
   RaysView& view = studio.rays;
   const auto session = studio.workspace.render.session();
   if (!session || session->scene().file == view.orbitFile) return;
-  Box3 target = seenBy(session->world());
-  if (target.empty()) target = session->world().bounds();
+  const Box3 all = frameOf(session->scene());
+  Box3 target = seenBy(session->world(), all);
+  if (target.empty()) target = all;
   if (target.empty() || !isFinite(target.size())) target = {{-1, -1, -1}, {1, 1, 1}};
   view.orbit = OrbitCamera(target, session->scene().camera);
   view.size = std::max(length(target.size()) / 2, 1e-30);
   view.orbitFile = session->scene().file;
 }
 
-// --- what there is to see -----------------------------------------------------------------------------
-
-void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
-  match(light, [&](const auto& l) {
-    const Color c = clamp01(l.color / std::max(maxComponent(l.color), 1e-9)) * 0.9 + Color(0.1);
-    const Real size = 0.1 * radius;
-    if constexpr (requires { l.position; }) {
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-          for (int z = -1; z <= 1; ++z)
-            if (const Vec3 d(x, y, z); x || y || z)
-              pen.line(l.position + normalize(d) * (0.3 * size), l.position + normalize(d) * size, c, 1,
-                       1.5f);
-    } else if constexpr (requires { l.direction; }) {
-      const Vec3 d = normalize(l.direction);
-      Vec3 side = std::abs(d.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-      side = normalize(cross(d, side));
-      const Vec3 other = cross(d, side);
-      for (int i = -1; i <= 1; ++i)
-        for (int j = -1; j <= 1; ++j) {
-          const Vec3 tip = target - d * (1.3 * radius) + (side * i + other * j) * (1.5 * size);
-          pen.line(tip - d * (4 * size), tip, c, 1, 1.5f);
-          for (const Vec3& wing : {side, -side, other, -other})
-            pen.line(tip, tip - d * (0.8 * size) + wing * (0.3 * size), c, 1, 1.5f);
-        }
-    }
-  });
-}
-
-/// Of the scene's camera: the eye and the corners of a picture plane before it, from the top left, clockwise.
-struct Frustum {
-  Vec3 eye;
-  std::array<Vec3, 4> corners;
-};
-Frustum frustumOf(const CameraFrame& f, Real distance) {
-  const auto at = [&](Real x, Real y) { return f.eye + (f.look + f.right * x + f.up * y) * distance; };
-  return {f.eye, {at(-0.5, 0.5), at(0.5, 0.5), at(0.5, -0.5), at(-0.5, -0.5)}};
-}
-
-void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pen) {
-  const std::size_t corners = model.corners.size() / 6,
-                    every = std::max<std::size_t>(1, corners / kMostNormals);
-  for (std::size_t i = 0; i < corners; i += every) {
-    const float* c = &model.corners[i * 6];
-    const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;
-    pen.line(p, p + Vec3(c[3], c[4], c[5]) * (0.06 * size), colour, 0.9f, 1);
-  }
-}
-
-void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& pen) {
-  const RaysView& view = studio.rays;
-  const Real whole = std::max(maxComponent(pixel.tree().nodes.front().weight), 1e-30);
-  for (const RaySegment& segment : pixel.segments) {
-    const int i = segment.node;
-    const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
-    if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
-    const bool hot = !pinned && (i == view.hoveredBefore || i == view.selected || i == view.step - 1);
-    const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
-    const auto weight =
-        static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
-    pen.line(segment.from, segment.to, hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour,
-             pinned ? 0.6f : 1, 1.2f + 2.2f * weight + (hot ? 1.0f : 0), segment.leaves ? 6.0f : 0);
-    if (view.hitNormalsShown && node.hit && !pinned)
-      pen.line(node.hit->surface.point,
-               node.hit->surface.point + node.hit->surface.shading * (0.2 * view.size),
-               toColor(studio.palette().good), 1, 1.5f);
-  }
-}
-
-Lines collect(Studio& studio, const Frustum& frustum) {
-  RaysView& view = studio.rays;
-  const Scene& scene = studio.workspace.document.scene();
-  Pen pen(view.model, studio.theme.scale);
-  const Color accent = toColor(studio.palette().accent), muted = toColor(studio.palette().muted);
-  for (const ScenePart& part : view.model.parts) {
-    const bool selected = studio.selected == Studio::Selected::object && studio.selectedIndex == part.object;
-    if (view.boundsShown || selected)
-      pen.box(part.box, selected ? accent : muted, selected ? 1 : 0.7f, selected ? 2 : 1);
-  }
-  if (view.axesShown)
-    for (int axis = 0; axis < 3; ++axis) {
-      Vec3 end;
-      end[axis] = 0.5 * view.size;
-      pen.line({}, end, Color(axis == 0 ? 0.95 : 0.2, axis == 1 ? 0.8 : 0.25, axis == 2 ? 1 : 0.25), 1, 2.5f);
-    }
-  if (view.normalsShown) addNormals(view.model, view.size, toColor(studio.palette().good), pen);
-  if (view.lightsShown)
-    for (const LightSource& source : scene.lights)
-      addLight(source.light, view.orbit.target(), view.size, pen);
-  if (view.cameraShown && !view.fromCamera)
-    for (std::size_t i = 0; i < 4; ++i) {
-      pen.line(frustum.eye, frustum.corners[i], muted, 1, 1.2f);
-      pen.line(frustum.corners[i], frustum.corners[(i + 1) % 4], muted, 1, 1.2f);
-    }
-  if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
-    addRays(studio, *pinned, true, pen);
-  if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
-  if (view.hierarchyShown && view.boxesOf >= 0)
-    for (int i = 0; i < view.box; ++i) {
-      const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];
-      const bool last = i + 1 == view.box;
-      pen.box(box.corners, last ? toColor(studio.palette().changed) : muted, last ? 1 : 0.35f,
-              last ? 2.5f : 1);
-    }
-  return std::move(pen.lines);
-}
-
 void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
-  constexpr float kGlass = 0.35f, kWire = 0.5f;
+  constexpr float kWire = 0.5f;
   if (view.surfaces == Surfaces::none) return;
   for (const ScenePart& part : view.model.parts) {
-    DrawSurface surface{part.first, part.count, part.color, view.opacity};
-    if (part.clear) surface.opacity = std::min(surface.opacity, kGlass);
+    const float own = static_cast<float>(part.opacity);
+    DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
     if (view.surfaces == Surfaces::wireframe) {
       surface.opacity = kWire;
       drawing.wires.push_back(surface);
@@ -243,17 +107,36 @@ int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVe
   return nearest;
 }
 
-void moveCamera(RaysView& view, ImVec2 size) {
+/// How far away is what the middle of the camera's picture shows?
+Real distanceAhead(const Studio& studio, const CameraFrame& camera) {
+  const auto session = studio.workspace.render.session();
+  Statistics statistics;
+  const auto found =
+      session ? session->world().closest(camera.ray(0.5, 0.5), Faces::both, statistics) : std::nullopt;
+  const Real distance = found ? found->t : length(studio.rays.orbit.target() - camera.eye);
+  return std::clamp(distance, 0.01 * studio.rays.size, 100 * studio.rays.size);
+}
+
+/// What the mouse does with the view; it begins where the view from the camera is.
+void moveCamera(Studio& studio, const CameraFrame& camera, ImVec2 size) {
+  RaysView& view = studio.rays;
   const ImGuiIO& io = ImGui::GetIO();
   const bool shift = io.KeyShift;
-  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
-    const double dx = io.MouseDelta.x / size.y, dy = io.MouseDelta.y / size.y;
-    if (ImGui::IsMouseDragging(0) && !shift) view.orbit.turn(-4 * dx, 4 * dy), view.fromCamera = false;
-    if (ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2) || (ImGui::IsMouseDragging(0) && shift))
-      view.orbit.move(-dx, dy), view.fromCamera = false;
+  const bool drags = ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) &&
+                     (ImGui::IsMouseDragging(0) || ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2));
+  const bool zooms = ImGui::IsItemHovered() && io.MouseWheel != 0;
+  if (view.fromCamera && (drags || zooms)) {
+    const Vec3& updir = studio.workspace.document.scene().camera.updir;
+    view.orbit = OrbitCamera::from(camera, updir, distanceAhead(studio, camera));
+    view.fromCamera = false;
   }
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-    view.orbit.approach(std::pow(0.85, io.MouseWheel)), view.fromCamera = false;
+  if (drags) {
+    const double dx = io.MouseDelta.x / size.y, dy = io.MouseDelta.y / size.y;
+    if (ImGui::IsMouseDragging(0) && !shift) view.orbit.turn(-4 * dx, 4 * dy);
+    if (ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2) || (ImGui::IsMouseDragging(0) && shift))
+      view.orbit.move(-dx, dy);
+  }
+  if (zooms) view.orbit.approach(std::pow(0.85, io.MouseWheel));
 }
 
 void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 low, ImVec2 size) {
@@ -264,7 +147,7 @@ void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 lo
   const auto found = session->world().closest(
       frame.ray({(mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y}), Faces::both, statistics);
   if (found && found->object < studio.workspace.document.scene().objects.size())
-    studio.selected = Studio::Selected::object, studio.selectedIndex = found->object;
+    studio.select(Studio::Selected::object, found->object);
 }
 
 // --- switches -----------------------------------------------------------------------------------------
@@ -361,11 +244,10 @@ void drawSpace(Studio& studio) {
   const bool hovered = ImGui::IsItemHovered();
   const bool clicked = hovered && ImGui::IsMouseReleased(0) && ImGui::GetMouseDragDelta(0).x == 0 &&
                        ImGui::GetMouseDragDelta(0).y == 0;
-  moveCamera(view, size);
-
   const Document& document = studio.workspace.document;
   const Real aspect = size.x / size.y;
   const CameraFrame camera = frame(document.scene().camera, document.settings().cameraAxes);
+  moveCamera(studio, fitted(camera, aspect), size);
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;
   local.eye = (world.eye - view.model.origin) / view.model.scale;
@@ -389,7 +271,7 @@ void drawSpace(Studio& studio) {
     drawing.picture = DrawPicture{{}, picture.name(), picture.version(), 0.7f};
     for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
   }
-  drawing.lines = collect(studio, frustum);
+  drawing.lines = spaceLines(studio, frustum);
   ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing)), low,
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
 

@@ -1,5 +1,9 @@
 #include "studio/studio.h"
 
+#include <imgui.h>
+// For the place of the keyboard.
+#include <imgui_internal.h>
+
 #include "base/file.h"
 #include "studio/panels.h"
 
@@ -11,6 +15,17 @@ constexpr const char* kDockNames[] = {"left", "centre", "right", "bottom", "hidd
 std::string preferencesFile(const Studio& studio) { return studio.configFolder + "/studio.txt"; }
 
 }  // namespace
+
+void showKeyboardCursor() {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  context.NavDisableHighlight = false, context.NavDisableMouseHover = true;
+}
+
+void enterPresses() {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.IO.NavVisible && !context.IO.WantTextInput && context.ActiveId == 0)
+    ImGui::ActivateItem(context.NavId);
+}
 
 void followScene(Studio& studio) {
   const Document& document = studio.workspace.document;

@@ -25,6 +25,7 @@ struct Layout {
   std::map<std::string, Dock, std::less<>> docks;    ///< where they differ from the table
   std::map<Dock, std::string> front;                 ///< the panel shown; one that was asked for
   std::string ask;                                   ///< bring this panel to the front in the next frame
+  bool focus = false;                                ///< and the keyboard to it
 };
 
 struct Studio {
@@ -40,7 +41,8 @@ struct Studio {
   Layout layout;
   PictureView picture;
   RaysView rays;
-  std::string raysTab;  ///< a tab of the panel Rays to bring to the front
+  std::string raysTab;     ///< a tab of the panel Rays to bring to the front
+  std::string menuToOpen;  ///< by its name, for the keyboard
   FileDialog dialog;
   std::vector<KeyPress> keys;  ///< of this frame
   std::uint64_t frames = 0;    ///< drawn so far
@@ -50,11 +52,15 @@ struct Studio {
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.
-  enum class Selected { camera, background, object, light, material };
-  static constexpr std::string_view kSelectedNames[] = {"camera", "background", "object", "light",
-                                                        "material"};
+  enum class Selected { camera, background, object, light, material, none };
+  static constexpr std::string_view kSelectedNames[] = {"camera", "background", "object",
+                                                        "light",  "material",   "none"};
   Selected selected = Selected::camera;
   std::size_t selectedIndex = 0;
+  bool revealSelected = false;  ///< the list scrolls to it when it is drawn next
+  void select(Selected kind, std::size_t index) {
+    selected = kind, selectedIndex = index, revealSelected = true;
+  }
   unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go
 
   const Palette& palette() const { return studio::palette(theme.light); }
@@ -75,10 +81,18 @@ struct Studio {
     if (log.empty() || log.back().text != why) workspace.note(why);
   }
   void show(const std::string& panel) { layout.ask = panel; }
+  /// With the keyboard in it.
+  void goTo(const std::string& panel) { layout.ask = panel, layout.focus = true; }
 };
 
 /// What belonged to the scene before is forgotten when another is opened: the chosen pixel, the selection.
 void followScene(Studio& studio);
+
+/// The frame around what the keyboard is at is shown, as after an arrow key.
+void showKeyboardCursor();
+
+/// Enter uses what the keyboard is at, as Space does; Dear ImGui only begins to type with it.
+void enterPresses();
 
 /// One frame: menu, panels, dialogs.
 void drawStudio(Studio& studio);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "app/edits.h"
 #include "app/folder.h"
 #include "app/preferences.h"
 #include "geometry/csg.h"
@@ -142,6 +143,46 @@ TEST_F(DocumentTest, SavedScenesAreReadAsTheyWereEdited) {
   EXPECT_EQ(again.settings().threads, 0);
   EXPECT_THROW(document.save(path("no/such/folder/x.ray")), Error);
   EXPECT_EQ(document.file(), path("saved.ray"));
+}
+
+TEST_F(DocumentTest, AMovedCameraKeepsItsLookAtInTheFile) {
+  const std::string text =
+      "SBT-raytracer 1.0\ncamera { position = (0, 1, 8); look_at = (0, 1, 0); fov = 40; } // eye\nsphere { "
+      "}\n";
+  write("look.ray", text);
+  Document document;
+  document.open(path("look.ray"));
+  ASSERT_TRUE(document.lookAt());
+  EXPECT_EQ(*document.lookAt(), Vec3(0, 1, 0));
+  Scene scene = document.scene();
+  scene.camera.position = {3, 2, 8};
+  followMove(scene.camera, "position", document.lookAt());
+  document.edit("camera: position", scene);
+  EXPECT_TRUE(document.lookAt());
+  document.save(path("moved.ray"));
+  EXPECT_EQ(readFile(path("moved.ray")), std::string(text).replace(text.find("0, 1, 8"), 7, "3, 2, 8"));
+
+  scene.camera.viewdir = {0, 0, -1};  // looks elsewhere
+  document.edit("camera: viewdir", scene);
+  EXPECT_FALSE(document.lookAt());
+  document.save(path("turned.ray"));
+  EXPECT_EQ(readFile(path("turned.ray")).find("look_at"), std::string::npos);
+  document.undo();
+  EXPECT_TRUE(document.lookAt());
+  document.open(path("scene.ray"));
+  EXPECT_FALSE(document.lookAt());
+}
+
+TEST_F(DocumentTest, OnlyAFileOfItsOwnKindIsSavedOver) {
+  write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  Document document;
+  EXPECT_FALSE(document.savesOverItsFile());
+  document.open(path("ball.obj"));
+  EXPECT_FALSE(document.savesOverItsFile());
+  document.save(path("ball.ray"));
+  EXPECT_TRUE(document.savesOverItsFile());
+  document.open(path("scene.ray"));
+  EXPECT_TRUE(document.savesOverItsFile());
 }
 
 TEST_F(DocumentTest, PointsOfASweepAndObjectsOfASolidAreEditedUndoneAndSaved) {

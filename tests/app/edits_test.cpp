@@ -17,6 +17,20 @@ TEST(Edits, AMirrorSetByHandFollowsTheHighlightNoMore) {
   EXPECT_FALSE(phong.mirrorsSpecular);
 }
 
+TEST(Edits, AMovedCameraLooksAtThePointThatItsFileNames) {
+  Camera camera;
+  camera.position = {0, 3, 4};
+  followMove(camera, "position", Vec3{0, 3, 0});
+  EXPECT_EQ(camera.viewdir, Vec3(0, 0, -1));
+  camera.position = {4, 3, 0};
+  followMove(camera, "position", Vec3{0, 3, 0});
+  EXPECT_EQ(camera.viewdir, Vec3(-1, 0, 0));
+  camera.position = {0, 0, 9};
+  followMove(camera, "position", {});
+  followMove(camera, "fov", Vec3{});
+  EXPECT_EQ(camera.viewdir, Vec3(-1, 0, 0));
+}
+
 using Limits = std::vector<Real>;
 
 /// The limits after an edit that made `now` of bands with the limits `before`.

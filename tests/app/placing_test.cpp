@@ -27,10 +27,11 @@ TEST(Placing, StretchesAlongTheObjectsAxes) {
   expectNear(stretched(kPlaced, {-1, 1, 1}) * Vec3{1, 0, 0}, {-1, 2, 3});
 }
 
-TEST(Placing, KeepsTheObjectWhateverIsTyped) {
+TEST(Placing, TakesNoFactorThatLosesTheObject) {
   const Real infinite = std::numeric_limits<Real>::infinity(), none = std::numeric_limits<Real>::quiet_NaN();
   for (const Real factor : {0.0, infinite, -infinite, none, 1e300, 1e-300})
-    EXPECT_EQ(stretched(kPlaced, {factor, 1, 1}), kPlaced) << factor;
+    EXPECT_FALSE(isFactor(factor)) << factor;
+  for (const Real factor : {1.0, -2.0, 1e-6, 1e6}) EXPECT_TRUE(isFactor(factor)) << factor;
 }
 
 TEST(Placing, TakesNoMatrixThatLosesTheObject) {

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/orbit_camera.h"
 #include "app/scene_model.h"
 #include "app/session.h"
+#include "geometry/csg.h"
+#include "geometry/csg_tree.h"
+#include "geometry/cube.h"
 #include "geometry/plane.h"
 #include "geometry/sphere.h"
 #include "geometry/square.h"
@@ -140,10 +144,72 @@ TEST(SceneModel, HasEveryObjectInItsPlace) {
     }
   }
   EXPECT_EQ(model.corners.size(), corners * 6);
-  EXPECT_TRUE(sameSurfaces(scene, scene));
+  EXPECT_TRUE(sameModel(scene, scene));
   Scene moved = scene;
   moved.objects[3].worldFromObject.offset.x += 1;
-  EXPECT_FALSE(sameSurfaces(scene, moved));
+  EXPECT_FALSE(sameModel(scene, moved));
+  Scene painted = scene;
+  painted.materials.emplace_back();
+  painted.objects[3].material = static_cast<std::uint32_t>(painted.materials.size() - 1);
+  EXPECT_FALSE(sameModel(scene, painted));
+}
+
+TEST(SceneModel, PartsOfASolidHaveTheirOwnMaterials) {
+  const auto material = [](const Color& diffuse, const Color& transmissive) {
+    Phong phong;
+    phong.diffuse = diffuse, phong.transmissive = transmissive;
+    return Material{"", phong, {}};
+  };
+  Scene scene;
+  scene.materials = {material({0.9, 0, 0}, Color(0)), material({0, 0.9, 0}, Color(0)),
+                     material(Color(0), Color(0.95))};
+  Difference whole;
+  whole.objects =
+      Operands({{"", Cube{}, {}, 0},
+                {"", Sphere{}, Affine::translation({0, 0, 0.5}) * Affine::scaling({0.25, 0.25, 0.25}), 1},
+                {"", Sphere{}, Affine::translation({0.5, 0, 0}) * Affine::scaling({0.25, 0.25, 0.25}), 2}});
+  scene.objects.push_back({"", whole, Affine::translation({3, 0, 0}), 0, {}});
+  const SceneModel model = SceneModeler{}.model(scene);
+  ASSERT_EQ(model.parts.size(), 3u);
+  std::size_t corners = 0;
+  for (const ScenePart& part : model.parts) {
+    EXPECT_EQ(part.object, 0u);
+    EXPECT_EQ(part.first, corners);
+    corners += part.count;
+    EXPECT_GT(part.count, 30u);
+  }
+  EXPECT_GT(model.parts[0].color.r, 0.8);
+  EXPECT_GT(model.parts[1].color.g, 0.8);
+  EXPECT_LT(model.parts[1].color.r, 0.2);
+  EXPECT_EQ(model.parts[0].opacity, 1);
+  EXPECT_LT(model.parts[2].opacity, 0.2);  // of glass
+  for (std::size_t i = model.parts[1].first; i < model.parts[1].first + model.parts[1].count; ++i) {
+    const Vec3 p =
+        Vec3(model.corners[i * 6], model.corners[i * 6 + 1], model.corners[i * 6 + 2]) * model.scale +
+        model.origin;
+    EXPECT_LT(length(p - Vec3(3, 0, 0.5)), 0.3);  // where the green sphere took its bite
+  }
+}
+
+TEST(SceneModel, IsFramedOnWhatCanBeShownTogether) {
+  for (const Real far : {1e12, 1e30, 1e300, -1e300, 1e308}) {
+    Scene scene;
+    addObject(scene, Sphere{}, Affine{}, {});
+    addObject(scene, Cube{}, Affine::translation({2, 0, 0}), {});
+    addObject(scene, Sphere{}, Affine::translation({far, 0, 0}), {});
+    addObject(scene, Sphere{}, Affine::scaling({std::abs(far), 1, 1}), {});
+    scene.camera.position = {0, 0, 8};
+    const SceneModel model = SceneModeler{}.model(scene);
+    ASSERT_EQ(model.parts.size(), 2u) << far;
+    EXPECT_LT(maxComponent(frameOf(scene).size()), 10);
+    for (const float x : model.corners) ASSERT_TRUE(std::isfinite(x));
+    const Box3 seen = seenBy(build(scene), frameOf(scene));
+    EXPECT_FALSE(seen.empty());
+    EXPECT_LT(maxComponent(seen.size()), 20);
+  }
+  Scene one;  // alone it is framed, wherever it lies
+  addObject(one, Sphere{}, Affine::translation({1e9, 0, 0}), {});
+  EXPECT_EQ(SceneModeler{}.model(one).parts.size(), 1u);
 }
 
 TEST(SceneModel, AfterAnEditItIsThatOfANewModeler) {
@@ -185,13 +251,30 @@ TEST(SceneModel, APlaneIsCutOffSomeWayAroundTheScene) {
 TEST(SceneModel, WhatTheCameraSeesIsWithoutTheFarEndsOfAFloor) {
   const Scene scene = mirrorScene();
   const World world = build(scene);
-  const Box3 seen = seenBy(world);
+  const Box3 seen = seenBy(world, frameOf(scene));
   EXPECT_TRUE(seen.low.x < -0.5 && seen.high.x > 0.5 && seen.low.y < 0 && seen.high.y > 0);
   EXPECT_LT(maxComponent(seen.size()), 0.9 * maxComponent(world.bounds().size()));
-  EXPECT_TRUE(seenBy(build(Scene{})).empty());
+  EXPECT_TRUE(seenBy(build(Scene{}), {}).empty());
   Scene endless = scene;
   endless.objects[1].shape = Plane{};  // the floor, up to the horizon
-  EXPECT_LT(maxComponent(seenBy(build(endless)).size()), 40);
+  EXPECT_LT(maxComponent(seenBy(build(endless), frameOf(endless)).size()), 40);
+}
+
+TEST(OrbitCamera, BeginsWhereASceneCameraIs) {
+  Camera camera;
+  camera.position = {3, 2, 4}, camera.viewdir = {-3, -2, -4}, camera.fov = 20, camera.aspectratio = 1.5;
+  const CameraFrame scene = frame(camera, CameraAxes::orthonormal);
+  for (const Vec3& up : {Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
+    camera.updir = up;
+    const CameraFrame before = frame(camera, CameraAxes::orthonormal);
+    const CameraFrame after = OrbitCamera::from(before, up, 7).frame(1.5);
+    EXPECT_LT(length(after.eye - before.eye), 1e-12);
+    for (const double x : {0.0, 0.3, 1.0})
+      EXPECT_LT(length(after.ray(x, 1 - x).direction - before.ray(x, 1 - x).direction), 1e-12);
+  }
+  OrbitCamera orbit = OrbitCamera::from(scene, {0, 1, 0}, 7);
+  orbit.approach(0.5);
+  EXPECT_NEAR(length(orbit.frame(1).eye - orbit.target()), 3.5, 1e-12);
 }
 
 TEST(OrbitCamera, SeesItsTargetAndTheSceneCameraAndTurnsAboutTheTarget) {

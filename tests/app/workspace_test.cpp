@@ -177,6 +177,35 @@ TEST_F(WorkspaceTest, FilesOpenedLatelyComeNewestFirstAndOnce) {
   EXPECT_EQ(workspace.recent(), (std::vector<std::string>{path("scene.ray"), path("b.ray"), "/old"}));
 }
 
+TEST_F(WorkspaceTest, FilesSavedLatelyAreAmongThem) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  workspace.saveScene(path("saved.ray"));
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.recent(), (std::vector<std::string>{path("saved.ray"), path("scene.ray")}));
+}
+
+TEST_F(WorkspaceTest, ASceneIsSavedOverItsFileUnlessThatWasChangedByOthers) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  ASSERT_TRUE(workspace.document.savesOverItsFile());
+  workspace.document.edit("name", renamed(workspace.document.scene(), "moon"));
+  workspace.saveSceneOver();
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_NE(readFile(path("scene.ray")).find("moon"), std::string::npos);
+  EXPECT_FALSE(workspace.document.edited());
+
+  workspace.document.edit("name", renamed(workspace.document.scene(), "star"));
+  const std::string theirs = readFile(path("scene.ray")) + "// theirs\n";
+  write("scene.ray", theirs);
+  std::filesystem::last_write_time(path("scene.ray"),
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  const auto failures = workspace.failures();
+  workspace.saveSceneOver();
+  EXPECT_EQ(workspace.failures(), failures + 1);
+  EXPECT_EQ(readFile(path("scene.ray")), theirs);
+}
+
 TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {
   Picture small(2, 1);
   small.at(0, 0) = Color(1), small.at(1, 0) = Color(2);

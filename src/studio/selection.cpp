@@ -1,0 +1,78 @@
+#include "studio/selection.h"
+
+#include <imgui.h>
+
+#include "base/match.h"
+#include "studio/landmarks.h"
+#include "studio/object_editor.h"
+
+namespace trace::studio {
+namespace {
+
+using Selected = Studio::Selected;
+
+std::string withLine(const std::string& name, const Place& place) {
+  return place.line > 0 ? name + ", line " + std::to_string(place.line) : name;
+}
+
+template <class Thing>
+bool holds(const std::vector<Thing>& list, const Studio& studio) {
+  return studio.selectedIndex < list.size();
+}
+
+}  // namespace
+
+std::string entryName(const Object& object) {
+  return object.name.empty() ? withLine(nameOf("", object.shape), object.place) : object.name;
+}
+
+std::string entryName(const LightSource& source) {
+  return withLine(std::string(match(source.light, [](const auto& l) { return l.kKeyword; })), source.place);
+}
+
+bool canDuplicate(const Studio& studio) {
+  const Document& document = studio.workspace.document;
+  return document.isOpen() && studio.selected == Selected::object && holds(document.scene().objects, studio);
+}
+
+bool canDelete(const Studio& studio) {
+  const Document& document = studio.workspace.document;
+  const bool light =
+      document.isOpen() && studio.selected == Selected::light && holds(document.scene().lights, studio);
+  return light || canDuplicate(studio);
+}
+
+void deleteSelected(Studio& studio) {
+  Document& document = studio.workspace.document;
+  Scene scene = document.scene();
+  const auto at = static_cast<std::ptrdiff_t>(studio.selectedIndex);
+  std::string name;
+  if (studio.selected == Selected::object) {
+    name = entryName(scene.objects[studio.selectedIndex]);
+    scene.objects.erase(scene.objects.begin() + at);
+  } else {
+    name = entryName(scene.lights[studio.selectedIndex]);
+    scene.lights.erase(scene.lights.begin() + at);
+  }
+  document.edit("delete " + name, std::move(scene));
+  studio.selected = Selected::none, studio.selectedIndex = 0;
+}
+
+void duplicateSelected(Studio& studio) {
+  Document& document = studio.workspace.document;
+  Scene scene = document.scene();
+  Object copy = scene.objects[studio.selectedIndex];
+  copy.place = {};
+  scene.objects.push_back(std::move(copy));
+  studio.select(Selected::object, scene.objects.size() - 1);
+  document.edit("duplicate", std::move(scene));
+}
+
+bool buttonOnce(const char* label, bool small) {
+  const bool pressed = small ? ImGui::SmallButton(label) : ImGui::Button(label);
+  landmark(std::string("button ") + label);
+  const bool again = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
+  return pressed && !again;
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,150 @@
+#include "studio/space_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/match.h"
+#include "studio/rays_view.h"
+#include "studio/studio.h"
+
+namespace trace::studio {
+namespace {
+
+using Lines = std::vector<DrawLine>;
+
+constexpr std::size_t kMostNormals = 4000;
+
+/// Collects lines, given in world space.
+class Pen {
+ public:
+  Pen(const SceneModel& model, float scale) : model_(model), scale_(scale) {}
+  Lines lines;
+
+  void line(const Vec3& a, const Vec3& b, const Color& c, float opacity, float width, float dash = 0) {
+    lines.push_back({model_.local(a),
+                     model_.local(b),
+                     {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), opacity},
+                     width * scale_,
+                     dash * scale_});
+  }
+  /// Corners numbered by bits: x, y, z.
+  void box(const std::array<Vec3, 8>& corners, const Color& c, float opacity, float width) {
+    for (std::size_t i = 0; i < 8; ++i)
+      for (const std::size_t bit : {1u, 2u, 4u})
+        if (!(i & bit)) line(corners[i], corners[i | bit], c, opacity, width);
+  }
+
+ private:
+  const SceneModel& model_;
+  float scale_;
+};
+
+Color toColor(const ImVec4& c) { return {c.x, c.y, c.z}; }
+
+void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
+  match(light, [&](const auto& l) {
+    const Color c = clamp01(l.color / std::max(maxComponent(l.color), 1e-9)) * 0.9 + Color(0.1);
+    const Real size = 0.1 * radius;
+    if constexpr (requires { l.position; }) {
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z)
+            if (const Vec3 d(x, y, z); x || y || z)
+              pen.line(l.position + normalize(d) * (0.3 * size), l.position + normalize(d) * size, c, 1,
+                       1.5f);
+    } else if constexpr (requires { l.direction; }) {
+      const Vec3 d = normalize(l.direction);
+      Vec3 side = std::abs(d.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+      side = normalize(cross(d, side));
+      const Vec3 other = cross(d, side);
+      for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j) {
+          const Vec3 tip = target - d * (1.3 * radius) + (side * i + other * j) * (1.5 * size);
+          pen.line(tip - d * (4 * size), tip, c, 1, 1.5f);
+          for (const Vec3& wing : {side, -side, other, -other})
+            pen.line(tip, tip - d * (0.8 * size) + wing * (0.3 * size), c, 1, 1.5f);
+        }
+    }
+  });
+}
+
+void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pen) {
+  const std::size_t corners = model.corners.size() / 6,
+                    every = std::max<std::size_t>(1, corners / kMostNormals);
+  for (std::size_t i = 0; i < corners; i += every) {
+    const float* c = &model.corners[i * 6];
+    const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;
+    pen.line(p, p + Vec3(c[3], c[4], c[5]) * (0.06 * size), colour, 0.9f, 1);
+  }
+}
+
+void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& pen) {
+  const RaysView& view = studio.rays;
+  const Real whole = std::max(maxComponent(pixel.tree().nodes.front().weight), 1e-30);
+  for (const RaySegment& segment : pixel.segments) {
+    const int i = segment.node;
+    const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
+    if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
+    const bool hot = !pinned && (i == view.hoveredBefore || i == view.selected || i == view.step - 1);
+    const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
+    const auto weight =
+        static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
+    pen.line(segment.from, segment.to, hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour,
+             pinned ? 0.6f : 1, 1.2f + 2.2f * weight + (hot ? 1.0f : 0), segment.leaves ? 6.0f : 0);
+    if (view.hitNormalsShown && node.hit && !pinned)
+      pen.line(node.hit->surface.point,
+               node.hit->surface.point + node.hit->surface.shading * (0.2 * view.size),
+               toColor(studio.palette().good), 1, 1.5f);
+  }
+}
+
+}  // namespace
+
+Frustum frustumOf(const CameraFrame& f, Real distance) {
+  const auto at = [&](Real x, Real y) { return f.eye + (f.look + f.right * x + f.up * y) * distance; };
+  return {f.eye, {at(-0.5, 0.5), at(0.5, 0.5), at(0.5, -0.5), at(-0.5, -0.5)}};
+}
+
+std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
+  const RaysView& view = studio.rays;
+  const Scene& scene = studio.workspace.document.scene();
+  Pen pen(view.model, studio.theme.scale);
+  const Color accent = toColor(studio.palette().accent), muted = toColor(studio.palette().muted);
+  std::optional<std::uint32_t> boxed;  // the object of the part before
+  for (const ScenePart& part : view.model.parts) {
+    if (std::exchange(boxed, part.object) == part.object) continue;
+    const bool selected = studio.selected == Studio::Selected::object && studio.selectedIndex == part.object;
+    if (view.boundsShown || selected)
+      pen.box(part.box, selected ? accent : muted, selected ? 1 : 0.7f, selected ? 2 : 1);
+  }
+  if (view.axesShown)
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 end;
+      end[axis] = 0.5 * view.size;
+      pen.line({}, end, Color(axis == 0 ? 0.95 : 0.2, axis == 1 ? 0.8 : 0.25, axis == 2 ? 1 : 0.25), 1, 2.5f);
+    }
+  if (view.normalsShown) addNormals(view.model, view.size, toColor(studio.palette().good), pen);
+  if (view.lightsShown)
+    for (const LightSource& source : scene.lights)
+      addLight(source.light, view.orbit.target(), view.size, pen);
+  if (view.cameraShown && !view.fromCamera)
+    for (std::size_t i = 0; i < 4; ++i) {
+      pen.line(frustum.eye, frustum.corners[i], muted, 1, 1.2f);
+      pen.line(frustum.corners[i], frustum.corners[(i + 1) % 4], muted, 1, 1.2f);
+    }
+  if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
+    addRays(studio, *pinned, true, pen);
+  if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
+  if (view.hierarchyShown && view.boxesOf >= 0)
+    for (int i = 0; i < view.box; ++i) {
+      const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];
+      const bool last = i + 1 == view.box;
+      pen.box(box.corners, last ? toColor(studio.palette().changed) : muted, last ? 1 : 0.35f,
+              last ? 2.5f : 1);
+    }
+  return std::move(pen.lines);
+}
+
+}  // namespace trace::studio

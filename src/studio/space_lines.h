@@ -1,0 +1,24 @@
+// The lines of the view in space: lights, the scene's camera, boxes, normals and rays.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "shading/camera.h"
+#include "studio/scene_drawer.h"
+
+namespace trace::studio {
+
+struct Studio;
+
+/// Of the scene's camera: the eye and the corners of a picture plane before it, from the top left, clockwise.
+struct Frustum {
+  Vec3 eye;
+  std::array<Vec3, 4> corners;
+};
+Frustum frustumOf(const CameraFrame& frame, Real distance);
+
+/// In the coordinates of the model.
+std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum);
+
+}  // namespace trace::studio
