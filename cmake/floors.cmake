@@ -1,9 +1,12 @@
-# floor(NAME [USES lower floors...] [SOURCES files in src/NAME...] [LIBRARIES public...] [PRIVATE private...])
+# floor(NAME [LIGHT] [USES lower floors...] [SOURCES files in src/NAME...] [LIBRARIES public...] [PRIVATE private...]
+#       [PRECOMPILE headers...])
 #
 # Makes the library trace_NAME, for other projects Trace::NAME. Headers are written #include "NAME/file.h"; each floor's include root is
-# a folder that holds nothing but a link NAME -> src/NAME, so only the floors used are visible.
+# a folder that holds nothing but a link NAME -> src/NAME, so only the floors used are visible. PRECOMPILE names the headers
+# that many of its files include; a floor without any shares those of base.
+# LIGHT: nothing in it is hot.
 function(floor NAME)
-  cmake_parse_arguments(ARG "" "" "USES;SOURCES;LIBRARIES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "USES;SOURCES;LIBRARIES;PRIVATE;PRECOMPILE" ${ARGN})
   set(root ${PROJECT_BINARY_DIR}/floors/${NAME})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${NAME} ${root}/${NAME} SYMBOLIC)
@@ -16,6 +19,14 @@ function(floor NAME)
     target_include_directories(${target} PUBLIC ${root})
     target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE})
     target_compile_features(${target} PUBLIC cxx_std_20)
+    if(ARG_LIGHT)
+      target_compile_options(${target} PRIVATE ${lightlyOptimised})
+    endif()
+    if(ARG_PRECOMPILE OR NAME STREQUAL base)
+      precompile(${target} ${ARG_PRECOMPILE})
+    else()
+      target_precompile_headers(${target} REUSE_FROM trace_base)
+    endif()
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${root})

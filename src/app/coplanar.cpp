@@ -31,9 +31,9 @@ struct Face {
   Vec2 low{}, high{};  ///< bounds across one axis, the same for faces that are compared
 };
 
-class Faces {
+class FlatFaces {
  public:
-  explicit Faces(const Scene& scene) {
+  explicit FlatFaces(const Scene& scene) {
     for (const Object& object : scene.objects) {
       if (!invertible(object.worldFromObject)) continue;
       const Box3 box = prepare(object.shape).bounds();
@@ -214,7 +214,7 @@ std::vector<Vec3> overlap(const Face& a, const Face& b) {
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
     const Scene& scene, const std::function<bool(const Vec3&)>& isSeen) {
-  Faces collected(scene);
+  FlatFaces collected(scene);
   const Real size = collected.size();
   const Vec3 middle = collected.middle(), eye = scene.camera.position;
   std::vector<Face> faces = collected.take();

@@ -2,11 +2,11 @@
 // docs/statistics.md has the keys.
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "app/ray_bench.h"
 #include "app/session.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 
 namespace trace::cli {
 namespace {
@@ -41,7 +41,7 @@ std::string benchText(const Session& session, const RayBench& bench) {
 }
 
 std::string benchJson(const Session& session, const RayBench& bench) {
-  nlohmann::ordered_json json;
+  Json json;
   json["scene"] = session.scene().file;
   json["width"] = session.size().width;
   json["height"] = session.size().height;
@@ -51,13 +51,12 @@ std::string benchJson(const Session& session, const RayBench& bench) {
   json["bytesPerTriangle"] = nullptr;
   if (bench.triangles > 0)
     json["bytesPerTriangle"] = static_cast<double>(bench.bytes) / static_cast<double>(bench.triangles);
-  json["rays"] = nlohmann::ordered_json::object();
+  json["rays"] = Json::object();
   for (const RayBench::Kind& kind : bench.kinds)
-    json["rays"][std::string(kind.name)] = {
-        {"count", kind.rays},        {"hits", kind.hits},
-        {"seconds", kind.seconds},   {"raysPerSecond", kind.raysPerSecond()},
-        {"nodesPerRay", kind.nodes}, {"testsPerRay", kind.tests}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    json["rays"][kind.name] = {{"count", kind.rays},        {"hits", kind.hits},
+                               {"seconds", kind.seconds},   {"raysPerSecond", kind.raysPerSecond()},
+                               {"nodesPerRay", kind.nodes}, {"testsPerRay", kind.tests}};
+  return json.text(2) + "\n";
 }
 
 }  // namespace

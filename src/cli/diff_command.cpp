@@ -5,7 +5,6 @@
 // limits[] of {metric, limit, met}, difference (name of the picture written, or null).
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/difference.h"
@@ -14,6 +13,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 
@@ -77,8 +77,7 @@ std::string diffText(const PictureDifference& d, const Arguments& arguments) {
 }
 
 std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
-  using nlohmann::ordered_json;
-  ordered_json json;
+  Json json;
   json["reference"] = arguments.files[0];
   json["test"] = arguments.files[1];
   json["width"] = d.reference.picture.width;
@@ -90,12 +89,12 @@ std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
   json["within"] = within(d, arguments.limits);
   addMetrics(json, d);
   json["worst"] = {{"x", d.numbers.worstX}, {"y", d.numbers.worstY}};
-  json["limits"] = ordered_json::array();
+  json["limits"] = Json::list();
   for (const Limit& limit : arguments.limits)
-    json["limits"].push_back({{"metric", limit.metric->name}, {"limit", limit.value}, {"met", limit.met(d)}});
+    json["limits"].add({{"metric", limit.metric->name}, {"limit", limit.value}, {"met", limit.met(d)}});
   json["difference"] = nullptr;
   if (!arguments.output.empty() && d.numbers.sameSize) json["difference"] = arguments.output;
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json.text(2) + "\n";
 }
 
 /// The metrics asked for by --print, on one line.

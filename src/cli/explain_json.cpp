@@ -1,31 +1,29 @@
 #include "cli/explain_json.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "base/match.h"
+#include "cli/json.h"
 #include "geometry/materials.h"
 
 namespace trace::cli {
 namespace {
 
-using nlohmann::ordered_json;
-
 // Numbers have all their digits; what is not finite becomes null.
-ordered_json toJson(const Vec3& v) { return {v.x, v.y, v.z}; }
-ordered_json toJson(const Color& c) { return {c.r, c.g, c.b}; }
-ordered_json toJson(Real x) { return x; }
+Json toJson(const Vec3& v) { return Json::list({v.x, v.y, v.z}); }
+Json toJson(const Color& c) { return Json::list({c.r, c.g, c.b}); }
+Json toJson(Real x) { return x; }
 
-ordered_json toJson(const Place& place) {
+Json toJson(const Place& place) {
   if (place.file.empty()) return nullptr;
   return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
 }
 
 template <class Struct>
-ordered_json fieldsOf(const Struct& value) {
-  ordered_json json = ordered_json::object();
-  forEachField<Struct>(
-      [&](const auto& field) { json[std::string(field.keyword)] = toJson(value.*field.member); });
+Json fieldsOf(const Struct& value) {
+  Json json = Json::object();
+  forEachField<Struct>([&](const auto& field) { json[field.keyword] = toJson(value.*field.member); });
   return json;
 }
 
@@ -33,28 +31,28 @@ class Writer {
  public:
   explicit Writer(const Scene& scene) : scene_(scene) {}
 
-  ordered_json ray(const RayTree& tree, int index) const {
+  Json ray(const RayTree& tree, int index) const {
     const RayNode& node = tree.nodes[static_cast<std::size_t>(index)];
-    ordered_json json;
+    Json json;
     json["id"] = index;
     json["kind"] = name(node.kind);
-    json["parent"] = node.parent < 0 ? ordered_json(nullptr) : ordered_json(node.parent);
+    json["parent"] = node.parent < 0 ? Json(nullptr) : Json(node.parent);
     json["depth"] = node.depth;
     json["origin"] = toJson(node.ray.origin);
     json["direction"] = toJson(node.ray.direction);
     json["distance"] = node.hit ? node.hit->t : node.tMost;
-    json["hit"] = node.hit ? hit(node) : ordered_json(nullptr);
-    json["terms"] = ordered_json::array();
-    for (const Term& t : node.terms) json["terms"].push_back(term(t));
+    json["hit"] = node.hit ? hit(node) : Json(nullptr);
+    json["terms"] = Json::list();
+    for (const Term& t : node.terms) json["terms"].add(term(t));
     json["through"] = toJson(node.through);
-    json["filters"] = ordered_json::array();
+    json["filters"] = Json::list();
     for (const Filter& filter : node.filters)
-      json["filters"].push_back({{"object", object(filter.object, filter.materials)},
-                                 {"part", filter.part},
-                                 {"distance", filter.t},
-                                 {"factor", toJson(filter.factor)}});
-    json["ends"] = ordered_json::array();
-    for (const RayEnd& why : node.ends) json["ends"].push_back(end(why));
+      json["filters"].add({{"object", object(filter.object, filter.materials)},
+                           {"part", filter.part},
+                           {"distance", filter.t},
+                           {"factor", toJson(filter.factor)}});
+    json["ends"] = Json::list();
+    for (const RayEnd& why : node.ends) json["ends"].add(end(why));
     json["sentence"] = sentence(node, scene_);
     json["radiance"] = toJson(node.radiance);
     json["weight"] = toJson(node.weight);
@@ -67,46 +65,40 @@ class Writer {
   static bool isClear(const MaterialShare& share) { return share.material == MaterialMix::kClear; }
 
   /// `materials`: of the place on it that was met. The one of the object as a whole may be another.
-  ordered_json object(std::uint32_t index, const std::vector<MaterialShare>& materials) const {
+  Json object(std::uint32_t index, const std::vector<MaterialShare>& materials) const {
     const Object& o = scene_.objects[index];
     const auto most =
         std::max_element(materials.begin(), materials.end(),
                          [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
-    ordered_json shares = ordered_json::array();
+    const auto name = [&](const MaterialShare& share) -> std::string_view {
+      return isClear(share) ? "clear" : std::string_view(scene_.materials[share.material].name);
+    };
+    Json shares = Json::list();
     for (const MaterialShare& share : materials)
-      shares.push_back({{"index", isClear(share) ? ordered_json() : ordered_json(share.material)},
-                        {"name", isClear(share) ? "clear" : scene_.materials[share.material].name},
-                        {"weight", share.weight}});
-    return {{"index", index},
-            {"name", o.name},
-            {"shape", o.shape.keyword()},
-            {"place", toJson(o.place)},
-            {"material", shares[static_cast<std::size_t>(most - materials.begin())]["name"]},
-            {"materials", shares}};
+      shares.add({{"index", isClear(share) ? Json() : Json(share.material)},
+                  {"name", name(share)},
+                  {"weight", share.weight}});
+    return {{"index", index},           {"name", o.name},          {"shape", o.shape.keyword()},
+            {"place", toJson(o.place)}, {"material", name(*most)}, {"materials", shares}};
   }
 
-  ordered_json hit(const RayNode& node) const {
+  Json hit(const RayNode& node) const {
     const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    return {{"object", object(h.object, node.materials)},
-            {"part", h.part},
-            {"point", toJson(h.surface.point)},
-            {"error", toJson(h.surface.error)},
-            {"normal", toJson(h.surface.normal)},
-            {"shading", toJson(h.surface.shading)},
-            {"uv", {uv.x, uv.y}},
-            {"leaving", h.leaving},
-            {"indexBefore", node.indices.before},
-            {"indexBehind", node.indices.behind},
+    return {{"object", object(h.object, node.materials)}, {"part", h.part},
+            {"point", toJson(h.surface.point)},      {"error", toJson(h.surface.error)},
+            {"normal", toJson(h.surface.normal)},    {"shading", toJson(h.surface.shading)},
+            {"uv", Json::list({uv.x, uv.y})},        {"leaving", h.leaving},
+            {"indexBefore", node.indices.before},          {"indexBehind", node.indices.behind},
             {"material", match(*node.bsdf, [](const auto& model) { return fieldsOf(model); })}};
   }
 
-  ordered_json term(const Term& t) const {
-    ordered_json json;
+  Json term(const Term& t) const {
+    Json json;
     json["kind"] = Term::kNames[static_cast<std::size_t>(t.kind)];
     json["factor"] = toJson(t.factor);
     json["value"] = toJson(t.value);
-    json["ray"] = t.ray < 0 ? ordered_json(nullptr) : ordered_json(t.ray);
+    json["ray"] = t.ray < 0 ? Json(nullptr) : Json(t.ray);
     if (t.light) {
       const LightTerm& l = *t.light;
       const LightSource& source = scene_.lights[l.light];
@@ -124,8 +116,8 @@ class Writer {
     return json;
   }
 
-  ordered_json end(const RayEnd& why) const {
-    ordered_json json;
+  Json end(const RayEnd& why) const {
+    Json json;
     json["why"] = match(why, [](const auto& w) { return w.kName; });
     const auto kind = [](RayKind k) { return name(k); };
     match(why,
@@ -153,7 +145,7 @@ class Writer {
 
 std::string explainJson(const PixelFacts& facts) {
   const Explanation& e = facts.explanation;
-  ordered_json json;
+  Json json;
   json["schema"] = "trace-explain";
   json["version"] = kExplainVersion;
   json["scene"] = facts.scene.file;
@@ -161,21 +153,18 @@ std::string explainJson(const PixelFacts& facts) {
   json["x"] = e.tree.x;
   json["y"] = e.tree.y;
   json["sample"] = e.tree.sample;
-  json["samples"] = ordered_json::array();
-  for (const Color& c : e.samples) json["samples"].push_back(toJson(c));
+  json["samples"] = Json::list();
+  for (const Color& c : e.samples) json["samples"].add(toJson(c));
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
   // One ray a line.
-  const auto text = [](const ordered_json& value) {
-    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-  };
-  std::string all = text(json);
+  std::string all = json.text();
   all.pop_back();  // the closing brace
   all += ",\"rays\":[";
   const Writer writer(facts.scene);
   for (int i = 0; i < static_cast<int>(e.tree.nodes.size()); ++i)
-    all += (i > 0 ? ",\n" : "\n") + text(writer.ray(e.tree, i));
+    all += (i > 0 ? ",\n" : "\n") + writer.ray(e.tree, i).text();
   return all + "\n]}\n";
 }
 

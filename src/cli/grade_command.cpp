@@ -4,11 +4,11 @@
 // height, then each metric by name, null where it is infinite or there is none}, extra[], page (or null).
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "app/grade.h"
 #include "base/file.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/metric_text.h"
 
 namespace trace::cli {
@@ -84,27 +84,27 @@ std::string gradesText(const Grades& grades) {
 }
 
 std::string gradesJson(const Arguments& arguments, const Grades& grades) {
-  using nlohmann::ordered_json;
-  ordered_json json;
+  Json json;
   json["folder"] = arguments.files[0];
   json["reference"] = arguments.reference;
   json["passed"] = grades.passed;
-  json["pairs"] = ordered_json::array();
+  json["pairs"] = Json::list();
   for (const GradedPair& pair : grades.pairs) {
-    ordered_json one{{"name", pair.name},       {"file", pair.file}, {"verdict", verdictText(pair.verdict)},
-                     {"problem", pair.problem}, {"unit", pair.unit}, {"width", pair.width},
-                     {"height", pair.height}};
+    Json one{{"name", pair.name},       {"file", pair.file}, {"verdict", verdictText(pair.verdict)},
+             {"problem", pair.problem}, {"unit", pair.unit}, {"width", pair.width},
+             {"height", pair.height}};
     for (std::size_t i = 0; i < metrics().size(); ++i) {
       const std::string name(metrics()[i].name);
       one[name] = nullptr;
       if (!pair.values.empty() && std::isfinite(pair.values[i])) one[name] = pair.values[i];
     }
-    json["pairs"].push_back(std::move(one));
+    json["pairs"].add(std::move(one));
   }
-  json["extra"] = grades.extra;
+  json["extra"] = Json::list();
+  for (const std::string& file : grades.extra) json["extra"].add(file);
   json["page"] = nullptr;
   if (!arguments.output.empty()) json["page"] = arguments.output;
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json.text(2) + "\n";
 }
 
 }  // namespace

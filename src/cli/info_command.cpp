@@ -5,12 +5,12 @@
 // conventions[] and changed[] of {name, value, from}, unrendered[] of {kind, place}, warnings[].
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "app/session.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/scene_facts.h"
 #include "scene/conventions.h"
 
@@ -88,23 +88,22 @@ std::string infoText(const Facts& facts) {
 }
 
 std::string infoJson(const Facts& facts) {
-  using nlohmann::ordered_json;
-  const auto vector = [](const Vec3& v) { return ordered_json{v.x, v.y, v.z}; };
+  const auto vector = [](const Vec3& v) { return Json::list({v.x, v.y, v.z}); };
   const auto counts = [](const Counts& all) {
-    ordered_json json = ordered_json::object();
-    for (const auto& [name, n] : all) json[std::string(name)] = n;
+    Json json = Json::object();
+    for (const auto& [name, n] : all) json[name] = n;
     return json;
   };
   const auto optionList = [](const std::vector<OptionFact>& all) {
-    ordered_json json = ordered_json::array();
+    Json json = Json::list();
     for (const OptionFact& fact : all)
-      json.push_back({{"name", fact.name}, {"value", fact.value}, {"from", fact.from}});
+      json.add({{"name", fact.name}, {"value", fact.value}, {"from", fact.from}});
     return json;
   };
   const Scene& scene = facts.session.scene();
   const Camera& camera = scene.camera;
   const Size size = facts.session.size();
-  ordered_json json;
+  Json json;
   json["file"] = scene.file;
   json["format"] = scene.format;
   json["objects"] = counts(countShapes(scene));
@@ -122,12 +121,12 @@ std::string infoJson(const Facts& facts) {
   json["picture"] = {{"width", size.width}, {"height", size.height}};
   json["conventions"] = optionList(facts.conventions);
   json["changed"] = optionList(facts.changed);
-  json["unrendered"] = ordered_json::array();
+  json["unrendered"] = Json::list();
   for (const Unrendered& left : scene.unrendered)
-    json["unrendered"].push_back({{"kind", left.kind}, {"place", placeText(left.place)}});
-  json["warnings"] = ordered_json::array();
-  for (const Message& message : facts.messages.all()) json["warnings"].push_back(toString(message));
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    json["unrendered"].add({{"kind", left.kind}, {"place", placeText(left.place)}});
+  json["warnings"] = Json::list();
+  for (const Message& message : facts.messages.all()) json["warnings"].add(toString(message));
+  return json.text(2) + "\n";
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "app/lint.h"
 #include "app/session.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "cli/commands.h"
+#include "cli/json.h"
 
 namespace trace::cli {
 namespace {
@@ -23,22 +23,21 @@ std::string lintText(const std::string& scene, std::span<const LintFinding> find
 }
 
 std::string lintJson(const std::string& scene, std::span<const LintFinding> findings) {
-  using nlohmann::ordered_json;
-  ordered_json json;
+  Json json;
   json["schema"] = "trace-lint";
   json["version"] = 1;
   json["scene"] = scene;
-  json["findings"] = ordered_json::array();
+  json["findings"] = Json::list();
   for (const LintFinding& finding : findings) {
     const Place& place = finding.message.place;
-    json["findings"].push_back({{"check", finding.check},
-                                {"file", place.file},
-                                {"line", place.line},
-                                {"column", place.column},
-                                {"what", finding.message.what},
-                                {"hint", finding.message.hint}});
+    json["findings"].add({{"check", finding.check},
+                          {"file", place.file},
+                          {"line", place.line},
+                          {"column", place.column},
+                          {"what", finding.message.what},
+                          {"hint", finding.message.hint}});
   }
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json.text(2) + "\n";
 }
 
 }  // namespace

@@ -23,11 +23,11 @@ std::string limitText(const Limit& limit) {
          toText(limit.value);
 }
 
-void addMetrics(nlohmann::ordered_json& json, const PictureDifference& difference) {
+void addMetrics(Json& json, const PictureDifference& difference) {
   for (const Metric& metric : metrics()) {
     const double value = metric.value(difference);
-    json[std::string(metric.name)] = nullptr;
-    if (std::isfinite(value)) json[std::string(metric.name)] = value;
+    json[metric.name] = nullptr;
+    if (std::isfinite(value)) json[metric.name] = value;
   }
 }
 

@@ -1,10 +1,10 @@
 // The numbers of a comparison, for people and for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/difference.h"
+#include "cli/json.h"
 
 namespace trace::cli {
 
@@ -18,6 +18,6 @@ std::string metricText(const Metric& metric, const PictureDifference& difference
 std::string limitText(const Limit& limit);
 
 /// Each metric as a key; null where it is infinite.
-void addMetrics(nlohmann::ordered_json& json, const PictureDifference& difference);
+void addMetrics(Json& json, const PictureDifference& difference);
 
 }  // namespace trace::cli

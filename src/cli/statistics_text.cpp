@@ -1,11 +1,11 @@
 #include "cli/statistics_text.h"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "base/parallel.h"
+#include "cli/json.h"
 
 namespace trace::cli {
 namespace {
@@ -89,14 +89,11 @@ std::string statisticsTable(const Run& run) {
 }
 
 std::string statisticsJson(const Run& run) {
-  using nlohmann::ordered_json;
-  const auto orNull = [](std::optional<double> value) {
-    return value ? ordered_json(*value) : ordered_json();
-  };
+  const auto orNull = [](std::optional<double> value) { return value ? Json(*value) : Json(); };
   const Session& session = run.session;
   const Statistics& s = run.result.statistics;
   const int threads = session.settings().threads;
-  ordered_json json;
+  Json json;
   json["version"] = TRACE_VERSION;
   json["scene"] = session.scene().file;
   json["output"] = run.output;
@@ -106,25 +103,25 @@ std::string statisticsJson(const Run& run) {
   json["fraction"] = run.fraction;
   json["threads"] = threads > 0 ? threads : hardwareThreads();
   json["seconds"] = run.seconds;
-  for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][std::string(kRayLooks[i].kind)] = s.rays[i];
+  for (size_t i = 0; i < s.rays.size(); ++i) json["rays"][kRayLooks[i].kind] = s.rays[i];
   json["rays"]["all"] = s.allRays();
   json["meanDepth"] = orNull(ratio(s.depths, s.pathRays()));
   json["raysPerSecond"] = orNull(raysPerSecond(run));
   forEachShape(s, [&](std::string_view name, std::uint64_t tests, std::uint64_t hits) {
-    json["shapes"][std::string(name)] = {{"tests", tests}, {"hits", hits}};
+    json["shapes"][name] = {{"tests", tests}, {"hits", hits}};
   });
   json["nodes"] = s.nodes.count;
   json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
-  json["badSamples"] = {{"count", s.badSamples}, {"first", ordered_json::array()}};
+  json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
-    json["badSamples"]["first"].push_back({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});
+    json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});
   for (const Phase& phase : session.phases())
     json["phases"][phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
   json["peakMemory"] = run.peakMemory;
-  json["settings"] = ordered_json::object();
+  json["settings"] = Json::object();
   for (const Choice& choice : changedOptions(session.settings()))
     json["settings"][choice.option] = choice.value;
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+  return json.text(2);
 }
 
 }  // namespace trace::cli

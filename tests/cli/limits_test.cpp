@@ -49,18 +49,15 @@ class Limits : public ProgramTest {
 
   static std::vector<std::string> scenes() { return {"copies", "sweep", "waves", "julia", "glass", "mesh"}; }
 
-  /// Runs the command for each scene with a limit of half a second.
+  /// Runs the command for each scene with a limit of half a second. Where one goes on and on, ctest ends the
+  /// test.
   void expectEnds(const std::vector<std::string>& before, const std::vector<std::string>& after) const {
     for (const std::string& scene : scenes()) {
       std::vector<std::string> words = before;
       words.push_back(scene + ".ray");
       words.insert(words.end(), after.begin(), after.end());
       words.insert(words.end(), {"--time-limit", "0.5"});
-      const auto start = std::chrono::steady_clock::now();
       const Run r = run(words);
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-      // 5 s of patience, and what a busy machine needs.
-      EXPECT_LT(took.count(), 30) << scene;
       const bool ended = r.code == 0 || r.code == kLimit || r.code == 6;  // 6: lint found something
       EXPECT_TRUE(ended) << scene << ": " << r.code << "\n" << r.err;
       const bool tooManyRays = r.err.find("takes more than 200000 rays") != std::string::npos;  // of explain
