@@ -557,6 +557,29 @@ TEST(BrokenFiles, Gltf) {
       {"a.gltf", gltf("\"POSITION\": 0", "\"NORMAL\": 0"), "warning has no POSITION"},
       {"a.gltf", gltf("\"POSITION\": 0", "\"POSITION\": 8"),
        "error POSITION: expected a number of one of the 1 accessors"},
+      {"a.gltf", gltf("\"POSITION\"", "\"POSITON\""),
+       "warning unknown attribute \"POSITON\" of meshes[0].primitives[0].attributes is ignored [did you mean "
+       "\"POSITION\"?]"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"children\": [0]"), "error nodes[0]: it is its own child"},
+      {"a.gltf", gltf("{\"mesh\": 0,", "{\"children\": [1]}, {\"children\": [0],"),
+       "error nodes[0]: it stands below itself: it is a child of nodes[1]"},
+      {"a.gltf", gltf("{\"mesh\": 0,", "{\"children\": [1, 2]}, {\"children\": [2]}, {\"mesh\": 0,"),
+       "error nodes[2]: expected one parent, found two, nodes[1] and nodes[0]"},
+      {"a.gltf", gltf("\"count\": 3", "\"count\": 99999999999999999999999"),
+       "error accessors[0].count: expected a whole number that 64 bits can hold, found 9.9"},
+      {"a.gltf", gltf("\"count\": 3", "\"count\": -3"),
+       "error accessors[0].count: expected a whole number of at least 1, found -3"},
+      {"a.gltf", gltf("5126", "99999999999999"), "error accessors[0].componentType: expected 5120 to 5126"},
+      {"a.gltf", gltf("\"byteLength\": 36}]", "\"byteLength\": 1.5}]"),
+       "error bufferViews[0].byteLength: expected a whole number"},
+      {"a.gltf", gltf("\"byteLength\": 36, \"uri\"", "\"byteLength\": 360, \"uri\""),
+       "error buffers[0].uri: expected the 360 bytes that byteLength says, found 36"},
+      {"a.gltf", gltf("\"byteLength\": 36, \"uri\"", "\"byteLength\": \"lots\", \"uri\""),
+       "error buffers[0].byteLength: expected a whole number above 0, found \"lots\""},
+      {"a.gltf", gltf("base64,AAAA", "base64,AAA!"),
+       "error buffers[0].uri: expected digits of base64, found \"!\" after 3 of them"},
+      {"a.gltf", gltf("data:application", "data:banana"),
+       "error buffers[0].uri: expected \"data:application/octet-stream;base64,\" before the bytes"},
       {"a.gltf", gltf("\"count\": 3", "\"count\": 2"), "warning make no whole triangle"},
       {"a.gltf", gltf("\"type\": \"VEC3\"", "\"type\": \"VEC9\""), "error accessors[0].type"},
       {"a.gltf", gltfLight("\"type\": \"banana\""), "error type: expected one of directional, point, spot"},
@@ -576,6 +599,36 @@ TEST(BrokenFiles, Gltf) {
                    "\"image/png\", \"name\": \"dents\"}], "),
        "warning the texture \"dents (inside the file)\" is not rendered yet"},
   });
+}
+
+TEST(BrokenFiles, GltfTellsWhereItsJsonIsBroken) {
+  const auto fails = [](const std::string& change, const std::string& by) {
+    Messages messages;
+    try {
+      readScene("a.gltf", gltf(change, by), messages);
+    } catch (const Error& error) {
+      return toString(error.messages().front());
+    }
+    return std::string("no error");
+  };
+  const auto expect = [](const std::string& text, std::string_view start, std::string_view hint = {}) {
+    EXPECT_TRUE(text.starts_with(start)) << text;
+    EXPECT_NE(text.find(hint), text.npos) << text;
+  };
+  expect(fails("\"rotation\"", "rotation"),
+         "a.gltf:2:24: error: expected a name in quotation marks, found \"rotation\"");
+  expect(fails("0, 1]}],", "0, 1],}],"),
+         "a.gltf:2:49: error: expected a name in quotation marks, found \"}\"",
+         "JSON allows no comma after the last element");
+  expect(fails("[0, 0, 0, 1]", "[0, 0, 0 1]"), "a.gltf:2:45: error: expected ']', found \"1\"");
+  expect(fails("\"mode\": 4", "\"mode\": 1e400"),
+         "a.gltf:4:84: error: expected a number of at most 1.8e308, found \"1e400\"");
+  expect(fails("\"materials\"", "// looks\n\"materials\""), "a.gltf:3:2: error: expected",
+         "JSON has no comments");
+  expect(fails("\"OPAQUE\"", "OPAQUE"), "a.gltf:3:77: error: expected a value, found \"OPAQUE\"");
+  expect(fails("\"OPAQUE\"", "\"OPAQUE"), "a.gltf:3:77: error: expected a quotation mark at the end");
+  expect(fails("AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}", "\"}]"),
+         "a.gltf:7:97: error: expected '}', found the end of the file");
 }
 
 // --- all formats
