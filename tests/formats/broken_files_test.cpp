@@ -388,6 +388,10 @@ TEST(BrokenFiles, Obj) {
           {"a.obj", triangle + "usemtl\n" + face, "warning usemtl: expected the name of a material"},
           {"a.obj", triangle, "warning the file has no triangle that can be seen"},
           {"a.obj", triangle + "f 1 2 9\n", "error uses point 9"},
+          {"a.obj", triangle + "f 1 2 99999999999\n", "error uses point 99999999999, but there are 3 points"},
+          {"a.obj", triangle + "v 1e39 0 0\n" + face,
+           "error expected a finite number of at most 3.4e38, found \"1e39\""},
+          {"a.obj", triangle + "f 1 2 \\ \n3\n", "error expected a corner"},
       },
       folder.path() + "/");
 
@@ -395,6 +399,7 @@ TEST(BrokenFiles, Obj) {
       {"Kd red 0 0", "warning Kd: expected a number, found \"red\""},
       {"Kd 1 0", "warning Kd: expected 3 numbers, found 2"},
       {"Kd 255 0 0", "warning Kd: expected 0 to 1, found 255"},
+      {"Kd 1e39 0 0", "warning Kd: expected a finite number of at most 3.4e38, found \"1e39\""},
       {"Ns -5", "warning Ns: expected at least 0, found -5"},
       {"Ni 0", "warning Ni: expected at least 0.001, found 0"},
       {"d 5", "warning d: expected 0 to 1, found 5"},
@@ -420,6 +425,29 @@ TEST(BrokenFiles, Obj) {
   expectSaid(
       {{"a.obj", "mtllib a.mtl\n" + triangle + face, "warning expected \"newmtl\" before the first line"}},
       folder.path() + "/");
+}
+
+TEST(BrokenFiles, ObjTellsWhere) {
+  const test::Folder folder;
+  const std::string triangle = "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\n";
+  const auto place = [&](const std::string& text) {
+    Messages messages;
+    Message first;
+    try {
+      readScene(folder / "a.obj", text, messages);
+      first = messages.all().at(0);
+    } catch (const Error& error) {
+      first = error.messages().front();
+    }
+    return std::to_string(first.place.line) + ":" + std::to_string(first.place.column);
+  };
+  EXPECT_EQ(place(triangle + "f 1 2 9\n"), "5:7");
+  EXPECT_EQ(place(triangle + "f 1 \\\r\n2 -4\n"), "6:3");
+  EXPECT_EQ(place(triangle + "f 1 2 0\n"), "5:7");
+  EXPECT_EQ(place(triangle + "f 1/1 2/1 3/1\n"), "5:3");
+  EXPECT_EQ(place(triangle + "mtllib a.mtl none.mtl\nf 1 2 3\n"), "5:8");
+  writeFile(folder / "a.mtl", "newmtl \\\nm\nKd 1 \\\n red 0\n");
+  EXPECT_EQ(place(triangle + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"), "4:2");
 }
 
 // --- PLY, OFF, STL
