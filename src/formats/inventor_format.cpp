@@ -79,6 +79,43 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "MetadataString",
                                           "KeySensor"};
 
+/// Nodes of the specifications that are not rendered: no misspellings.
+const std::set<std::string_view> kNotRendered{"Text",
+                                              "Text2",
+                                              "Text3",
+                                              "AsciiText",
+                                              "Fog",
+                                              "PointSet",
+                                              "LineSet",
+                                              "MarkerSet",
+                                              "IndexedPointSet",
+                                              "IndexedLineSet",
+                                              "IndexedMarkerSet",
+                                              "NurbsCurve",
+                                              "NurbsSurface",
+                                              "IndexedNurbsCurve",
+                                              "IndexedNurbsSurface",
+                                              "NurbsProfile",
+                                              "TextureCoordinatePlane",
+                                              "TextureCoordinateEnvironment",
+                                              "TextureCoordinateDefault",
+                                              "TextureCoordinateFunction",
+                                              "SurroundScale",
+                                              "AntiSquish",
+                                              "Blinker",
+                                              "Pendulum",
+                                              "Rotor",
+                                              "Shuttle",
+                                              "PathSwitch",
+                                              "ClipPlane",
+                                              "TransformManip",
+                                              "Coordinate4",
+                                              "Texture3"};
+
+/// Nodes that only stand in the fields of others.
+const std::set<std::string_view> kParts{"Appearance",   "Coordinate",   "Color",        "TextureCoordinate",
+                                        "ImageTexture", "PixelTexture", "MovieTexture", "MultiTexture"};
+
 /// What other files bring into a scene, by path: each is read once however often it is named. Nothing while
 /// it is read, or if it cannot be.
 using Library = std::map<std::string, std::optional<Scene>>;
@@ -180,7 +217,16 @@ class Reader {
   /// The first node of a field, or nothing.
   NodeIn nodeOf(const Values& v, std::string_view field) {
     const std::vector<NodeIn> nodes = v.nodes(field);
-    return nodes.empty() ? NodeIn{} : resolved(nodes.front());
+    const NodeIn found = nodes.empty() ? NodeIn{} : resolved(nodes.front());
+    if (found.node && field != "geometry") warnUnknownPart(*found.node);  // of that it is said when visited
+    return found;
+  }
+  /// It is taken for what the field needs.
+  void warnUnknownPart(const Node& node) {
+    const std::string_view type = node.type;
+    if (handlers().contains(type) || kIgnored.count(type) || kNotRendered.count(type) || kParts.count(type))
+      return;
+    warn(node.token, "\"" + std::string(type.substr(0, 40)) + "\" is not known", type, meant(type));
   }
 
   void children(const Values& v, State& state) {
@@ -264,9 +310,20 @@ class Reader {
     const auto handler = handlers().find(v.node().type);
     if (handler != handlers().end()) return (this->*handler->second)(v, state);
     if (kIgnored.count(v.node().type)) return;
-    warn(v.node(), "\"" + std::string(v.node().type.substr(0, 40)) + "\" is not rendered and is left out",
-         v.node().type);
+    warn(v.node().token,
+         "\"" + std::string(v.node().type.substr(0, 40)) + "\" is not rendered and is left out",
+         v.node().type, meant(v.node().type));
     separate(v, state);  // perhaps it holds shapes
+  }
+
+  /// A type that the reader knows and the word may be a misspelling of.
+  static std::string meant(std::string_view type) {
+    if (kNotRendered.count(type)) return {};
+    std::vector<std::string_view> known(kIgnored.begin(), kIgnored.end());
+    known.insert(known.end(), kParts.begin(), kParts.end());
+    for (const auto& [name, handler] : handlers()) known.push_back(name);
+    std::sort(known.begin(), known.end());  // of two that are as near, always the same
+    return didYouMean(type, known);
   }
 
   /// Once for each kind.
