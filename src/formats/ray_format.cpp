@@ -389,9 +389,13 @@ class Reader {
     for (int i = 0; i < 4; ++i)
       if (!rayfile::numbers(rows[i], n[i], 4)) return {};
     const auto& last = n[3];
-    const bool plain = last[0] == 0 && last[1] == 0 && last[2] == 0 && last[3] != 0;
-    if (!plain) findings_.warn(rows[3], "transform: expected a last row of (0, 0, 0, 1); it is ignored");
-    const Real w = plain ? last[3] : 1;
+    const bool homogeneous = last[0] == 0 && last[1] == 0 && last[2] == 0 && last[3] != 0;
+    const Real w = homogeneous ? last[3] : 1;
+    if (!homogeneous)
+      findings_.warn(
+          rows[3],
+          "transform: expected a last row of (0, 0, 0, 1), found " + describe(rows[3]) + "; it is ignored",
+          {}, "last row");
     Affine m;
     for (int i = 0; i < 3; ++i) {
       m.row[i] = Vec3{n[i][0], n[i][1], n[i][2]} / w;
@@ -448,6 +452,7 @@ class Reader {
     const Tell tell = [&](std::string what, std::string hint) {
       findings_.warn(call, std::move(what), std::move(hint));
     };
+    warnOfRanges(shape, block);
     try {
       const std::string_view reason = repair(shape, worldFromObject);
       if (!reason.empty()) return findings_.warn(call, std::string(reason));
@@ -458,11 +463,15 @@ class Reader {
       if (error.fault() == Fault::limit) throw;
       return findings_.error(call, error.messages().front().what, error.messages().front().hint);
     }
-    for (const Item item : block)
-      if (item.keyed()) checkRange(findings_, shape, item);
     if (const auto* julia = shape.as<Julia>())
       if (const std::string excess = julia->excess(); !excess.empty()) findings_.warn(call, excess);
     add(call, std::move(name), shape, worldFromObject, material);
+  }
+
+  /// A cone may be lower than its base.
+  void warnOfRanges(const Shape& shape, const Item& block) {
+    for (const Item item : block)
+      if (item.keyed() && !(shape.is<Cone>() && item.key() == "height")) checkRange(findings_, shape, item);
   }
 
   /// Materials between which the shape's lead; they inherit from its own as known at this point of the file.

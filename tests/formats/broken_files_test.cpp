@@ -119,6 +119,45 @@ TEST(BrokenFiles, Ray) {
       {"a.ray", ray("ellipsoid { radii = (1, 0, 1); }"), "warning ellipsoid: nothing of it can be seen"},
       {"a.ray", ray("disk { radius = 0; }"), "warning disk: nothing of it can be seen"},
       {"a.ray", ray("torus { major_radius = -1; }"), "warning major_radius of torus: expected at least 0"},
+      {"a.ray", ray("cone { bottom_radius = -2; }"),
+       "warning bottom_radius of cone: expected at least 0, found -2"},
+      {"a.ray", ray("cone { height = 1; top_radius = -2; }"),
+       "warning top_radius of cone: expected at least 0, found -2"},
+      {"a.ray", ray("conic { z_min = 2; z_max = 1; }"),
+       "warning conic: expected z_min below z_max, found 2 and 1"},
+      {"a.ray", ray("disk { radius = 1; inner_radius = 2; }"),
+       "warning disk: nothing of it can be seen, for the hole is as large"},
+      {"a.ray", ray("mandelbox { scale = 0.5; }"),
+       "warning scale of mandelbox: expected one farther from 0 than 1.1, found 0.5; it becomes 1.1"},
+      {"a.ray", ray("rounded_box { radius = 9; }"),
+       "warning radius of rounded_box: expected at most half of the least width, found 9"},
+      {"a.ray", ray("julia { normal = (0, 0, 0, 0); }"), "warning normal of julia: expected a direction"},
+      {"a.ray", ray("sphere_sweep { points = ((0,0,0,1), (1,0,0,-2)); spline = linear; }"),
+       "warning points: expected radii of at least 0, found -2; the sign is ignored"},
+      {"a.ray", ray("lathe { profile = ((-1, 0), (-1, 1)); spline = linear; }"),
+       "warning profile: expected distances from the axis of at least 0, found -1"},
+      {"a.ray", ray("metaballs { balls = ((0,0,0,-3,1)); }"),
+       "warning balls: expected radii of at least 0, found -3"},
+      {"a.ray", ray("metaballs { capsules = ((0,0,0,1,1,1,-3,1)); }"),
+       "warning capsules: expected radii of at least 0, found -3"},
+      {"a.ray", ray("julia { iterations = 2000000000; }"),
+       "error iterations: expected a whole number from 1 to 50, found 2000000000"},
+      {"a.ray", ray("terrain { seed = 2000000000; }"),
+       "error seed: expected a whole number from -1000000000 to 1000000000, found 2000000000"},
+      {"a.ray", ray("mesh { file = o.obj; }"),
+       "error expected a value, found \"o.obj\" [the name of a file stands in quotation marks, as in "
+       "\"o.obj\"]"},
+      {"a.ray", ray("mesh { file = meshes/o.obj; }"), "error as in \"meshes/o.obj\"]"},
+      {"a.ray", ray("mesh { file = ../o.obj; }"), "error as in \"../o.obj\"]"},
+      {"a.ray", ray("mesh { file = 3d.obj; }"), "error as in \"3d.obj\"]"},
+      {"a.ray", ray("mesh { file = C:\\o.obj; }"), "error as in \"C:\\o.obj\"]"},
+      {"a.ray", ray("sphere { material = { diffuse = map(wood.png); } }"), "error as in \"wood.png\"]"},
+      {"a.ray",
+       ray("material { name = a; diffuse = (1, 0, 0); }\nmaterial { name = a; diffuse = (0, 1, 0); }\n"
+           "sphere { material = a; }"),
+       "warning a second material is called \"a\": it counts from here on, that of line 4 no longer"},
+      {"a.ray", ray("transform((1,0,0,0), (0,1,0,0), (0,0,1,0), (1,0,0,2), sphere { })"),
+       "warning transform: expected a last row of (0, 0, 0, 1), found (1,0,0,2); it is ignored"},
       {"a.ray", ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); }"), "warning it has no faces"},
       {"a.ray", ray("polymesh { points = ((0,0,0)); points = ((1,1,1)); }"),
        "warning points of polymesh given again"},
@@ -159,6 +198,10 @@ TEST(BrokenFiles, Ray) {
   });
   EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { diffuse = 1; transmissive = 0; } }")), "");
   EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { shininess = 30; } }")), "");
+  EXPECT_EQ(said("a.ray", ray("cone { height = -2; }")), "");
+  EXPECT_EQ(said("a.ray", ray("sphere//a comment\n{ name=ball/* of glass */; }")), "");
+  const std::string twice = "sphere { material = { name = a; diffuse = (1, 0, 0); } }\n";
+  EXPECT_EQ(said("a.ray", ray(twice + twice)), "");
 }
 
 // --- British Columbia
