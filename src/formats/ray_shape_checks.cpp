@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "geometry/cone.h"
 #include "geometry/conic.h"
 #include "geometry/disk.h"
 #include "geometry/height_field.h"
@@ -117,7 +118,39 @@ void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, b
         {});
 }
 
+// --- repairs
+
+/// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of
+/// less than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h:
+/// it is the mirror image of the cone of height -h, and the mirror goes into the transform.
+std::string_view repair(Cone& cone, Affine& worldFromObject) {
+  cone.bottomRadius = std::abs(cone.bottomRadius);
+  cone.topRadius = std::abs(cone.topRadius);
+  if (cone.height < 0) {
+    cone.height = -cone.height;
+    worldFromObject = worldFromObject * Affine::scaling({1, 1, -1});
+  }
+  if (cone.height == 0) return "a cone of height 0 is left out";
+  if (cone.bottomRadius == 0 && cone.topRadius == 0) return "a cone of radius 0 is left out";
+  constexpr Real kLeastSlope = 0.001;
+  if (std::abs(cone.topRadius - cone.bottomRadius) < kLeastSlope * cone.height)
+    cone.topRadius = cone.bottomRadius + kLeastSlope * cone.height;
+  return {};
+}
+
+std::string_view repair(const Conic& conic) {
+  if (conic.zMin == conic.zMax) return "a conic of height 0 is left out";
+  if (conic.bottomRadius == 0 && conic.topRadius == 0) return "a conic of radius 0 is left out";
+  return {};
+}
+
 }  // namespace
+
+std::string_view repair(Shape& shape, Affine& worldFromObject) {
+  if (auto* cone = shape.edit<Cone>()) return repair(*cone, worldFromObject);
+  if (const auto* conic = shape.as<Conic>()) return repair(*conic);
+  return {};
+}
 
 void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
   if (const auto* lathe = shape.as<Lathe>())
