@@ -145,21 +145,44 @@ void lightBlocked(const LintScene& s, Findings& findings) {
   }
 }
 
+/// Spot lights that no object is in the cone of. True if there is one.
+bool spotsOnNothing(const LintScene& s, Findings& findings) {
+  bool found = false;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
+    const LightSource& source = s.scene.lights[i];
+    const auto* spot = std::get_if<SpotLight>(&source.light);
+    const bool isOff = spot && maxComponent(spot->color) == 0;
+    if (!spot || isOff || s.survey.lights[i].places > 0 || shinesOnSomething(s.world, *spot)) continue;
+    found = true;
+    warn(findings, "unlit", source.place, "the spot light shines on nothing: no object is in its cone",
+         "turn its direction to what it should light, or give it a larger angle");
+  }
+  return found;
+}
+
 void unlit(const LintScene& s, Findings& findings) {
   constexpr int kFew = 5;
   if (s.scene.lights.empty()) return;  // said when it was read
+  const bool isCauseSaid = spotsOnNothing(s, findings);
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
     if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
     const auto most = mostIn(seen.blockedBy);
-    const bool away = most == seen.blockedBy.end() || seen.facesAway > most->second;
+    const int blocked = most == seen.blockedBy.end() ? 0 : most->second;
+    const bool outside = seen.outOfCone > max(seen.facesAway, blocked);
+    if (outside && isCauseSaid) continue;
+    const bool away = !outside && (blocked == 0 || seen.facesAway > blocked);
     warn(
         findings, "unlit", placeOf(s, object),
         quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" +
-            (away ? "; it faces away from the lights"
-                  : (most->first == object ? "; it stands in its own light"
-                                           : "; in the way is " + quoted(s, most->first))),
-        away
+            (outside ? "; it is outside the cone of the spot light"
+             : away  ? "; it faces away from the lights"
+                     : (most->first == object ? "; it stands in its own light"
+                                              : "; in the way is " + quoted(s, most->first))),
+        outside
+            ? "turn a spot light's direction to it, or give it a larger angle; or add an ambient light with "
+              "`ambient` in the material"
+        : away
             ? "move a light to the side that is seen, add an ambient light with `ambient` in the material, "
               "or "
               "turn its faces round"

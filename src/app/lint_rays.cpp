@@ -98,6 +98,8 @@ int different(const Bytes& a, const Bytes& b, const std::vector<std::size_t>& pi
 class Surveyor {
  public:
   Surveyor(const Scene& scene, const World& world) : world_(world) {
+    for (const LightSource& source : scene.lights)
+      if (const auto* spot = std::get_if<SpotLight>(&source.light)) spots_.push_back(*spot);
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
     survey_.picture = Picture(kWidth, kHeight);
@@ -140,6 +142,7 @@ class Surveyor {
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
       return term.light && !isBlack(term.factor * term.value);
     });
+    for (const SpotLight& spot : spots_) seen.outOfCone += !spot.illuminate(node.hit->surface.point);
     for (const Term& term : node.terms) {
       if (!term.light) continue;
       Survey::Lamp& lamp = survey_.lights[term.light->light];
@@ -210,6 +213,7 @@ class Surveyor {
   }
 
   const World& world_;
+  std::vector<SpotLight> spots_;
   Real brightestSky_ = 0;
   Survey survey_;
 };
@@ -256,6 +260,22 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
   for (int i = 0; i < kDirections; ++i) look(direction(i));
   if (const auto* spot = std::get_if<SpotLight>(&light)) look(normalize(spot->direction));
   return strongest;
+}
+
+bool shinesOnSomething(const World& world, const SpotLight& light) {
+  constexpr int kRays = 200;
+  const Vec3 axis = normalize(light.direction),
+             other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 right = normalize(cross(axis, other)), up = cross(right, axis);
+  const Real least = std::cos(light.angle * kPi / 180);
+  Statistics uncounted;
+  for (int i = 0; i < kRays; ++i) {  // spread over the cone as over a sphere
+    const Real z = 1 - (1 - least) * i / kRays, r = std::sqrt(max(0, 1 - z * z));
+    const Real angle = i * kPi * (3 - std::sqrt(5.0));
+    const Ray ray{light.position, axis * z + right * (r * std::cos(angle)) + up * (r * std::sin(angle))};
+    if (world.closest(ray, Faces::both, uncounted)) return true;
+  }
+  return false;
 }
 
 double shareInsideOut(const World& world, std::uint32_t object, const MeshData& mesh) {

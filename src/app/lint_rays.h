@@ -28,6 +28,9 @@ bool isShell(const World& world, std::uint32_t object, const Vec3& point);
 /// The most light that arrives at anything around the point where the light stands.
 Real strongestAround(const World& world, const Light& light, const Vec3& position);
 
+/// Something is in the cone of the light, near or far.
+bool shinesOnSomething(const World& world, const SpotLight& light);
+
 /// Of a mesh, the share of its faces whose front looks to the inside of the mesh: seen from there, the ray
 /// comes through an odd number of the mesh's surfaces. 0 for open surfaces.
 double shareInsideOut(const World& world, std::uint32_t object, const MeshData& mesh);
@@ -40,6 +43,7 @@ struct Survey {
     int direct = 0;                          ///< of them: light comes straight from a source
     int couldBeLit = 0;                      ///< of them: the material scatters light
     int facesAway = 0;                       ///< pairs of a place and a light behind the surface there
+    int outOfCone = 0;                       ///< pairs of a place and a spot light that shines elsewhere
     std::map<std::uint32_t, int> blockedBy;  ///< pairs of a place and a light, by what is between
     int sent = 0;                            ///< mirrored and refracted rays that went on from it
     int leftScene = 0;                       ///< of them: met nothing, where a background would be seen

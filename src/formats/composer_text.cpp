@@ -33,7 +33,8 @@ class TextReader {
       else if (name.text == "sphere" || name.text == "poly_set")
         object(name);
       else
-        unknown(name);
+        unknown(name, "a camera, a light, a sphere or a poly_set",
+                {"camera", "point_light", "directional_light", "spot_light", "sphere", "poly_set"});
     }
     warnings_.report(messages_);
     return std::move(file_);
@@ -79,15 +80,13 @@ class TextReader {
     block(token, field);
   }
 
-  /// Skips the numbers, words or block after a word that the format does not have.
-  void unknown(const Token& name) {
-    if (!tokens_.peek().is(Token::Kind::number) && !tokens_.peek().isMark('{')) {
-      static constexpr std::array<std::string_view, 6> kNodes{
-          "camera", "point_light", "directional_light", "spot_light", "sphere", "poly_set"};
-      tokens_.fail(name, "expected a camera, a light, a sphere or a poly_set, found " + describe(name),
-                   didYouMean(name.text, kNodes));
-    }
-    warn(name, "\"" + std::string(name.text.substr(0, 40)) + "\" is not known and is skipped");
+  /// Skips the numbers or the block after a word that is none of those `known` in `owner`.
+  void unknown(const Token& name, std::string_view owner, std::initializer_list<std::string_view> known) {
+    std::string hint = didYouMean(name.text, {known.begin(), known.size()});
+    if (!tokens_.peek().is(Token::Kind::number) && !tokens_.peek().isMark('{'))
+      tokens_.fail(name, "expected " + std::string(owner) + ", found " + describe(name), std::move(hint));
+    warn(name, "\"" + std::string(name.text.substr(0, 40)) + "\" is not known and is skipped",
+         std::move(hint));
     while (tokens_.peek().is(Token::Kind::number)) tokens_.next();
     if (!tokens_.skipMark('{')) return;
     for (int depth = 1; depth > 0;) {
@@ -97,8 +96,8 @@ class TextReader {
     }
   }
 
-  void warn(const Token& at, std::string what) {
-    if (!warnings_.again(what)) warnings_.warn(tokens_.place(at), std::move(what));
+  void warn(const Token& at, std::string what, std::string hint = {}) {
+    if (!warnings_.again(what)) warnings_.warn(tokens_.place(at), std::move(what), std::move(hint));
   }
   /// Of things that the file counts before it gives them.
   void compare(const Token& at, std::string_view name, std::optional<std::uint32_t> said, std::size_t found) {
@@ -126,7 +125,8 @@ class TextReader {
       else if (f.text == "verticalFOV")
         v.verticalFov = number(f);
       else
-        unknown(f);
+        unknown(f, "a field of the camera",
+                {"position", "viewDirection", "focalDistance", "orthoUp", "verticalFOV"});
     });
     return v;
   }
@@ -146,7 +146,7 @@ class TextReader {
       else if (f.text == "cutOffAngle")
         l.cutOffAngle = number(f);
       else
-        unknown(f);
+        unknown(f, "a field of a light", {"position", "direction", "color", "dropOffRate", "cutOffAngle"});
     });
     return l;
   }
@@ -167,7 +167,8 @@ class TextReader {
       else if (f.text == "ktran")
         m.ktran = number(f);
       else
-        unknown(f);
+        unknown(f, "a field of a material",
+                {"diffColor", "ambColor", "specColor", "emisColor", "shininess", "ktran"});
     });
     return m;
   }
@@ -219,7 +220,9 @@ class TextReader {
     else if (f.text == "radius")
       s.radius = number(f);
     else
-      unknown(f);
+      unknown(f, "a field of a sphere",
+              {"name", "numMaterials", "material", "origin", "radius", "xaxis", "yaxis", "zaxis", "xlength",
+               "ylength", "zlength"});
   }
 
   void polygonField(PolySet& p, const Token& f) {
@@ -237,7 +240,9 @@ class TextReader {
     else if (f.text == "numPolys")
       polygonCount_ = count(f);
     else
-      unknown(f);
+      unknown(f, "a field of a poly_set",
+              {"name", "numMaterials", "material", "type", "normType", "materialBinding", "hasTextureCoords",
+               "rowSize", "numPolys", "poly"});
   }
 
   /// All are polygons to us.
@@ -272,7 +277,7 @@ class TextReader {
       else if (f.text == "t")
         v.uv.y = number(f);
       else
-        unknown(f);
+        unknown(f, "a field of a poly", {"numVertices", "pos", "norm", "materialIndex", "s", "t"});
     });
     const std::size_t found = p.vertices.size() - first;
     p.counts.push_back(static_cast<std::uint32_t>(found));

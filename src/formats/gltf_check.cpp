@@ -72,6 +72,7 @@ class Checker {
     index(root_, "scene", "scenes");
     each(root_, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
     each(root_, "nodes", [&](const Part& node) { checkNode(node); });
+    checkCycles();
     each(root_, "meshes", [&](const Part& mesh) {
       each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
     });
@@ -80,7 +81,10 @@ class Checker {
     each(root_, "textures", [&](const Part& texture) { index(texture, "source", "images"); });
     each(root_, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
     each(root_, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
-    each(root_, "bufferViews", [&](const Part& view) { index(view, "buffer", "buffers"); });
+    each(root_, "bufferViews", [&](const Part& view) {
+      index(view, "buffer", "buffers");
+      for (const char* key : {"byteOffset", "byteLength", "byteStride"}) whole(view, key);
+    });
     if (const json* all = root_.find("extensions"); all && all->is_object())
       object({*all, "extensions"}, kLights, [&](const Part& lights) {
         each(lights, "lights", [&](const Part& light) { checkLight(light); });
@@ -162,6 +166,14 @@ class Checker {
     if (!value) return;
     if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
     inRange(owner, key, value->get<double>(), least, most);
+  }
+  void whole(const Part& owner, std::string_view key, std::uint64_t least = 0) const {
+    const json* value = owner.find(key);
+    if (!value || (value->is_number_unsigned() && value->get<std::uint64_t>() >= least)) return;
+    const bool tooLarge = value->is_number_float() && value->get<double>() >= 1.8e19;
+    fail(owner.pathOf(key) + ": expected a whole number " +
+         (tooLarge ? "that 64 bits can hold" : "of at least " + std::to_string(least)) + ", found " +
+         found(*value));
   }
   void numbers(const Part& owner, std::string_view key, std::size_t count, double least = -kNoLimit,
                double most = kNoLimit) {
@@ -269,6 +281,40 @@ class Checker {
     extension(node, kLights, [&](const Part& light) { index(light, "light", "lights"); });
   }
 
+  /// Fails where a node is below itself. Precondition: the indices of nodes and children are sound.
+  void checkCycles() const {
+    const std::size_t count = countOf("nodes");
+    const auto childrenOf = [&](std::size_t node) {
+      return Part{(*root_.find("nodes"))[node], ""}.find("children");
+    };
+    enum class Seen : char { no, open, done };
+    std::vector<Seen> seen(count, Seen::no);
+    struct Step {
+      std::size_t node, next;
+    };
+    for (std::size_t root = 0; root < count; ++root) {
+      if (seen[root] != Seen::no) continue;
+      std::vector<Step> path{{root, 0}};  // from the root; all of them are open
+      seen[root] = Seen::open;
+      while (!path.empty()) {
+        const std::size_t node = path.back().node;
+        const json* children = childrenOf(node);
+        if (!children || path.back().next == children->size()) {
+          seen[node] = Seen::done;
+          path.pop_back();
+          continue;
+        }
+        const auto child = (*children)[path.back().next++].get<std::size_t>();
+        if (seen[child] == Seen::open)
+          fail("nodes[" + std::to_string(child) + "]: " +
+               (child == node ? "it is its own child"
+                              : "it stands below itself: it is a child of nodes[" + std::to_string(node) +
+                                    "], which stands below it"));
+        if (seen[child] == Seen::no) seen[child] = Seen::open, path.push_back({child, 0});
+      }
+    }
+  }
+
   void checkPrimitive(const Part& primitive) {
     known(primitive, {"attributes", "indices", "material", "mode", "targets"});
     index(primitive, "material", "materials");
@@ -280,12 +326,26 @@ class Checker {
     if (!attributes || !attributes->is_object()) fail(primitive.path + ": expected an object \"attributes\"");
     const Part of{*attributes, primitive.pathOf("attributes")};
     for (const auto& [key, value] : attributes->items()) checkIndex(value, of.pathOf(key), "accessors");
+    knownAttributes(of);
     if (!of.find("POSITION"))
       warn(primitive.path + " has no POSITION: there is nothing to see of it", {}, "no POSITION");
     extension(primitive, kDraco, [&](const Part&) {  // unless the file has the mesh a second time, as it is
       if (const json* points = of.find("POSITION"); points && !hasData(*points)) failOfCompression(kDraco);
     });
     morphs_ += primitive.find("targets") != nullptr;
+  }
+  /// Sets are counted, as in TEXCOORD_1, and programs may add names that begin with _.
+  void knownAttributes(const Part& attributes) {
+    constexpr std::string_view kNames[] = {"POSITION", "NORMAL",   "TANGENT",  "TEXCOORD_0",
+                                           "COLOR_0",  "JOINTS_0", "WEIGHTS_0"};
+    for (const auto& [key, value] : attributes.value.items()) {
+      if (key.starts_with('_')) continue;
+      const std::size_t digits = key.find_last_not_of("0123456789") + 1;
+      const bool counted = digits < key.size() && key.substr(0, digits).ends_with('_');
+      if (isOneOf(counted ? key.substr(0, digits) + "0" : key, kNames)) continue;
+      warn("unknown attribute " + inQuotes(key) + " of " + attributes.path + " is ignored",
+           didYouMean(key, kNames), "unknown " + key.substr(0, 60));
+    }
   }
   bool hasData(const json& accessor) const {
     return (*root_.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
@@ -294,7 +354,12 @@ class Checker {
   void checkAccessor(const Part& accessor) {
     index(accessor, "bufferView", "bufferViews");
     word(accessor, "type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
-    number(accessor, "count", 1);
+    whole(accessor, "count", 1);
+    whole(accessor, "byteOffset");
+    if (const json* type = accessor.find("componentType"))
+      if (!type->is_number_unsigned() || type->get<std::uint64_t>() < 5120 ||
+          type->get<std::uint64_t>() > 5126)
+        fail(accessor.pathOf("componentType") + ": expected 5120 to 5126, found " + found(*type));
   }
 
   // --- cameras, lights, materials ---

@@ -1,5 +1,5 @@
 // The only file that knows tinygltf, which takes the JSON apart and finds the buffers. It trusts the file in
-// some places where a damaged one must not be trusted: checkContainer() looks at those first, and every index
+// some places where a damaged one must not be trusted: checkGltf() looks at those first, and every index
 // and range is checked here. (Long, because no other file is to know the library.)
 #include "formats/gltf_format.h"
 
@@ -15,11 +15,12 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/nesting.h"
 #include "base/text.h"
 #include "base/unique.h"
 #include "formats/directions.h"
+#include "formats/gltf_buffers.h"
 #include "formats/gltf_check.h"
+#include "formats/gltf_json.h"
 #include "formats/gltf_material.h"
 #include "formats/textures.h"
 #include "geometry/mesh.h"
@@ -57,48 +58,6 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
   return bytes.substr(20, json);
 }
 
-/// What takes brackets apart is recursive.
-void checkDepth(const Place& place, std::string_view bytes, std::string_view json) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth <= kMostNesting) continue;
-      const bool isText = json.data() == bytes.data();  // lines of a binary file tell a person nothing
-      throw Error(Fault::scene, isText ? placeAt(place.file, json, i) : place,
-                  "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more");
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-}
-
-/// Only the first buffer may be the binary chunk, and none may be empty.
-void checkContainer(const Place& place, std::string_view bytes, Messages& messages) {
-  const std::string_view text = jsonOf(place, bytes);
-  checkDepth(place, bytes, text);
-  const nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
-  if (json.is_discarded() || !json.is_object()) throw Error(Fault::scene, place, "expected a JSON object");
-  checkGltf(json, place, messages);
-  const auto buffers = json.find("buffers");
-  if (buffers == json.end() || !buffers->is_array()) return;
-  for (std::size_t i = 0; i < buffers->size(); ++i) {
-    const nlohmann::json& buffer = (*buffers)[i];
-    if (!buffer.is_object()) continue;
-    const auto length = buffer.find("byteLength");
-    if (length == buffer.end() || !length->is_number_unsigned() || length->get<std::uint64_t>() == 0)
-      throw Error(Fault::scene, place, "buffer " + std::to_string(i) + ": expected a byteLength above 0");
-    if (i > 0 && !buffer.contains("uri"))
-      throw Error(Fault::scene, place, "buffer " + std::to_string(i) + ": expected a uri");
-  }
-}
-
 /// Files that the scene names, each read once.
 struct Files {
   std::set<std::string> read;
@@ -131,7 +90,9 @@ struct Files {
 
 tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place, InputFiles& inputs,
                       Messages& messages) {
-  checkContainer(place, bytes, messages);
+  const nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
+  checkGltf(json, place, messages);
+  checkGltfBuffers(json, place);
   Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
@@ -304,25 +265,31 @@ class GltfReader {
 
   void readNodes() {
     struct Waiting {
-      int node;
+      int node, parent;
       Affine worldFromParent;
     };
+    constexpr int kScene = -1;
     std::vector<Waiting> waiting;
-    for (int root : roots()) waiting.push_back({root, {}});
+    for (int root : roots()) waiting.push_back({root, kScene, {}});
     std::reverse(waiting.begin(), waiting.end());
-    std::vector<bool> seen(gltf_.nodes.size());
+    std::vector<std::optional<int>> parents(gltf_.nodes.size());
+    const auto nameOf = [](int parent) {
+      return parent == kScene ? "the scene" : "nodes[" + std::to_string(parent) + "]";
+    };
     while (!waiting.empty()) {
-      const auto [index, worldFromParent] = waiting.back();
+      const auto [index, parent, worldFromParent] = waiting.back();
       waiting.pop_back();
       if (!isIndex(index, gltf_.nodes.size())) fail("there is no node " + std::to_string(index));
       const auto number = static_cast<std::size_t>(index);
-      if (seen[number]) fail("node " + std::to_string(index) + " has two parents");
-      seen[number] = true;
+      if (parents[number])
+        fail("nodes[" + std::to_string(index) + "]: expected one parent, found two, " +
+             nameOf(*parents[number]) + " and " + nameOf(parent));
+      parents[number] = parent;
       const tinygltf::Node& node = gltf_.nodes[number];
       const Affine worldFromNode = worldFromParent * transformOf(node);
       read(node, worldFromNode);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-        waiting.push_back({*child, worldFromNode});
+        waiting.push_back({*child, index, worldFromNode});
     }
   }
 

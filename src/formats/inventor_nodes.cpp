@@ -105,6 +105,9 @@ constexpr std::array kRules{
     Rule{" Shape ", "geometry"},
     Rule{" Shape ", "bboxCenter"},
     Rule{" Shape ", "bboxSize"},
+    Rule{" Appearance ", "material"},
+    Rule{" Appearance ", "texture"},
+    Rule{" Appearance ", "textureTransform"},
     // transforms
     Rule{" Transform ", "translation", Takes::vector},
     Rule{" Transform ", "rotation", Takes::rotation},

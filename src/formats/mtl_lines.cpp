@@ -84,10 +84,34 @@ std::string_view pictureOf(LineWords words) {
 
 class Checker {
  public:
-  Checker(const std::string& file, std::string_view text, Textures& textures, WarningsByKind& warnings)
-      : file_(file), text_(text), textures_(textures), warnings_(warnings) {}
+  /// `lines` are the text with continued lines made one.
+  Checker(const std::string& file, std::string_view text, std::string_view lines, Textures& textures,
+          WarningsByKind& warnings)
+      : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
 
   void line(std::string_view line) {
+    check(line);
+    plain_ += greyOf(line);
+    plain_ += '\n';
+  }
+  /// The lines checked so far, for tinyobjloader.
+  std::string plain() { return std::move(plain_); }
+
+ private:
+  /// `Kd 0.5` as `Kd 0.5 0.5 0.5`, and so all colours; other lines as they are.
+  static std::string greyOf(std::string_view line) {
+    LineWords words(line);
+    const Numbers* row = rowOf(kNumbers, words.next());
+    const std::string_view first = words.next(), second = words.next();
+    std::string text(line);
+    const bool isOne = row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#');
+    if (isOne)
+      text = std::string(row->key) + ' ' + std::string(first) + ' ' + std::string(first) + ' ' +
+             std::string(first);
+    return text;
+  }
+
+  void check(std::string_view line) {
     LineWords words(line);
     const std::string_view key = words.next();
     if (key.empty() || key[0] == '#') return;
@@ -100,12 +124,11 @@ class Checker {
     warn(key, quoted(key) + " is not known and is skipped");
   }
 
- private:
   void warn(std::string_view at, std::string what, std::string_view kind = {}) {
     if (!warnings_.again(kind.empty() ? what : kind)) warnings_.warn(place(at), std::move(what), {}, kind);
   }
   Place place(std::string_view at) const {
-    return placeAt(file_, text_, static_cast<std::size_t>(at.data() - text_.data()));
+    return placeAt(file_, text_, static_cast<std::size_t>(at.data() - lines_.data()));
   }
 
   void newMaterial(std::string_view key, LineWords words) {
@@ -123,7 +146,7 @@ class Checker {
         continue;
       }
       const auto number = parseNumber(word);
-      if (!isFloat(word)) return warn(word, name + ": expected a number, found " + quoted(word), name);
+      if (!isFloat(word)) return warn(word, name + ": " + notAFloat(word), name);
       if (count < row.count && !(number->value >= row.least && number->value <= row.most))
         warn(word,
              name + ": expected " +
@@ -132,7 +155,8 @@ class Checker {
                  ", found " + toText(number->value),
              "range of " + name);
     }
-    if (count != row.count)
+    const bool isGrey = row.count == 3 && count == 1;
+    if (count != row.count && !isGrey)
       warn(key,
            name + ": expected " + std::to_string(row.count) + (row.count == 1 ? " number" : " numbers") +
                ", found " + std::to_string(count),
@@ -146,7 +170,8 @@ class Checker {
   }
 
   const std::string& file_;
-  std::string_view text_;
+  std::string_view text_, lines_;
+  std::string plain_;
   Textures& textures_;
   WarningsByKind& warnings_;
   bool inMaterial_ = false;
@@ -154,10 +179,13 @@ class Checker {
 
 }  // namespace
 
-void checkMtlLines(const std::string& file, std::string_view text, Textures& textures,
-                   WarningsByKind& warnings) {
-  Checker checker(file, text, textures, warnings);
-  forEachLine(text, [&](std::string_view line) { checker.line(line); });
+std::string checkedMtl(const std::string& file, std::string_view text, Textures& textures,
+                       WarningsByKind& warnings) {
+  std::string room;
+  const std::string_view lines = joinedLines(text, room);
+  Checker checker(file, text, lines, textures, warnings);
+  forEachLine(lines, [&](std::string_view line) { checker.line(line); });
+  return checker.plain();
 }
 
 }  // namespace trace

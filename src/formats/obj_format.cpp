@@ -106,7 +106,9 @@ class ObjReader : public tinyobj::MaterialReader {
       : file_(file), place_{file, 0, 0, {}}, bytes_(bytes), messages_(messages) {}
 
   Model read() {
-    uses_ = checkObjLines(file_, bytes_, warnings_);
+    std::string room;
+    const std::string_view lines = joinedLines(bytes_, room);
+    names_ = checkObjLines(file_, bytes_, lines, warnings_);
     tinyobj::callback_t calls;
     calls.vertex_cb = [](void* self, float x, float y, float z, float) {
       of(self).points_.push_back({x, y, z});
@@ -126,7 +128,7 @@ class ObjReader : public tinyobj::MaterialReader {
     };
     calls.object_cb = [](void* self, const char* name) { of(self).useName(name); };
 
-    ByteStream stream(bytes_);
+    ByteStream stream(lines);
     std::string warnings, errors;
     if (!tinyobj::LoadObjWithCallback(stream, calls, this, this, &warnings, &errors))
       throw Error(Fault::scene, place_, "expected an OBJ mesh: " + errors);
@@ -139,13 +141,13 @@ class ObjReader : public tinyobj::MaterialReader {
                   std::map<std::string, int>* numbers, std::string*, std::string*) override {
     try {
       const std::string text = readBeside(file_, name, model_.inputs);
-      checkMtlLines(besideFile(file_, name), text, textures_, warnings_);
-      ByteStream stream(text);
+      const std::string plain = checkedMtl(besideFile(file_, name), text, textures_, warnings_);
+      ByteStream stream(plain);
       std::string warnings, errors;
       tinyobj::LoadMtl(numbers, materials, &stream, &warnings, &errors);
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
-      messages_.warn(place_, "materials: " + error.messages().front().what);
+      messages_.warn(placeOfFile(name), "materials: " + error.messages().front().what);
       materialsMissing_ = true;
       return false;
     }
@@ -161,6 +163,14 @@ class ObjReader : public tinyobj::MaterialReader {
   }
 
  private:
+  /// Where the OBJ names that file of materials.
+  Place placeOfFile(const std::string& name) const {
+    for (const auto& [names, offset] : names_.materialFiles)
+      if (const std::size_t at = names.find(name); at != names.npos)
+        return placeAt(file_, bytes_, offset + at);
+    return place_;
+  }
+
   /// Exporters name pictures as seen from the materials' file, or from the mesh's.
   void notePictures(const tinyobj::material_t& m, const std::string& materialFile) {
     for (const std::string& picture :
@@ -213,10 +223,9 @@ class ObjReader : public tinyobj::MaterialReader {
     for (const tinyobj::index_t& index : corners) {
       const auto point = absolute(index.vertex_index, points_.size());
       if (!point)
-        throw Error(Fault::scene, place_,
+        throw Error(Fault::scene, place_,  // said before, unless lines end otherwise for tinyobjloader
                     "face " + std::to_string(faces_) + " uses point " + std::to_string(index.vertex_index) +
-                        ", but there are " + std::to_string(points_.size()) + " points so far",
-                    "points are counted from 1, or backwards from -1");
+                        ", but there are " + std::to_string(points_.size()) + " points so far");
       face_.push_back(corner(to, {*point, optional(index.texcoord_index, uvs_.size()),
                                   optional(index.normal_index, normals_.size())}));
     }
@@ -230,11 +239,7 @@ class ObjReader : public tinyobj::MaterialReader {
     if (index == 0 || result < 0 || result >= n) return {};
     return static_cast<std::int32_t>(result);
   }
-  std::int32_t optional(int index, std::size_t count) {
-    const auto result = absolute(index, count);
-    if (!result && index != 0) ++missing_;
-    return result.value_or(-1);
-  }
+  static std::int32_t optional(int index, std::size_t count) { return absolute(index, count).value_or(-1); }
 
   std::uint32_t corner(Part& to, const Corner& corner) const {
     const std::uint32_t number = to.corners.number(corner);
@@ -252,9 +257,6 @@ class ObjReader : public tinyobj::MaterialReader {
     warnUndefined();
     warnings_.report(messages_);
     textures_.report(messages_);
-    if (missing_ > 0)
-      messages_.warn(place_,
-                     "normals or uv that the file does not have are left out: " + std::to_string(missing_));
     for (const auto& part : parts_) {
       if (part->mesh.triangles.empty()) continue;
       if (!part->hasNormals) part->mesh.normals.clear();
@@ -276,7 +278,8 @@ class ObjReader : public tinyobj::MaterialReader {
     std::size_t named = 0, first = bytes_.size();
     std::string names;
     for (const std::string& name : undefined_) {
-      if (const auto use = uses_.find(name); use != uses_.end()) first = std::min(first, use->second);
+      if (const auto use = names_.materials.find(name); use != names_.materials.end())
+        first = std::min(first, use->second);
       if (named++ < kMostNamed) names += (names.empty() ? "\"" : ", \"") + name.substr(0, 60) + "\"";
     }
     if (named > kMostNamed) names += " and " + std::to_string(named - kMostNamed) + " more";
@@ -292,7 +295,7 @@ class ObjReader : public tinyobj::MaterialReader {
   Messages& messages_;
   WarningsByKind warnings_;
   Textures textures_;
-  MaterialUses uses_;
+  ObjNames names_;
   std::set<std::string> undefined_;
   bool materialsMissing_ = false;
   std::vector<Vec3f> points_, normals_;
@@ -304,7 +307,7 @@ class ObjReader : public tinyobj::MaterialReader {
   Part* part_ = nullptr;  ///< that of name_ and material_, once known
   std::vector<std::uint32_t> face_;
   MeshRepairs repairs_;
-  std::size_t faces_ = 0, missing_ = 0;
+  std::size_t faces_ = 0;
   Model model_;
 };
 

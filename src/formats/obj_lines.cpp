@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "base/budget.h"
@@ -26,31 +28,48 @@ bool has(const std::array<std::string_view, N>& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// 7, 7/8, 7//9 or 7/8/9, each perhaps negative.
-bool isCorner(std::string_view word) {
-  for (int part = 0; part < 3; ++part) {
-    if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+/// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
+struct CornerNumbers {
+  std::int64_t point = 0, uv = 0, normal = 0;
+};
+
+/// 7, 7/8, 7//9 or 7/8/9, each perhaps negative; nothing of another form. A point's number may be too large
+/// for any file, and is then as large as can be.
+std::optional<CornerNumbers> cornerOf(std::string_view word) {
+  CornerNumbers corner;
+  for (std::int64_t* number : {&corner.point, &corner.uv, &corner.normal}) {
+    const bool negative = word.starts_with('-');
+    if (negative || word.starts_with('+')) word.remove_prefix(1);
     const std::size_t digits = std::min(word.find_first_not_of("0123456789"), word.size());
-    if (digits > 9 || (digits == 0 && part != 1)) return false;  // only uv may be left out
+    const bool isPoint = number == &corner.point;
+    if ((digits > 9 && !isPoint) || (digits == 0 && number != &corner.uv)) return {};  // uv may be left out
+    for (std::size_t i = 0; i < digits; ++i)
+      *number = std::min<std::int64_t>(*number * 10 + (word[i] - '0'), std::int64_t{1} << 40);
+    if (negative) *number = -*number;
     word.remove_prefix(digits);
-    if (word.empty()) return digits > 0;
-    if (word[0] != '/') return false;
+    if (word.empty()) return digits > 0 ? std::optional(corner) : std::nullopt;
+    if (word[0] != '/') return {};
     word.remove_prefix(1);
   }
-  return false;
+  return {};
+}
+
+/// Is there that one of `count`, counted from 1, or backwards from -1?
+bool isThere(std::int64_t number, std::int64_t count) {
+  return number != 0 && number <= count && number >= -count;
 }
 
 class Checker {
  public:
-  Checker(const std::string& file, std::string_view bytes, WarningsByKind& warnings)
-      : file_(file), bytes_(bytes), warnings_(warnings) {}
+  Checker(const std::string& file, std::string_view bytes, std::string_view lines, WarningsByKind& warnings)
+      : file_(file), bytes_(bytes), lines_(lines), warnings_(warnings) {}
 
-  MaterialUses check() {
-    forEachLine(bytes_, [&](std::string_view text) {
+  ObjNames check() {
+    forEachLine(lines_, [&](std::string_view text) {
       checkBudget();
       line(text);
     });
-    return std::move(materials_);
+    return std::move(names_);
   }
 
  private:
@@ -59,11 +78,11 @@ class Checker {
     LineWords words(text);
     const std::string_view key = words.next();
     if (key == "v")
-      point(text, words);
+      point(text, words), ++points_;
     else if (key == "vn")
-      numbers(text, words, key, 3, 3);
+      numbers(text, words, key, 3, 3), ++normals_;
     else if (key == "vt")
-      numbers(text, words, key, 1, 3);
+      numbers(text, words, key, 1, 3), ++uvs_;
     else if (key == "f")
       face(key, words);
     else
@@ -74,8 +93,9 @@ class Checker {
     if (key == "usemtl") {
       const std::string_view name = words.rest();
       if (name.empty()) return warn(key, "usemtl: expected the name of a material");
-      materials_.try_emplace(std::string(name), static_cast<std::size_t>(name.data() - bytes_.data()));
+      names_.materials.try_emplace(std::string(name), offsetOf(name));
     }
+    if (key == "mtllib") names_.materialFiles.emplace_back(words.rest(), offsetOf(words.rest()));
     if (key.empty() || has(kDrawn, key) || has(kSilent, key)) return;
     if (has(kThin, key)) return warn(key, "points and lines are left out");
     if (has(kCurved, key)) return warn(key, "curves and surfaces are left out");
@@ -91,7 +111,7 @@ class Checker {
   int numbers(std::string_view text, LineWords words, std::string_view key, int least, int most) {
     int count = 0;
     for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count)
-      if (!isFloat(word)) fail(word, "expected a number, found \"" + std::string(word.substr(0, 40)) + "\"");
+      if (!isFloat(word)) fail(word, notAFloat(word));
     if (count < least)
       fail(text, "expected " + std::to_string(least) + " numbers after \"" + std::string(key) + "\", found " +
                      std::to_string(count));
@@ -103,33 +123,46 @@ class Checker {
 
   void face(std::string_view key, LineWords words) {
     int count = 0;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count)
-      if (!isCorner(word))
+    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+      const std::optional<CornerNumbers> corner = cornerOf(word);
+      if (!corner)
         fail(word, "expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"" +
                        std::string(word.substr(0, 40)) + "\"");
+      if (!isThere(corner->point, points_))
+        fail(word,
+             "the face uses point " + std::string(word.substr(0, std::min(word.find('/'), 40ul))) +
+                 ", but there are " + std::to_string(points_) + " points so far",
+             "points are counted from 1, or backwards from -1");
+      const bool all = (corner->uv == 0 || isThere(corner->uv, uvs_)) &&
+                       (corner->normal == 0 || isThere(corner->normal, normals_));
+      if (!all) warn(word, "normals or uv that the file does not have are left out");
+    }
     if (count < 3) warn(key, "a face of fewer than 3 points is left out");
   }
 
   void warn(std::string_view at, std::string what) {
     if (!warnings_.again(what)) warnings_.warn(place(at), std::move(what));
   }
-  [[noreturn]] void fail(std::string_view at, std::string what) const {
-    throw Error(Fault::scene, place(at), std::move(what));
+  [[noreturn]] void fail(std::string_view at, std::string what, std::string hint = {}) const {
+    throw Error(Fault::scene, place(at), std::move(what), std::move(hint));
   }
-  Place place(std::string_view at) const {
-    return placeAt(file_, bytes_, static_cast<std::size_t>(at.data() - bytes_.data()));
+  std::size_t offsetOf(std::string_view at) const {
+    return static_cast<std::size_t>(at.data() - lines_.data());
   }
+  Place place(std::string_view at) const { return placeAt(file_, bytes_, offsetOf(at)); }
 
   const std::string& file_;
-  std::string_view bytes_;
+  std::string_view bytes_, lines_;
   WarningsByKind& warnings_;
-  MaterialUses materials_;
+  ObjNames names_;
+  std::int64_t points_ = 0, uvs_ = 0, normals_ = 0;  ///< how many so far
 };
 
 }  // namespace
 
-MaterialUses checkObjLines(const std::string& file, std::string_view bytes, WarningsByKind& warnings) {
-  return Checker(file, bytes, warnings).check();
+ObjNames checkObjLines(const std::string& file, std::string_view bytes, std::string_view lines,
+                       WarningsByKind& warnings) {
+  return Checker(file, bytes, lines, warnings).check();
 }
 
 }  // namespace trace

@@ -6,16 +6,23 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "formats/warnings.h"
 
 namespace trace {
 
-/// Where each material is used first: the offset of its name.
-using MaterialUses = std::map<std::string, std::size_t, std::less<>>;
+/// What the lines name, and where: the offset in the text.
+struct ObjNames {
+  std::map<std::string, std::size_t, std::less<>> materials;       ///< of the first use
+  std::vector<std::pair<std::string, std::size_t>> materialFiles;  ///< all of a line as one
+};
 
 /// Checks the numbers of the points, normals, uv and faces. Warns of what is left out and of lines that are
-/// not known. Throws Error(Fault::scene) with line and column. Linear in the text.
-MaterialUses checkObjLines(const std::string& file, std::string_view bytes, WarningsByKind& warnings);
+/// not known. Throws Error(Fault::scene) with line and column. Linear in the text. `lines` are the bytes with
+/// continued lines made one.
+ObjNames checkObjLines(const std::string& file, std::string_view bytes, std::string_view lines,
+                       WarningsByKind& warnings);
 
 }  // namespace trace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "base/text.h"
@@ -41,6 +42,32 @@ inline bool isFloat(std::string_view word) {
   const auto number = parseNumber(word);
   return number && number->length == word.size() &&
          std::abs(number->value) <= std::numeric_limits<float>::max();
+}
+
+/// The text with continued lines made one: a \ at the end of a line, and that end, become blanks, so that
+/// every byte stays where it was. A comment is not continued, for it may end in a path. `room` holds what is
+/// new.
+inline std::string_view joinedLines(std::string_view text, std::string& room) {
+  if (text.find('\\') == text.npos) return text;
+  room = text;
+  bool inComment = false;
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    inComment = room[i] == '#' || (inComment && room[i] != '\n');
+    if (room[i] != '\\' || inComment) continue;
+    std::size_t end = i + 1;
+    if (end < room.size() && room[end] == '\r') ++end;
+    if (end < room.size() && room[end] != '\n') continue;
+    room.replace(i, std::min(end + 1, room.size()) - i, std::min(end + 1, room.size()) - i, ' ');
+  }
+  return room;
+}
+
+/// Why the word is not one: `expected a number, found "red"`.
+inline std::string notAFloat(std::string_view word) {
+  const auto number = parseNumber(word);
+  const bool tooLarge = number && number->length == word.size();
+  return std::string(tooLarge ? "expected a finite number of at most 3.4e38" : "expected a number") +
+         ", found \"" + std::string(word.substr(0, 40)) + "\"";
 }
 
 /// Calls visit(line) for each line of the text.

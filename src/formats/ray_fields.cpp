@@ -26,9 +26,11 @@ bool read(Findings& findings, std::string_view name, const Item& value, Real& to
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, int& to) {
-  constexpr double kMost = 1e9;
-  if (!value.is(Kind::number) || value.number() != std::floor(value.number()) ||
-      std::abs(value.number()) > kMost)
+  if (value.is(Kind::number) && !fitsInt(value.number()))
+    return findings.expected(value, name,
+                             "a whole number from " + toText(-kMostWhole) + " to " + toText(kMostWhole)),
+           false;
+  if (!value.is(Kind::number) || value.number() != std::floor(value.number()))
     return findings.expected(value, name, "a whole number"), false;
   to = static_cast<int>(value.number());
   return true;
@@ -86,7 +88,7 @@ bool assignField(Findings& findings, Shape& target, const Item& field) {
   editEachField(target, [&](const AnyField& f, auto& value) {
     if (f.keyword != key) return;
     found = true;
-    read(findings, f.keyword, field.value(), value);
+    readField(findings, f, field.value(), value);
   });
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -18,6 +19,10 @@
 #include "math/vec.h"
 
 namespace trace::rayfile {
+
+/// Whole numbers in a file are at most this, and at least minus this.
+inline constexpr double kMostWhole = 1e9;
+inline bool fitsInt(double number) { return std::abs(number) <= kMostWhole; }
 
 /// Each reads one value of the field `name`; reports what else was found and returns false.
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to);
@@ -109,6 +114,16 @@ bool numbers(const Item& tuple, Real* to, int count);
 /// The keyword that `word` is a synonym of, or `word`.
 std::string_view canonical(std::string_view word);
 
+/// read() of the value of the field `f`, whose range is said of a whole number that no int can hold.
+template <class Field, class Value>
+void readField(Findings& findings, const Field& f, const Item& value, Value& to) {
+  if constexpr (std::is_same_v<Value, int>)
+    if (value.is(Kind::number) && !fitsInt(value.number()) && f.most != kNoLimit)
+      return findings.expected(value, f.keyword,
+                               "a whole number from " + toText(f.least) + " to " + toText(f.most));
+  read(findings, f.keyword, value, to);
+}
+
 /// Objects are read as objects, materials as materials.
 inline bool read(Findings&, std::string_view, const Item&, Operands&) { return true; }
 inline bool read(Findings&, std::string_view, const Item&, MaterialList&) { return true; }
@@ -121,7 +136,7 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   forEachField<Struct>([&](const auto& f) {
     if (f.keyword != key) return;
     found = true;
-    read(findings, f.keyword, field.value(), target.*f.member);
+    readField(findings, f, field.value(), target.*f.member);
   });
   return found;
 }

@@ -144,6 +144,18 @@ void Findings::finish() {
   textures_.report(messages_, "white, or the second value of map(\"file\", (r, g, b)),");
 }
 
+std::optional<Item> blockOf(Findings& findings, const Item& call) {
+  if (call.value().is(Kind::block)) return call.value();
+  findings.expected(call.value(), call.key(), "{ ... }");
+  return {};
+}
+
+bool isField(Findings& findings, const Item& item, std::string_view owner) {
+  if (item.keyed()) return true;
+  findings.expected(item, owner, "a field, as in name = value");
+  return false;
+}
+
 void RepeatedFields::note(const Item& field) {
   const std::string_view key = field.key();
   if (std::find(given_.begin(), given_.end(), key) == given_.end()) return given_.push_back(key);

@@ -99,6 +99,11 @@ class RepeatedFields {
   std::vector<std::string_view> given_;
 };
 
+/// The block of `name { ... }`; reports other brackets.
+std::optional<Item> blockOf(Findings& findings, const Item& call);
+/// Reports an item that is no field.
+bool isField(Findings& findings, const Item& item, std::string_view owner);
+
 /// Does `keyword` belong to a relative of the format, so that "did you mean" would be wrong?
 bool isRelative(std::string_view keyword);
 

@@ -113,8 +113,16 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     findings_.noteShininess(*block.shininess, block.phong.shininess);
   markUsed(inherited.name);
   NotedMaterial result = noted(std::move(block.material), value, inherited);
-  if (!result.name.empty())
-    named_.insert_or_assign(result.name, Named{result, findings_.syntax().shortPlace(value.offset())});
+  if (result.name.empty()) return result;
+  Named named{result, findings_.syntax().shortPlace(value.offset())};
+  if (const auto before = named_.find(result.name); before != named_.end()) {
+    const Material& other = before->second.material;
+    if (before->second.place != named.place && other != result)
+      findings_.warn(value, "a second material is called \"" + result.name.substr(0, 60) +
+                                "\": it counts from here on, that of line " +
+                                std::to_string(before->second.place.line) + " no longer");
+  }
+  named_.insert_or_assign(result.name, std::move(named));
   return result;
 }
 

@@ -1,13 +1,23 @@
 #include "formats/ray_shape_checks.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "base/text.h"
+#include "geometry/cone.h"
+#include "geometry/conic.h"
+#include "geometry/disk.h"
 #include "geometry/height_field.h"
 #include "geometry/isosurface.h"
+#include "geometry/julia.h"
 #include "geometry/lathe.h"
+#include "geometry/mandelbox.h"
+#include "geometry/metaballs.h"
 #include "geometry/prism.h"
 #include "geometry/quadric.h"
+#include "geometry/rounded_box.h"
 #include "geometry/sphere_sweep.h"
 #include "geometry/sweep.h"
 #include "math/expression.h"
@@ -59,6 +69,45 @@ void checkFormula(const Tell& tell, const std::string& formula, const Vec3& low,
        "log and / need a number that is not negative, or not 0");
 }
 
+/// Of lists, whose fields have no range: the number at `index` of each is a length.
+template <std::size_t N>
+void checkLengths(const Tell& tell, std::string_view list, const std::vector<std::array<Real, N>>& tuples,
+                  std::size_t index, std::string_view length) {
+  for (const std::array<Real, N>& tuple : tuples)
+    if (tuple[index] < 0)
+      return tell(std::string(list) + ": expected " + std::string(length) + " of at least 0, found " +
+                      toText(tuple[index]) + "; the sign is ignored",
+                  {});
+}
+
+/// Values that the shape's geometry cannot mean although each is in its range.
+void checkMeaning(const Shape& shape, const Tell& tell) {
+  if (const auto* sweep = shape.as<SphereSweep>()) checkLengths(tell, "points", sweep->points, 3, "radii");
+  if (const auto* lathe = shape.as<Lathe>())
+    checkLengths(tell, "profile", lathe->profile, 0, "distances from the axis");
+  if (const auto* metaballs = shape.as<Metaballs>()) {
+    checkLengths(tell, "balls", metaballs->balls, 3, "radii");
+    checkLengths(tell, "capsules", metaballs->capsules, 6, "radii");
+  }
+  if (const auto* conic = shape.as<Conic>(); conic && conic->zMin > conic->zMax)
+    tell("conic: expected z_min below z_max, found " + toText(conic->zMin) + " and " + toText(conic->zMax) +
+             "; it begins at the upper end",
+         {});
+  if (const auto* disk = shape.as<Disk>();
+      disk && disk->innerRadius >= std::abs(disk->radius) && disk->radius != 0)
+    tell("disk: nothing of it can be seen, for the hole is as large as the disk", {});
+  if (const auto* box = shape.as<Mandelbox>(); box && std::abs(box->scale) < 1.1)
+    tell("scale of mandelbox: expected one farther from 0 than 1.1, found " + toText(box->scale) +
+             "; it becomes " + (std::signbit(box->scale) ? "-1.1" : "1.1"),
+         {});
+  if (const auto* box = shape.as<RoundedBox>();
+      box && std::abs(box->radius) > std::min({box->size.x, box->size.y, box->size.z}) / 2)
+    tell("radius of rounded_box: expected at most half of the least width, found " + toText(box->radius), {});
+  if (const auto* julia = shape.as<Julia>();
+      julia && std::all_of(julia->normal.begin(), julia->normal.end(), [](Real n) { return n == 0; }))
+    tell("normal of julia: expected a direction, found one of length 0; it becomes (0, 0, 0, 1)", {});
+}
+
 void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, bool solid) {
   const Vec3 size = bounds.size();
   int flat = 0;
@@ -69,7 +118,39 @@ void checkSize(const Tell& tell, std::string_view keyword, const Box3& bounds, b
         {});
 }
 
+// --- repairs
+
+/// The courses take the absolute value of a radius, and their cones are never quite cylinders: a slope of
+/// less than 0.001 becomes 0.001, widening upward. A cone of height h < 0 reaches from z = 0 down to z = h:
+/// it is the mirror image of the cone of height -h, and the mirror goes into the transform.
+std::string_view repair(Cone& cone, Affine& worldFromObject) {
+  cone.bottomRadius = std::abs(cone.bottomRadius);
+  cone.topRadius = std::abs(cone.topRadius);
+  if (cone.height < 0) {
+    cone.height = -cone.height;
+    worldFromObject = worldFromObject * Affine::scaling({1, 1, -1});
+  }
+  if (cone.height == 0) return "a cone of height 0 is left out";
+  if (cone.bottomRadius == 0 && cone.topRadius == 0) return "a cone of radius 0 is left out";
+  constexpr Real kLeastSlope = 0.001;
+  if (std::abs(cone.topRadius - cone.bottomRadius) < kLeastSlope * cone.height)
+    cone.topRadius = cone.bottomRadius + kLeastSlope * cone.height;
+  return {};
+}
+
+std::string_view repair(const Conic& conic) {
+  if (conic.zMin == conic.zMax) return "a conic of height 0 is left out";
+  if (conic.bottomRadius == 0 && conic.topRadius == 0) return "a conic of radius 0 is left out";
+  return {};
+}
+
 }  // namespace
+
+std::string_view repair(Shape& shape, Affine& worldFromObject) {
+  if (auto* cone = shape.edit<Cone>()) return repair(*cone, worldFromObject);
+  if (const auto* conic = shape.as<Conic>()) return repair(*conic);
+  return {};
+}
 
 void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
   if (const auto* lathe = shape.as<Lathe>())
@@ -89,6 +170,7 @@ void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
     checkFormula(tell, surface->formula, surface->low, surface->high);
   if (const auto* field = shape.as<HeightField>(); field && field->file.file.empty())
     checkFormula(tell, field->formula, {-1, -1, 0}, {1, 1, 0});
+  checkMeaning(shape, tell);
   checkSize(tell, shape.keyword(), form.bounds(), form.solid());
 }
 

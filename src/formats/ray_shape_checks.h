@@ -4,12 +4,17 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "geometry/traced.h"
+#include "math/transform.h"
 
 namespace trace::rayfile {
 
 using Tell = std::function<void(std::string what, std::string hint)>;
+
+/// Makes a shape with its transform one that can be traced. Returns why it cannot be, or "".
+std::string_view repair(Shape& shape, Affine& worldFromObject);
 
 /// `form` is what prepare() made of the shape.
 void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell);

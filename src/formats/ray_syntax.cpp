@@ -159,7 +159,9 @@ class Parser {
     } else if (atEnd()) {
       failAtEnd(expected, {});
     } else {
-      fail(at_, std::string("expected ") + expected + ", found " + shown(peek()));
+      const std::string_view text = textAt(at_);
+      fail(at_, std::string("expected ") + expected + ", found " + shown(peek()),
+           looksLikeFile(text) ? quotesHint(text) : std::string());
     }
   }
 
@@ -210,6 +212,7 @@ class Parser {
                       " characters in a word, found " + std::to_string(at_ - start));
     nodes_[node].quoted = quotes;
     close(node);
+    if (!quotes && !atEnd() && std::string_view("./\\:").find(peek()) != kNone) refuseName(start);
     return node;
   }
 
@@ -221,8 +224,11 @@ class Parser {
     const bool glued = !atEnd() && (isWordPart(peek()) || peek() == '.' || peek() == '+');
     if (!parsed || glued) {
       while (!atEnd() && (isWordPart(peek()) || peek() == '.' || peek() == '+')) ++at_;
-      fail(start, "expected a number, found " +
-                      quoted(source_.substr(start, std::min<std::size_t>(at_ - start, 40))));
+      const std::string_view text = textAt(start);
+      fail(
+          start,
+          "expected a number, found " + quoted(source_.substr(start, std::min<std::size_t>(at_ - start, 40))),
+          looksLikeFile(text) ? quotesHint(text) : std::string());
     }
     if (!std::isfinite(parsed->value))
       fail(start, "expected a finite number, found " +
@@ -233,6 +239,28 @@ class Parser {
   }
 
   // --- errors ---
+
+  /// What stands at `start`, up to a blank or a mark of the grammar.
+  std::string_view textAt(std::size_t start) const {
+    const std::string_view rest = source_.substr(start);
+    return rest.substr(0, rest.find_first_of(" \t\r\n;,(){}=\""));
+  }
+  bool looksLikeFile(std::string_view text) const {
+    const std::size_t mark = text.find_first_of("./\\:");
+    const bool comment = text.find("//") == mark || text.find("/*") == mark;
+    return mark != kNone && !comment &&
+           std::any_of(text.begin() + static_cast<std::ptrdiff_t>(mark), text.end(), isLetter);
+  }
+  /// Where `text` looks like the name of a file.
+  static std::string quotesHint(std::string_view text) {
+    return "the name of a file stands in quotation marks, as in \"" + std::string(text.substr(0, 60)) + "\"";
+  }
+  /// Fails if the word at `start` is the beginning of a file's name.
+  void refuseName(std::size_t start) const {
+    const std::string_view text = textAt(start);
+    if (looksLikeFile(text))
+      fail(start, "expected a value, found " + quoted(text.substr(0, 40)), quotesHint(text));
+  }
 
   [[noreturn]] void fail(std::size_t offset, std::string what, std::string hint = {}) const {
     throw Error(Fault::scene, syntax_.place(offset), std::move(what), std::move(hint));

@@ -80,6 +80,15 @@ std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata
 }
 Picture decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);
+  // stb takes a PNG that is too large for one of another type.
+  constexpr std::size_t kWidth = 16, kHeight = 20;
+  const auto number = [&](std::size_t at) {
+    std::int64_t value = 0;
+    for (char c : bytes.substr(at, 4)) value = value << 8 | static_cast<unsigned char>(c);
+    return value;
+  };
+  if (bytes.size() >= kHeight + 4)
+    checkClaimedSize(number(kWidth), number(kHeight), bytes.size(), kPackedPixelsPerByte, limits);
   return decodeByStb(bytes, limits);
 }
 Metadata noMetadata(std::string_view) { return {}; }

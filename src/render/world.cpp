@@ -163,7 +163,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   for (const Object& object : scene.objects) {
     work.reached(static_cast<std::int64_t>(boxes.size()));
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
-    World::Instance instance{.shape = same ? same->shape : prepared(object, earlier.operandTrees())};
+    World::Instance instance(same ? same->shape : prepared(object, earlier.operandTrees()));
     instance.kind = static_cast<std::uint32_t>(object.shape.type().index);
     const bool flat = !invertible(object.worldFromObject),
                round = settings.roundSpheres && object.shape.is<Sphere>();

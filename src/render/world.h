@@ -132,7 +132,9 @@ class World {
   friend World compile(const Scene&, const Settings&, Messages&, const Compiled*);
   class Earlier;
 
-  struct Instance {          // what queries need stands together
+  struct Instance {  // what queries need stands together
+    explicit Instance(TracedShape traced) : shape(std::move(traced)) {}
+
     std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
     bool convex = false;

@@ -199,6 +199,31 @@ TEST(Lint, ALightThatIsWeakHereMayBeStrongElsewhere) {
       << "a light that is switched off";
 }
 
+TEST(Lint, ASpotLightMayShineOnNothing) {
+  const Folder folder;
+  const auto said = [&](const std::string& spot, const std::string& rest = "") {
+    writeFile(
+        folder / "a.ray",
+        "SBT-raytracer 1.0\ncamera { position = (0, 1, 6); look_at = (0, 0.5, 0); fov = 40; }\n"
+        "spot_light { position = (0, 5, 5); angle = 20; " +
+            spot + " }\n" +
+            "sphere { name = \"ball\"; material = { diffuse = (0.8, 0.8, 0.8); ambient = (1, 1, 1); } }\n" +
+            rest);
+    return names(lintFile(folder / "a.ray"));
+  };
+  const std::string onNothing = "unlit: the spot light shines on nothing: no object is in its cone\n";
+  const std::string ambient = "ambient_light { color = (1, 1, 1); }\n";
+  EXPECT_EQ(said("direction = (0, -1, -1); color = (1, 1, 1);"), "");
+  EXPECT_EQ(said("direction = (0, 0, 1); color = (1, 1, 1);"), onNothing);
+  EXPECT_EQ(said("direction = (0, 0, 1); color = (1, 1, 1);", ambient), onNothing);
+  EXPECT_EQ(said("direction = (0, 0, 1); color = (0, 0, 0);", ambient), "");
+  EXPECT_EQ(
+      said("direction = (0, 0, 1); color = (1, 1, 1);",
+           "translate(0, 5, 20, sphere { name = \"other\"; material = { diffuse = (1, 1, 1); } })"),
+      "unlit: \"ball\" is seen, but no light reaches what is seen of it: it is black; it is outside the "
+      "cone of the spot light\n");
+}
+
 TEST(Lint, ACameraThatMaySeeSomethingSmallDoesNotLookAway) {
   const std::string eye = "camera { position = (0, 0, 6); updir = (0, 1, 0.1); viewdir = ";
   const std::string speck = "translate(0.013, 0.017, 0, scale(0.001, " + kBall + "))\n";

@@ -119,6 +119,45 @@ TEST(BrokenFiles, Ray) {
       {"a.ray", ray("ellipsoid { radii = (1, 0, 1); }"), "warning ellipsoid: nothing of it can be seen"},
       {"a.ray", ray("disk { radius = 0; }"), "warning disk: nothing of it can be seen"},
       {"a.ray", ray("torus { major_radius = -1; }"), "warning major_radius of torus: expected at least 0"},
+      {"a.ray", ray("cone { bottom_radius = -2; }"),
+       "warning bottom_radius of cone: expected at least 0, found -2"},
+      {"a.ray", ray("cone { height = 1; top_radius = -2; }"),
+       "warning top_radius of cone: expected at least 0, found -2"},
+      {"a.ray", ray("conic { z_min = 2; z_max = 1; }"),
+       "warning conic: expected z_min below z_max, found 2 and 1"},
+      {"a.ray", ray("disk { radius = 1; inner_radius = 2; }"),
+       "warning disk: nothing of it can be seen, for the hole is as large"},
+      {"a.ray", ray("mandelbox { scale = 0.5; }"),
+       "warning scale of mandelbox: expected one farther from 0 than 1.1, found 0.5; it becomes 1.1"},
+      {"a.ray", ray("rounded_box { radius = 9; }"),
+       "warning radius of rounded_box: expected at most half of the least width, found 9"},
+      {"a.ray", ray("julia { normal = (0, 0, 0, 0); }"), "warning normal of julia: expected a direction"},
+      {"a.ray", ray("sphere_sweep { points = ((0,0,0,1), (1,0,0,-2)); spline = linear; }"),
+       "warning points: expected radii of at least 0, found -2; the sign is ignored"},
+      {"a.ray", ray("lathe { profile = ((-1, 0), (-1, 1)); spline = linear; }"),
+       "warning profile: expected distances from the axis of at least 0, found -1"},
+      {"a.ray", ray("metaballs { balls = ((0,0,0,-3,1)); }"),
+       "warning balls: expected radii of at least 0, found -3"},
+      {"a.ray", ray("metaballs { capsules = ((0,0,0,1,1,1,-3,1)); }"),
+       "warning capsules: expected radii of at least 0, found -3"},
+      {"a.ray", ray("julia { iterations = 2000000000; }"),
+       "error iterations: expected a whole number from 1 to 50, found 2000000000"},
+      {"a.ray", ray("terrain { seed = 2000000000; }"),
+       "error seed: expected a whole number from -1000000000 to 1000000000, found 2000000000"},
+      {"a.ray", ray("mesh { file = o.obj; }"),
+       "error expected a value, found \"o.obj\" [the name of a file stands in quotation marks, as in "
+       "\"o.obj\"]"},
+      {"a.ray", ray("mesh { file = meshes/o.obj; }"), "error as in \"meshes/o.obj\"]"},
+      {"a.ray", ray("mesh { file = ../o.obj; }"), "error as in \"../o.obj\"]"},
+      {"a.ray", ray("mesh { file = 3d.obj; }"), "error as in \"3d.obj\"]"},
+      {"a.ray", ray("mesh { file = C:\\o.obj; }"), "error as in \"C:\\o.obj\"]"},
+      {"a.ray", ray("sphere { material = { diffuse = map(wood.png); } }"), "error as in \"wood.png\"]"},
+      {"a.ray",
+       ray("material { name = a; diffuse = (1, 0, 0); }\nmaterial { name = a; diffuse = (0, 1, 0); }\n"
+           "sphere { material = a; }"),
+       "warning a second material is called \"a\": it counts from here on, that of line 4 no longer"},
+      {"a.ray", ray("transform((1,0,0,0), (0,1,0,0), (0,0,1,0), (1,0,0,2), sphere { })"),
+       "warning transform: expected a last row of (0, 0, 0, 1), found (1,0,0,2); it is ignored"},
       {"a.ray", ray("polymesh { points = ((0,0,0), (1,0,0), (0,1,0)); }"), "warning it has no faces"},
       {"a.ray", ray("polymesh { points = ((0,0,0)); points = ((1,1,1)); }"),
        "warning points of polymesh given again"},
@@ -159,6 +198,10 @@ TEST(BrokenFiles, Ray) {
   });
   EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { diffuse = 1; transmissive = 0; } }")), "");
   EXPECT_EQ(said("a.ray", ray(glass + "sphere { material = { shininess = 30; } }")), "");
+  EXPECT_EQ(said("a.ray", ray("cone { height = -2; }")), "");
+  EXPECT_EQ(said("a.ray", ray("sphere//a comment\n{ name=ball/* of glass */; }")), "");
+  const std::string twice = "sphere { material = { name = a; diffuse = (1, 0, 0); } }\n";
+  EXPECT_EQ(said("a.ray", ray(twice + twice)), "");
 }
 
 // --- British Columbia
@@ -261,6 +304,14 @@ TEST(BrokenFiles, Composer) {
        "warning an object without size is left out"},
       {"a.out", composer("sphere { name NULL\n numMaterials 0 wobble 3 }"),
        "warning \"wobble\" is not known"},
+      {"a.out", composer("sphere { name NULL\n numMaterials 0 radus 3 }"),
+       "warning \"radus\" is not known and is skipped [did you mean \"radius\"?]"},
+      {"a.out", composer(ball + "difColor 1 1 1 } }"),
+       "warning \"difColor\" is not known and is skipped [did you mean \"diffColor\"?]"},
+      {"a.out", composer("pont_light { color 1 1 1 }"),
+       "warning \"pont_light\" is not known and is skipped [did you mean \"point_light\"?]"},
+      {"a.out", polygons("normTyp PER_VERTEX_NORMAL numPolys 1 " + std::string(kTriangle)),
+       "error expected a field of a poly_set, found \"normTyp\" [did you mean \"normType\"?]"},
       {"a.out", composer(ball + "ktran 2 } }"), "warning ktran of a material: expected 0 to 1, found 2"},
       {"a.out", composer(ball + "shininess -1 } }"),
        "warning shininess of a material: expected 0 to 1, found -1"},
@@ -305,6 +356,17 @@ TEST(BrokenFiles, Inventor) {
       {"a.iv", iv("Sphere { radius 1 2 }"), "warning radius of Sphere: expected a number, found 2"},
       {"a.iv", iv("Sphere { radios 2 }"),
        "warning unknown field \"radios\" of Sphere is ignored [did you mean \"radius\"?]"},
+      {"a.iv", iv("Spere { radius 2 }"),
+       "warning \"Spere\" is not rendered and is left out [did you mean \"Sphere\"?]"},
+      {"a.wrl", vrml2("IndexdFaceSet { }"), "warning left out [did you mean \"IndexedFaceSet\"?]"},
+      {"a.wrl", vrml2("Sphere { }", "apearance Appearance { }"),
+       "warning unknown field \"apearance\" of Shape is ignored [did you mean \"appearance\"?]"},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { materal Material { } }"),
+       "warning unknown field \"materal\" of Appearance is ignored [did you mean \"material\"?]"},
+      {"a.wrl", vrml2("Sphere { }", "appearance Apearance { }"),
+       "warning \"Apearance\" is not known [did you mean \"Appearance\"?]"},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { material Materal { } }"),
+       "warning \"Materal\" is not known [did you mean \"Material\"?]"},
       {"a.wrl", vrml2("Box { size 1 2 }"), "warning size of Box: expected 3 numbers, found 2"},
       {"a.wrl", vrml2("Box { size 1 2 0 }"), "warning size of Box: expected a number above 0, found 0"},
       {"a.wrl", vrml2("Cone { bottom banana }"), "warning bottom of Cone: expected TRUE or FALSE"},
@@ -388,6 +450,10 @@ TEST(BrokenFiles, Obj) {
           {"a.obj", triangle + "usemtl\n" + face, "warning usemtl: expected the name of a material"},
           {"a.obj", triangle, "warning the file has no triangle that can be seen"},
           {"a.obj", triangle + "f 1 2 9\n", "error uses point 9"},
+          {"a.obj", triangle + "f 1 2 99999999999\n", "error uses point 99999999999, but there are 3 points"},
+          {"a.obj", triangle + "v 1e39 0 0\n" + face,
+           "error expected a finite number of at most 3.4e38, found \"1e39\""},
+          {"a.obj", triangle + "f 1 2 \\ \n3\n", "error expected a corner"},
       },
       folder.path() + "/");
 
@@ -395,6 +461,7 @@ TEST(BrokenFiles, Obj) {
       {"Kd red 0 0", "warning Kd: expected a number, found \"red\""},
       {"Kd 1 0", "warning Kd: expected 3 numbers, found 2"},
       {"Kd 255 0 0", "warning Kd: expected 0 to 1, found 255"},
+      {"Kd 1e39 0 0", "warning Kd: expected a finite number of at most 3.4e38, found \"1e39\""},
       {"Ns -5", "warning Ns: expected at least 0, found -5"},
       {"Ni 0", "warning Ni: expected at least 0.001, found 0"},
       {"d 5", "warning d: expected 0 to 1, found 5"},
@@ -420,6 +487,29 @@ TEST(BrokenFiles, Obj) {
   expectSaid(
       {{"a.obj", "mtllib a.mtl\n" + triangle + face, "warning expected \"newmtl\" before the first line"}},
       folder.path() + "/");
+}
+
+TEST(BrokenFiles, ObjTellsWhere) {
+  const test::Folder folder;
+  const std::string triangle = "v 0 0 0\nv 1 \\\n0 0\nv 0 1 0\n";
+  const auto place = [&](const std::string& text) {
+    Messages messages;
+    Message first;
+    try {
+      readScene(folder / "a.obj", text, messages);
+      first = messages.all().at(0);
+    } catch (const Error& error) {
+      first = error.messages().front();
+    }
+    return std::to_string(first.place.line) + ":" + std::to_string(first.place.column);
+  };
+  EXPECT_EQ(place(triangle + "f 1 2 9\n"), "5:7");
+  EXPECT_EQ(place(triangle + "f 1 \\\r\n2 -4\n"), "6:3");
+  EXPECT_EQ(place(triangle + "f 1 2 0\n"), "5:7");
+  EXPECT_EQ(place(triangle + "f 1/1 2/1 3/1\n"), "5:3");
+  EXPECT_EQ(place(triangle + "mtllib a.mtl none.mtl\nf 1 2 3\n"), "5:8");
+  writeFile(folder / "a.mtl", "newmtl \\\nm\nKd 1 \\\n red 0\n");
+  EXPECT_EQ(place(triangle + "mtllib a.mtl\nusemtl m\nf 1 2 3\n"), "4:2");
 }
 
 // --- PLY, OFF, STL
@@ -557,6 +647,29 @@ TEST(BrokenFiles, Gltf) {
       {"a.gltf", gltf("\"POSITION\": 0", "\"NORMAL\": 0"), "warning has no POSITION"},
       {"a.gltf", gltf("\"POSITION\": 0", "\"POSITION\": 8"),
        "error POSITION: expected a number of one of the 1 accessors"},
+      {"a.gltf", gltf("\"POSITION\"", "\"POSITON\""),
+       "warning unknown attribute \"POSITON\" of meshes[0].primitives[0].attributes is ignored [did you mean "
+       "\"POSITION\"?]"},
+      {"a.gltf", gltf("\"mesh\": 0", "\"children\": [0]"), "error nodes[0]: it is its own child"},
+      {"a.gltf", gltf("{\"mesh\": 0,", "{\"children\": [1]}, {\"children\": [0],"),
+       "error nodes[0]: it stands below itself: it is a child of nodes[1]"},
+      {"a.gltf", gltf("{\"mesh\": 0,", "{\"children\": [1, 2]}, {\"children\": [2]}, {\"mesh\": 0,"),
+       "error nodes[2]: expected one parent, found two, nodes[1] and nodes[0]"},
+      {"a.gltf", gltf("\"count\": 3", "\"count\": 99999999999999999999999"),
+       "error accessors[0].count: expected a whole number that 64 bits can hold, found 9.9"},
+      {"a.gltf", gltf("\"count\": 3", "\"count\": -3"),
+       "error accessors[0].count: expected a whole number of at least 1, found -3"},
+      {"a.gltf", gltf("5126", "99999999999999"), "error accessors[0].componentType: expected 5120 to 5126"},
+      {"a.gltf", gltf("\"byteLength\": 36}]", "\"byteLength\": 1.5}]"),
+       "error bufferViews[0].byteLength: expected a whole number"},
+      {"a.gltf", gltf("\"byteLength\": 36, \"uri\"", "\"byteLength\": 360, \"uri\""),
+       "error buffers[0].uri: expected the 360 bytes that byteLength says, found 36"},
+      {"a.gltf", gltf("\"byteLength\": 36, \"uri\"", "\"byteLength\": \"lots\", \"uri\""),
+       "error buffers[0].byteLength: expected a whole number above 0, found \"lots\""},
+      {"a.gltf", gltf("base64,AAAA", "base64,AAA!"),
+       "error buffers[0].uri: expected digits of base64, found \"!\" after 3 of them"},
+      {"a.gltf", gltf("data:application", "data:banana"),
+       "error buffers[0].uri: expected \"data:application/octet-stream;base64,\" before the bytes"},
       {"a.gltf", gltf("\"count\": 3", "\"count\": 2"), "warning make no whole triangle"},
       {"a.gltf", gltf("\"type\": \"VEC3\"", "\"type\": \"VEC9\""), "error accessors[0].type"},
       {"a.gltf", gltfLight("\"type\": \"banana\""), "error type: expected one of directional, point, spot"},
@@ -576,6 +689,36 @@ TEST(BrokenFiles, Gltf) {
                    "\"image/png\", \"name\": \"dents\"}], "),
        "warning the texture \"dents (inside the file)\" is not rendered yet"},
   });
+}
+
+TEST(BrokenFiles, GltfTellsWhereItsJsonIsBroken) {
+  const auto fails = [](const std::string& change, const std::string& by) {
+    Messages messages;
+    try {
+      readScene("a.gltf", gltf(change, by), messages);
+    } catch (const Error& error) {
+      return toString(error.messages().front());
+    }
+    return std::string("no error");
+  };
+  const auto expect = [](const std::string& text, std::string_view start, std::string_view hint = {}) {
+    EXPECT_TRUE(text.starts_with(start)) << text;
+    EXPECT_NE(text.find(hint), text.npos) << text;
+  };
+  expect(fails("\"rotation\"", "rotation"),
+         "a.gltf:2:24: error: expected a name in quotation marks, found \"rotation\"");
+  expect(fails("0, 1]}],", "0, 1],}],"),
+         "a.gltf:2:49: error: expected a name in quotation marks, found \"}\"",
+         "JSON allows no comma after the last element");
+  expect(fails("[0, 0, 0, 1]", "[0, 0, 0 1]"), "a.gltf:2:45: error: expected ']', found \"1\"");
+  expect(fails("\"mode\": 4", "\"mode\": 1e400"),
+         "a.gltf:4:84: error: expected a number of at most 1.8e308, found \"1e400\"");
+  expect(fails("\"materials\"", "// looks\n\"materials\""), "a.gltf:3:2: error: expected",
+         "JSON has no comments");
+  expect(fails("\"OPAQUE\"", "OPAQUE"), "a.gltf:3:77: error: expected a value, found \"OPAQUE\"");
+  expect(fails("\"OPAQUE\"", "\"OPAQUE"), "a.gltf:3:77: error: expected a quotation mark at the end");
+  expect(fails("AACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}", "\"}]"),
+         "a.gltf:7:97: error: expected '}', found the end of the file");
 }
 
 // --- all formats

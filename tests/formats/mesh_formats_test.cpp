@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "geometry/mesh.h"
 #include "mesh_helpers.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace {
@@ -94,12 +95,32 @@ TEST(Obj, SaysWhereANumberIsNone) {
   };
   EXPECT_EQ(error("v 0 0 0\nv 1 1x 0\n"), "2:5: expected a number, found \"1x\"");
   EXPECT_EQ(error("v 0 0\n"), "1:1: expected 3 numbers after \"v\", found 2");
-  EXPECT_EQ(error("v 0 0 1e39 # too far\n"), "1:7: expected a number, found \"1e39\"");
+  EXPECT_EQ(error("v 0 0 1e39 # too far\n"),
+            "1:7: expected a finite number of at most 3.4e38, found \"1e39\"");
   EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3/\n"),
             "4:7: expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"3/\"");
   EXPECT_NE(warningsOfFile("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n")
                 .find("4:1: a face of fewer than 3 points is left out"),
             std::string::npos);
+}
+
+TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
+  const test::Folder folder;
+  writeFile(folder / "a.mtl", "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nd 0\n");
+  const std::string triangle = "# a comment that ends in C:\\\nv 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\n";
+  const auto read = [&](const std::string& rest) {
+    Messages messages;
+    const Scene scene = readScene(folder / "a.obj", "mtllib a.mtl\n" + triangle + rest, messages);
+    EXPECT_TRUE(messages.all().empty()) << toString(messages.all().front());
+    return scene;
+  };
+  const Scene scene = read("usemtl \\\ngrey\nf 1 2 \\\n3 \\");
+  EXPECT_EQ(scene, scene);
+  ASSERT_EQ(meshOf(scene).triangles.size(), 1u);
+  EXPECT_EQ(meshOf(scene).points.at(1), (Vec3f{1, 0, 0}));
+  const auto& phong = std::get<Phong>(scene.materials.at(scene.objects.at(0).material).model);
+  EXPECT_EQ(phong.ambient, Color(Real(0.1f), Real(0.2f), Real(0.3f)));
+  EXPECT_EQ(phong.transmissive, Color(0.25));
 }
 
 TEST(Obj, DoesWithoutItsMaterials) { EXPECT_EQ(read("obj/no_materials.obj", 1).objects.size(), 1u); }

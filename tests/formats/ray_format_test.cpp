@@ -170,7 +170,9 @@ TEST(RayFormat, MakesConesOfNegativeSizePositive) {
   EXPECT_EQ(radii.bottomRadius, 2);
   EXPECT_EQ(radii.topRadius, 0.5);
   EXPECT_FALSE(radii.capped);
-  EXPECT_EQ(warningsOf("cone { bottom_radius = -2; height = -3; }"), "");
+  EXPECT_EQ(warningsOf("cone { height = -3; }"), "");
+  EXPECT_EQ(warningsOf("cone { bottom_radius = -2; height = -3; }"),
+            "2:8: bottom_radius of cone: expected at least 0, found -2");
 
   // Down from z = 0 to z = -3, the bottom radius still at z = 0.
   const char* down = "translate(0, 0, 5, cone { height = -3; bottom_radius = 2; top_radius = 1; })";
@@ -202,9 +204,12 @@ TEST(RayFormat, ReadsMatricesByRows) {
   EXPECT_EQ(moved(text, {1, 1, 1}), Vec3(16, 25, 31));
   EXPECT_EQ(moved("transform((2,0,0,4),(0,2,0,6),(0,0,2,8),(0,0,0,2),box{})", {1, 1, 1}), Vec3(3, 4, 5));
   EXPECT_EQ(warningsOf("transform((2,0,0,4),(0,2,0,6),(0,0,2,8),(0,0,0,2),box{})"), "");
-  for (const char* row : {"(1, 0, 0, 1)", "(0, 0, 0, 0)"})
-    EXPECT_EQ(warningsOf("transform((1,0,0,0),(0,1,0,0),(0,0,1,0)," + std::string(row) + ",box{})"),
-              "2:41: transform: expected a last row of (0, 0, 0, 1); it is ignored");
+  for (const std::string row : {"(1, 0, 0, 2)", "(0, 0, 0, 0)"}) {
+    const std::string odd = "transform((1,0,0,0),(0,1,0,0),(0,0,1,0)," + row + ",box{})";
+    EXPECT_EQ(moved(odd, {1, 1, 1}), Vec3(1, 1, 1));
+    EXPECT_EQ(warningsOf(odd),
+              "2:41: transform: expected a last row of (0, 0, 0, 1), found " + row + "; it is ignored");
+  }
 }
 
 TEST(RayFormat, LeavesOutObjectsOfSingularTransforms) {

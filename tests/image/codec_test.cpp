@@ -533,6 +533,27 @@ std::string blackPng(std::uint32_t side) {
          chunk("IDAT" + packed.substr(0, length)) + chunk("IEND");
 }
 
+TEST(CodecLimits, TheSizeAndTheLimitAreSaid) {
+  constexpr int kSide = 20'001;
+  const std::size_t bytes = std::size_t{kSide} * kSide / 1000;  // so many that the size may be true
+  for (const PictureFormat& format : pictureFormats()) {
+    std::string file = claiming(format, encodePicture(format, noisyPicture(17, 5)), kSide, kSide);
+    file.append(bytes, format.name == "PPM" ? ' ' : '\0');
+    try {
+      decodePicture(file, "file");
+      ADD_FAILURE() << format.name;
+    } catch (const Error& error) {
+      const std::string what = error.messages().front().what;
+      EXPECT_NE(what.find("20001x20001 pixels"), what.npos) << format.name << ": " << what;
+      EXPECT_TRUE(what.find("allowed are 4096") != what.npos || what.find("not believable") != what.npos)
+          << format.name << ": " << what;
+      if (format.name == "PNG") {
+        EXPECT_EQ(error.fault(), Fault::limit) << what;
+      }
+    }
+  }
+}
+
 TEST(CodecLimits, ALittleFileOfAnImmensePictureIsRefused) {
   const std::string file = blackPng(16384);
   EXPECT_LT(file.size(), 40'000u);
