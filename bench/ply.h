@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace trace::bench {
 

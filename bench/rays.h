@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "view.h"
 
 namespace trace::bench {

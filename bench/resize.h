@@ -1,7 +1,7 @@
 // The same mesh with more or fewer triangles, for how time grows with their number.
 #pragma once
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace trace::bench {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "view.h"
 
 namespace trace::bench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/csg_tree.h"
+#include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 #include "stopwatch.h"
 

@@ -1,5 +1,5 @@
-// The kernel for machines with AVX-512 and its 256-bit forms. Compiled like geometry/mesh_kernel_avx512.cpp;
-// called only where the processor has them.
+// The kernel for machines with AVX-512 and its 256-bit forms. Compiled like
+// geometry/mesh/mesh_kernel_avx512.cpp; called only where the processor has them.
 #include "accel/bvh_kernel.h"
 #include "accel/traverse.h"
 

@@ -6,12 +6,12 @@
 
 #include "base/budget.h"
 #include "base/match.h"
-#include "geometry/cone.h"
-#include "geometry/cube.h"
-#include "geometry/disk.h"
-#include "geometry/mesh.h"
-#include "geometry/plane.h"
-#include "geometry/square.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/disk.h"
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/square.h"
 #include "geometry/traced.h"
 #include "math/transform.h"
 

@@ -7,8 +7,8 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/format.h"
-#include "formats/ray_format.h"
-#include "formats/ray_patch.h"
+#include "formats/ray/ray_format.h"
+#include "formats/ray/ray_patch.h"
 #include "scene/picture_size.h"
 
 namespace trace {

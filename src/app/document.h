@@ -79,9 +79,9 @@ class Document {
   /// The file has values that change with time.
   bool changesWithTime() const { return changesWithTime_; }
   /// Writes the scene, with the options that differ from the file's, as a .ray file, which is the document's
-  /// file from now on: the text that was read, if that was a .ray file, with the edits (formats/ray_patch.h).
-  /// Returns warnings of what was lost. Throws Error, also if the file could not be read again as the same
-  /// scene (app/read_back.h); nothing is written then, and the document stays.
+  /// file from now on: the text that was read, if that was a .ray file, with the edits
+  /// (formats/ray/ray_patch.h). Returns warnings of what was lost. Throws Error, also if the file could not
+  /// be read again as the same scene (app/read_back.h); nothing is written then, and the document stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---

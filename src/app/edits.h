@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "shading/background.h"
-#include "shading/camera.h"
-#include "shading/phong.h"
+#include "shading/cameras/camera.h"
+#include "shading/materials/phong.h"
 
 namespace trace {
 

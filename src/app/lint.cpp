@@ -9,12 +9,12 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "formats/ray_format.h"
-#include "geometry/csg.h"
-#include "geometry/csg_tree.h"
+#include "formats/ray/ray_format.h"
 #include "geometry/field_value.h"
-#include "geometry/mesh.h"
-#include "geometry/mesh_repair.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_repair.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
 
 namespace trace {
 namespace lint_checks {

@@ -7,7 +7,7 @@
 
 #include "app/lint.h"
 #include "app/lint_rays.h"
-#include "formats/ray_remarks.h"
+#include "formats/ray/ray_remarks.h"
 
 namespace trace {
 

@@ -5,7 +5,7 @@
 #include "app/lint_checks.h"
 #include "base/match.h"
 #include "base/text.h"
-#include "geometry/csg_tree.h"
+#include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 #include "math/box.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/budget.h"
 #include "base/match.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "image/tone.h"
 #include "render/pixel.h"
 
@@ -142,7 +142,7 @@ class Surveyor {
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
       return term.light && !isBlack(term.factor * term.value);
     });
-    for (const SpotLight& spot : spots_) seen.outOfCone += !spot.illuminate(node.hit->surface.point);
+    for (const SpotLight& spot : spots_) seen.outOfCone += !spot.illuminate(node.hit->surface.point, world_.rules());
     for (const Term& term : node.terms) {
       if (!term.light) continue;
       Survey::Lamp& lamp = survey_.lights[term.light->light];

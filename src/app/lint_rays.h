@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "image/picture.h"
 #include "render/ray_tree.h"
 #include "render/world.h"

@@ -1,11 +1,12 @@
 // The eye of an interactive view of a scene: turns about a target, moves, comes near; or looks as the scene's
-// own camera does. Both are frames like that of a camera (shading/camera.h), from which one matrix follows.
+// own camera does. Both are frames like that of a camera (shading/cameras/camera.h), from which one matrix
+// follows.
 #pragma once
 
 #include <array>
 
 #include "math/box.h"
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 
 namespace trace {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/transform.h"
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 
 namespace trace {
 

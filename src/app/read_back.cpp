@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "formats/ray_same.h"
-#include "geometry/csg_tree.h"
-#include "geometry/height_field.h"
+#include "formats/ray/ray_same.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/height_field.h"
 
 namespace trace {
 namespace {

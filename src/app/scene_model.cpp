@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/mesh.h"
-#include "geometry/tessellate.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/tessellate.h"
 
 namespace trace {
 namespace {

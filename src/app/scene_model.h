@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/background_task.h"
-#include "geometry/tessellate.h"
+#include "geometry/mesh/tessellate.h"
 #include "math/box.h"
 #include "render/world.h"
 #include "scene/scene.h"

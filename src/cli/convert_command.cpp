@@ -16,9 +16,9 @@
 #include "cli/scene_facts.h"
 #include "cli/watch.h"
 #include "formats/format.h"
-#include "formats/ray_format.h"
-#include "formats/revolve.h"
-#include "geometry/mesh.h"
+#include "formats/mesh/revolve.h"
+#include "formats/ray/ray_format.h"
+#include "geometry/mesh/mesh.h"
 
 namespace trace::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/console.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace trace::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/match.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace trace::cli {
 namespace {

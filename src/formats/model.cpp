@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/match.h"
-#include "geometry/csg_tree.h"
-#include "geometry/mesh.h"
-#include "geometry/mesh_repair.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_repair.h"
+#include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 
 namespace trace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "math/box.h"
 #include "scene/scene.h"
 

@@ -14,10 +14,10 @@
 
 #include "base/field.h"
 #include "base/match.h"
-#include "geometry/csg.h"
-#include "geometry/heights.h"
 #include "geometry/materials.h"
 #include "geometry/shape.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/heights.h"
 #include "math/vec.h"
 
 namespace trace {

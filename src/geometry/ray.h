@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "geometry/surface_uv.h"
+#include "geometry/solve/surface_uv.h"
 #include "math/vec.h"
 
 namespace trace {

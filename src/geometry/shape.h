@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/csg.h"
+#include "geometry/shapes/csg.h"
 
 namespace trace {
 

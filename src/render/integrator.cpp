@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "render/whitted.h"
+#include "render/integrators/whitted.h"
 
 namespace trace {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/match.h"
-#include "geometry/sphere.h"
+#include "geometry/shapes/sphere.h"
 
 namespace trace {
 

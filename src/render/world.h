@@ -13,16 +13,16 @@
 
 #include "accel/bvh.h"
 #include "base/budget.h"
-#include "geometry/approach.h"
 #include "geometry/materials.h"
-#include "geometry/mesh.h"
-#include "geometry/mesh_tree.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_tree.h"
 #include "geometry/placement.h"
+#include "geometry/solve/approach.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
-#include "shading/light.h"
+#include "shading/lights/light.h"
 
 namespace trace {
 

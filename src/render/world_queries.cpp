@@ -2,7 +2,7 @@
 // the hierarchy to a crossing is inlined for each. Forms lie side by side, without a pointer to follow.
 #include "base/budget.h"
 #include "base/match.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "geometry/shape_list.h"
 #include "render/world.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "scene/options.h"
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 
 namespace trace {
 

@@ -13,8 +13,8 @@
 #include "scene/input_files.h"
 #include "scene/options.h"
 #include "shading/background.h"
-#include "shading/camera.h"
-#include "shading/light.h"
+#include "shading/cameras/camera.h"
+#include "shading/lights/light.h"
 #include "shading/material.h"
 
 namespace trace {

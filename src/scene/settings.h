@@ -5,7 +5,7 @@
 
 #include "base/enum_set.h"
 #include "image/tone.h"
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 #include "shading/rules.h"
 
 namespace trace {

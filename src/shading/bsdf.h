@@ -1,7 +1,7 @@
 // What a place of a surface does with light: the material models under the conventions of a render.
 //
-// A material says what a person wrote; its Bsdf is what light meets. Each model has both (shading/phong.h).
-// Directions point away from the surface and are unit vectors.
+// A material says what a person wrote; its Bsdf is what light meets. Each model has both
+// (shading/materials/phong.h). Directions point away from the surface and are unit vectors.
 #pragma once
 
 #include <variant>

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "shading/phong.h"
+#include "shading/materials/phong.h"
 
 namespace trace {
 

@@ -13,7 +13,7 @@
 #include "base/field.h"
 #include "base/text.h"
 #include "geometry/field_value.h"
-#include "geometry/heights.h"
+#include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
 

@@ -4,9 +4,9 @@
 
 #include "app/placing.h"
 #include "base/text.h"
-#include "geometry/csg_tree.h"
 #include "geometry/field_value.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/csg_tree.h"
 #include "studio/field_editor.h"
 #include "studio/number_field.h"
 #include "studio/selection.h"

@@ -8,7 +8,7 @@
 #include "app/edits.h"
 #include "app/placing.h"
 #include "base/match.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/object_editor.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 #include "studio/scene_drawer.h"
 
 namespace trace::studio {

@@ -112,7 +112,7 @@ Real distanceAhead(const Studio& studio, const CameraFrame& camera) {
   const auto session = studio.workspace.render.session();
   Statistics statistics;
   const auto found =
-      session ? session->world().closest(camera.ray(0.5, 0.5), Faces::both, statistics) : std::nullopt;
+      session ? session->world().closest(camera.ray({0.5, 0.5}), Faces::both, statistics) : std::nullopt;
   const Real distance = found ? found->t : length(studio.rays.orbit.target() - camera.eye);
   return std::clamp(distance, 0.01 * studio.rays.size, 100 * studio.rays.size);
 }

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "geometry/sphere.h"
+#include "geometry/shapes/sphere.h"
 #include "support/scenes.h"
 
 namespace trace::test {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 
 namespace trace::test {
 namespace {

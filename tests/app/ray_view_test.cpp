@@ -9,13 +9,13 @@
 #include "app/orbit_camera.h"
 #include "app/scene_model.h"
 #include "app/session.h"
-#include "geometry/csg.h"
-#include "geometry/csg_tree.h"
-#include "geometry/cube.h"
-#include "geometry/plane.h"
-#include "geometry/sphere.h"
-#include "geometry/square.h"
-#include "geometry/torus.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
+#include "geometry/shapes/torus.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -270,7 +270,7 @@ TEST(OrbitCamera, BeginsWhereASceneCameraIs) {
     const CameraFrame after = OrbitCamera::from(before, up, 7).frame(1.5);
     EXPECT_LT(length(after.eye - before.eye), 1e-12);
     for (const double x : {0.0, 0.3, 1.0})
-      EXPECT_LT(length(after.ray(x, 1 - x).direction - before.ray(x, 1 - x).direction), 1e-12);
+      EXPECT_LT(length(after.ray({x, 1 - x}).direction - before.ray({x, 1 - x}).direction), 1e-12);
   }
   OrbitCamera orbit = OrbitCamera::from(scene, {0, 1, 0}, 7);
   orbit.approach(0.5);

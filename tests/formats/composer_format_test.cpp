@@ -1,9 +1,9 @@
 // Files of the composer: text and binary, and what they mean.
-#include "formats/composer_format.h"
+#include "formats/composer/composer_format.h"
 
 #include "base/file.h"
-#include "formats/composer_file.h"
-#include "geometry/mesh.h"
+#include "formats/composer/composer_file.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 

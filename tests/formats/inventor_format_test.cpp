@@ -1,10 +1,10 @@
 // Inventor, VRML 1.0 and VRML97: nodes, state, and the meshes that are made of them.
-#include "formats/inventor_format.h"
+#include "formats/inventor/inventor_format.h"
 
 #include <cmath>
 
-#include "geometry/cone.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/shapes.h"

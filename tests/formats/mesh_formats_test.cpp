@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/file.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/folder.h"
 #include "support/paths.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "formats/format.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "ray_helpers.h"
 
 namespace trace {

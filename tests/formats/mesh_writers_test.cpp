@@ -1,5 +1,5 @@
 // Meshes written as PLY and OBJ read back as they were, in world space.
-#include "formats/mesh_writers.h"
+#include "formats/mesh/mesh_writers.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/file.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 

@@ -1,5 +1,5 @@
 // PLY files: every encoding and type gives the same mesh, and what is wrong is told.
-#include "formats/ply_format.h"
+#include "formats/mesh/ply_format.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "base/file.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/random.h"

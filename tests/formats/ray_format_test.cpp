@@ -1,20 +1,20 @@
 // What the .ray reader makes of good scenes: docs/ray-format.md.
-#include "formats/ray_format.h"
+#include "formats/ray/ray_format.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/match.h"
-#include "geometry/bezier_patches.h"
-#include "geometry/cone.h"
-#include "geometry/csg.h"
-#include "geometry/csg_tree.h"
-#include "geometry/cube.h"
 #include "geometry/field_value.h"
-#include "geometry/mesh.h"
-#include "geometry/prism.h"
-#include "geometry/sphere.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/bezier_patches.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/prism.h"
+#include "geometry/shapes/sphere.h"
 #include "image/codec.h"
 #include "ray_helpers.h"
 

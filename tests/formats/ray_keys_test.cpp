@@ -1,8 +1,8 @@
 // Values that change with time: the interpolations by hand, and keys in every kind of place.
 #include <gtest/gtest.h>
 
-#include "formats/ray_format.h"
-#include "geometry/mesh.h"
+#include "formats/ray/ray_format.h"
+#include "geometry/mesh/mesh.h"
 #include "math/keyframes.h"
 #include "ray_helpers.h"
 

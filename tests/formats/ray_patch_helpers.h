@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/file.h"
-#include "formats/ray_format.h"
-#include "formats/ray_patch.h"
-#include "formats/ray_same.h"
+#include "formats/ray/ray_format.h"
+#include "formats/ray/ray_patch.h"
+#include "formats/ray/ray_same.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "formats/ray_patch_helpers.h"
-#include "geometry/csg.h"
-#include "geometry/csg_tree.h"
-#include "geometry/sphere.h"
-#include "geometry/torus.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/torus.h"
 
 namespace trace {
 namespace {

@@ -1,5 +1,5 @@
 // A scene that is saved is the text that was read with as little changed as possible.
-#include "formats/ray_patch.h"
+#include "formats/ray/ray_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 
 #include "base/match.h"
 #include "formats/ray_patch_helpers.h"
-#include "geometry/cone.h"
-#include "geometry/sphere.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/sphere.h"
 
 namespace trace {
 namespace {

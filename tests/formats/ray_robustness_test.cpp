@@ -9,7 +9,7 @@
 
 #include "base/file.h"
 #include "base/nesting.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "ray_helpers.h"
 #include "support/paths.h"
 

@@ -1,4 +1,4 @@
-#include "formats/ray_syntax.h"
+#include "formats/ray/ray_syntax.h"
 
 #include <gtest/gtest.h>
 

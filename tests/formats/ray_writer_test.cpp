@@ -1,5 +1,5 @@
 // Scenes written as .ray files read back as equal scenes, and look the same bit for bit.
-#include "formats/ray_writer.h"
+#include "formats/ray/ray_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 
 #include "base/match.h"
-#include "geometry/height_field.h"
-#include "geometry/mesh.h"
-#include "geometry/sphere.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/height_field.h"
+#include "geometry/shapes/sphere.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"
 #include "support/shapes.h"

@@ -9,8 +9,8 @@
 
 #include "base/file.h"
 #include "formats/format.h"
-#include "formats/ray_writer.h"
-#include "geometry/mesh.h"
+#include "formats/ray/ray_writer.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/folder.h"
 #include "support/paths.h"

@@ -1,7 +1,7 @@
 // Scenes of British Columbia: what each command means, in Trace's terms.
-#include "formats/ubc_format.h"
+#include "formats/ubc/ubc_format.h"
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 
 namespace trace {

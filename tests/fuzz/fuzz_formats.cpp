@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "formats/ray_format.h"
-#include "formats/ray_writer.h"
+#include "formats/ray/ray_format.h"
+#include "formats/ray/ray_writer.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   trace::Messages messages;

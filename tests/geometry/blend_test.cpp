@@ -1,24 +1,24 @@
 // Solids joined by fillets.
-#include "geometry/blend.h"
+#include "geometry/shapes/blend.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "geometry/cone.h"
-#include "geometry/conic.h"
-#include "geometry/csg.h"
-#include "geometry/csg_tree.h"
-#include "geometry/cube.h"
 #include "geometry/materials.h"
-#include "geometry/menger.h"
-#include "geometry/plane.h"
-#include "geometry/quadric.h"
-#include "geometry/rounded_box.h"
-#include "geometry/sphere.h"
-#include "geometry/sphere_sweep.h"
-#include "geometry/torus.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/conic.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/menger.h"
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/quadric.h"
+#include "geometry/shapes/rounded_box.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/sphere_sweep.h"
+#include "geometry/shapes/torus.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

@@ -1,16 +1,16 @@
 // Union, intersection, difference and clip.
-#include "geometry/csg.h"
+#include "geometry/shapes/csg.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "geometry/cone.h"
-#include "geometry/csg_tree.h"
-#include "geometry/cube.h"
-#include "geometry/mesh.h"
-#include "geometry/plane.h"
-#include "geometry/sphere.h"
-#include "geometry/square.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

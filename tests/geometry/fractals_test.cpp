@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "geometry/copies.h"
-#include "geometry/julia.h"
-#include "geometry/mandelbox.h"
-#include "geometry/mandelbulb.h"
 #include "geometry/materials.h"
-#include "geometry/menger.h"
-#include "geometry/plant.h"
+#include "geometry/shapes/copies.h"
+#include "geometry/shapes/julia.h"
+#include "geometry/shapes/mandelbox.h"
+#include "geometry/shapes/mandelbulb.h"
+#include "geometry/shapes/menger.h"
+#include "geometry/shapes/plant.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "geometry/bezier_patches.h"
-#include "geometry/height_field.h"
-#include "geometry/terrain.h"
+#include "geometry/shapes/bezier_patches.h"
+#include "geometry/shapes/height_field.h"
+#include "geometry/shapes/terrain.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

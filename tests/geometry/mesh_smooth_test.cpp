@@ -1,12 +1,12 @@
 // Crease normals, subdivision, polygons: against what is known exactly.
-#include "geometry/mesh_smooth.h"
+#include "geometry/mesh/mesh_smooth.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "geometry/mesh.h"
-#include "geometry/mesh_repair.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_repair.h"
 #include "support/shapes.h"
 
 namespace trace {

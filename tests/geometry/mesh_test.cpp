@@ -1,4 +1,4 @@
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // The hierarchy of a mesh, for each instruction set that this machine can run, against testing every
 // triangle.
-#include "geometry/mesh_tree.h"
+#include "geometry/mesh/mesh_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "geometry/mesh.h"
-#include "geometry/presplit.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/presplit.h"
 #include "support/shapes.h"
 
 namespace trace::test {

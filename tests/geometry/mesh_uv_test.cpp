@@ -1,10 +1,10 @@
 // Projected texture coordinates: those of the shapes they imitate, and no face that runs backwards.
-#include "geometry/mesh_uv.h"
+#include "geometry/mesh/mesh_uv.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/mesh.h"
-#include "geometry/sphere.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/sphere.h"
 #include "support/shapes.h"
 
 namespace trace {

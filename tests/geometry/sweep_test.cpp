@@ -1,11 +1,11 @@
 // Profiles carried along paths, against what is known of them.
-#include "geometry/sweep.h"
+#include "geometry/shapes/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "geometry/prism.h"
+#include "geometry/shapes/prism.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

@@ -1,16 +1,16 @@
 // Triangles for the interactive view lie on the shape and cover it.
-#include "geometry/tessellate.h"
+#include "geometry/mesh/tessellate.h"
 
 #include <gtest/gtest.h>
 
 #include "base/match.h"
-#include "geometry/cone.h"
-#include "geometry/cube.h"
-#include "geometry/mesh.h"
-#include "geometry/quadric.h"
-#include "geometry/rounded_box.h"
-#include "geometry/sphere.h"
-#include "geometry/square.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/quadric.h"
+#include "geometry/shapes/rounded_box.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

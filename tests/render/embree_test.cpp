@@ -2,7 +2,7 @@
 // is an oracle here and a yardstick in bench/, never part of the program.
 #include <gtest/gtest.h>
 
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
 #include "support/scenes.h"
 
 #if defined(TRACE_HAS_EMBREE)

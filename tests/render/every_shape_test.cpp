@@ -7,10 +7,10 @@
 #include <set>
 
 #include "base/match.h"
-#include "geometry/csg.h"
-#include "geometry/cube.h"
 #include "geometry/field_value.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/cube.h"
 #include "geometry/traced.h"
 #include "support/scenes.h"
 

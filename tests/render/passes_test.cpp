@@ -5,8 +5,8 @@
 
 #include <cstring>
 
-#include "geometry/sphere.h"
-#include "geometry/square.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
 #include "scene/options.h"
 #include "support/scenes.h"
 

@@ -5,11 +5,11 @@
 
 #include <cstring>
 
-#include "geometry/cone.h"
-#include "geometry/csg.h"
-#include "geometry/cube.h"
-#include "geometry/mesh.h"
-#include "geometry/square.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/square.h"
 #include "render/explain.h"
 #include "render/visited_boxes.h"
 #include "support/scenes.h"

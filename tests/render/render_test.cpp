@@ -3,9 +3,9 @@
 
 #include <cstring>
 
-#include "geometry/cube.h"
-#include "geometry/sphere.h"
-#include "geometry/square.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
 #include "render/integrator.h"
 #include "render/passes.h"
 #include "support/scenes.h"

@@ -1,12 +1,12 @@
 // Values of recursive ray tracing that can be worked out by hand.
-#include "render/whitted.h"
+#include "render/integrators/whitted.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/cube.h"
-#include "geometry/mesh.h"
-#include "geometry/sphere.h"
-#include "geometry/square.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
 #include "shading/optics.h"
 #include "support/scenes.h"
 

@@ -3,14 +3,14 @@
 
 #include <set>
 
-#include "geometry/csg.h"
-#include "geometry/cube.h"
-#include "geometry/julia.h"
-#include "geometry/mesh.h"
-#include "geometry/plane.h"
-#include "geometry/sphere.h"
-#include "geometry/supertoroid.h"
-#include "geometry/torus.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/julia.h"
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/supertoroid.h"
+#include "geometry/shapes/torus.h"
 #include "geometry/traced.h"
 #include "support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "shading/camera.h"
+#include "shading/cameras/camera.h"
 
 #include <gtest/gtest.h>
 

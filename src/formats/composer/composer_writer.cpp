@@ -1,0 +1,186 @@
+// A Scene as a file of the composer: spheres as they are, everything else as triangles in world space.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/composer/composer_file.h"
+#include "formats/composer/composer_format.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/tessellation.h"
+#include "geometry/shapes/sphere.h"
+#include "scene/options.h"
+
+namespace trace {
+namespace {
+
+namespace cf = composer;
+
+constexpr Real kGlass = 1.5, kShininessScale = 128;
+
+class Writer {
+ public:
+  Writer(const Scene& scene, Messages& messages)
+      : scene_(scene), messages_(messages), settings_(resolve({scene.choices})) {}
+
+  cf::File write() {
+    view();
+    for (const LightSource& source : scene_.lights)
+      match(source.light, [&](const auto& light) { add(light); });
+    for (const Object& object : scene_.objects) add(object);
+    return std::move(file_);
+  }
+
+ private:
+  /// Once for each kind.
+  void warn(const std::string& what) {
+    if (told_.insert(what).second) messages_.warn({scene_.file, 0, 0, {}}, what);
+  }
+
+  void view() {
+    const Camera& c = scene_.camera;
+    cf::View v;
+    v.position = c.position;
+    v.direction = normalize(c.viewdir);
+    v.up = normalize(cross(cross(v.direction, c.updir), v.direction));
+    v.verticalFov = c.fov * kPi / 180;
+    if (c.aspectratio != 1) warn("the aspect ratio of the camera is left out; give it with --height");
+    file_.view = v;
+  }
+
+  // --- lights ---
+
+  void add(const PointLight& light) {
+    fading(light);
+    if (!isBlack(light.extraHighlight)) warn("the colours of highlights of their own are left out");
+    file_.lamps.push_back({.kind = cf::Lamp::Kind::point, .position = light.position, .color = light.color});
+  }
+  void add(const DirectionalLight& light) {
+    file_.lamps.push_back(
+        {.kind = cf::Lamp::Kind::directional, .direction = light.direction, .color = light.color});
+  }
+  void add(const SpotLight& light) {
+    fading(light);
+    if (light.fullAngle < light.angle) warn("spot lights get a sharp edge");
+    cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
+    lamp.color = light.color;
+    lamp.dropOffRate = light.exponent / kShininessScale, lamp.cutOffAngle = light.angle * kPi / 180;
+    file_.lamps.push_back(lamp);
+  }
+  /// It is in the materials; see material().
+  void add(const AmbientLight&) {}
+
+  template <class L>
+  void fading(const L& light) {
+    if (light.constant != 0.25 || light.linear != 0.1 || light.quadratic != 0.01)
+      warn("how lights fade is left out: the format has one rule for all");
+  }
+
+  // --- objects ---
+
+  cf::Material material(std::uint32_t index, std::string& name) {
+    const Phong& p = std::get<Phong>(scene_.materials.at(index).model);
+    if (p.shadow != 1) warn("shadows that are not black become black");
+    for (const FieldMap& map : scene_.materials[index].maps)
+      if (map.field == "diffuse") say(name, "texture=" + map.file);
+    Color ambientLight;
+    for (const LightSource& source : scene_.lights)
+      if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambientLight += light->color;
+
+    cf::Material m;
+    m.ktran = std::clamp((p.transmissive.r + p.transmissive.g + p.transmissive.b) / 3, 0.0, 1.0);
+    if (!(p.transmissive == Color(m.ktran))) warn("coloured glass becomes grey");
+    const Real opaque = m.ktran < 1 ? 1 - m.ktran : 1;
+    m.diffuse = p.diffuse / opaque;
+    const Color around = p.ambient * ambientLight;
+    const auto share = [](double a, double d) { return d > 0 ? a / d : 0; };
+    m.ambient = {share(around.r, p.diffuse.r), share(around.g, p.diffuse.g), share(around.b, p.diffuse.b)};
+    m.specular = p.specular, m.emission = p.emissive;
+    m.shininess = p.shininess * settings_.shininessScale / kShininessScale;
+    const bool mirrorsAsItShines = p.mirrorsSpecular && settings_.mirrorDefault == MirrorDefault::specular;
+    const Color mirror = mirrorsAsItShines ? p.specular : p.reflective;
+    if (!(mirror == p.specular)) say(name, "reflect=" + toText((mirror.r + mirror.g + mirror.b) / 3));
+    if (m.ktran > 0 && p.index != kGlass) say(name, "ior=" + toText(p.index));
+    return m;
+  }
+  static void say(std::string& name, const std::string& word) {
+    if (name.find(word) == std::string::npos) name += (name.empty() ? "" : " ") + word;
+  }
+
+  void add(const Object& object) {
+    if (!invertible(object.worldFromObject)) return;
+    const std::string kind(object.shape.keyword());
+    cf::Object o;
+    o.name = object.name;
+    if (object.shape.is<Sphere>()) {
+      o.materials.push_back(material(object.material, o.name));
+      o.sphere = sphere(object.worldFromObject);
+    } else if (const auto* mesh = object.shape.as<Mesh>()) {
+      add(o, mesh->data->generateNormals ? withGeneratedNormals(*mesh->data, true) : *mesh->data, object);
+    } else if (const auto surface = tessellated(object.shape)) {
+      warn("shapes other than spheres and meshes become triangles");
+      add(o, *surface, object);
+    } else {
+      return warn("left out, as it has no end: " + kind);
+    }
+    file_.objects.push_back(std::move(o));
+  }
+
+  static cf::Sphere sphere(const Affine& m) {
+    cf::Sphere s;
+    s.origin = m.offset, s.radius = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 axis{m.row[0][i], m.row[1][i], m.row[2][i]};
+      s.length[i] = length(axis), s.axis[i] = axis / s.length[i];
+      s.radius += s.length[i] / 3;
+    }
+    return s;
+  }
+
+  void add(cf::Object& o, const MeshData& mesh, const Object& object) {
+    const Affine &m = object.worldFromObject, inverted = inverse(m);
+    cf::PolySet& p = o.polygons;
+    p.vertexNormals = !mesh.normals.empty(), p.hasUv = !mesh.uvs.empty();
+    // The format counts materials from 0 in each object.
+    std::vector<std::uint32_t> used(mesh.materials);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    p.vertexMaterials = used.size() > 1;
+    if (used.empty()) used = {object.material};
+    for (std::uint32_t index : used) o.materials.push_back(material(index, o.name));
+
+    const bool mirrored = determinant(m) < 0;
+    for (const Triangle& triangle : mesh.triangles) {
+      p.counts.push_back(3);
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t corner = triangle[static_cast<std::size_t>(mirrored ? 2 - i : i)];
+        cf::Vertex& v = p.vertices.emplace_back();
+        v.position = m * Vec3(mesh.points[corner]);
+        if (p.vertexNormals) v.normal = normalize(transposed(inverted, Vec3(mesh.normals[corner])));
+        if (p.vertexMaterials)
+          v.material = static_cast<std::uint32_t>(
+              std::lower_bound(used.begin(), used.end(), mesh.materials[corner]) - used.begin());
+        if (p.hasUv) v.uv = mesh.uvs[corner];
+      }
+    }
+  }
+
+  const Scene& scene_;
+  Messages& messages_;
+  const Settings settings_;
+  cf::File file_;
+  std::set<std::string> told_;
+};
+
+}  // namespace
+
+std::vector<NamedBytes> writeComposer(const Scene& scene, const std::string& file,
+                                      const WriteOptions& options, Messages& messages) {
+  const cf::File written = Writer(scene, messages).write();
+  NamedBytes::Contents holds{written.objects.size(), 0};
+  for (const cf::Object& object : written.objects) holds.triangles += object.polygons.counts.size();
+  return {{file, cf::writeText(written, options.digits), holds}};
+}
+
+}  // namespace trace

@@ -1,0 +1,54 @@
+#include "formats/inventor/inventor_format.h"
+
+#include <utility>
+
+#include "formats/inventor/inventor_reader.h"
+#include "formats/model.h"
+
+namespace trace {
+namespace inventor {
+
+Scene Reader::read() {
+  walk();
+  finish();
+  return std::move(scene_);
+}
+
+Scene Reader::readPart() {
+  walk();
+  textures_.report(messages_);
+  return std::move(scene_);
+}
+
+// --- the whole ---
+
+void Reader::finish() {
+  const Place place{scene_.file, 0, 0, {}};
+  if (!meshes_.empty()) repairs_.report(place, messages_);
+  textures_.report(messages_);
+  if (scene_.objects.empty()) messages_.warn(place, "no object: the picture will be empty");
+  if (!hasCamera_) {
+    scene_.camera = framing(bounds(scene_));
+    scene_.camera.fov = 45;
+  }
+  if (scene_.lights.empty())  // the headlight of every viewer
+    scene_.lights.push_back({DirectionalLight{scene_.camera.viewdir, Color(1)}, place});
+  if (!isBlack(ambient_)) scene_.lights.push_back({AmbientLight{ambient_}, place});
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"shininess-scale", "128"},
+                                      {"pixel-position", "center"},
+                                      {"mirror-default", "zero"}})
+    scene_.choices.push_back({option, value, place});
+}
+
+}  // namespace inventor
+
+bool recognisesInventor(std::string_view bytes) { return inventor::hasHeader(bytes); }
+
+Scene readInventor(const std::string& file, std::string_view bytes, Messages& messages) {
+  const inventor::Document document(file, bytes, messages);
+  inventor::Library library;
+  library.try_emplace(file);  // it cannot bring itself
+  return inventor::Reader(document, messages, library).read();
+}
+
+}  // namespace trace

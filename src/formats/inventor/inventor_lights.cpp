@@ -1,0 +1,121 @@
+// Lights, cameras and what is behind all.
+#include <algorithm>
+#include <cmath>
+
+#include "formats/directions.h"
+#include "formats/inventor/inventor_reader.h"
+#include "formats/inventor/inventor_transform.h"
+
+namespace trace::inventor {
+
+void Reader::environment(const Values& v, State&) {
+  ambient_ = shine(v.color("ambientColor", Color(1)), v.number("ambientIntensity", 0.2));
+  const Vec3 a = v.vector("attenuation", {0, 0, 1});  // squared, linear, constant
+  fading_ = {a.z, a.y, a.x};
+}
+
+Color Reader::shine(const Color& color, Real factor) {
+  constexpr Real kMost = 1e30;
+  const auto limited = [&](Real c) { return std::clamp(c * factor, 0.0, kMost); };
+  return {limited(color.r), limited(color.g), limited(color.b)};
+}
+
+Color Reader::shining(const Values& v) {
+  const Color color = v.color("color", Color(1));
+  if (vrml2_) ambient_ += shine(color, v.number("ambientIntensity", 0));
+  return shine(color, v.number("intensity", 1));
+}
+
+template <class L>
+void Reader::addLight(const Values& v, L light) {
+  if constexpr (requires { light.constant; }) {
+    Vec3 fading = vrml2_ ? v.vector("attenuation", {1, 0, 0}) : fading_;
+    if (fading == Vec3{}) fading = {1, 0, 0};
+    light.constant = fading.x, light.linear = fading.y, light.quadratic = fading.z;
+  }
+  if constexpr (requires { light.direction; })
+    if (!(length(light.direction) > 0))
+      return warn(v.node(), "a light without a direction is left out", "light");
+  if constexpr (requires { light.position; })
+    if (!isFinite(light.position)) return warn(v.node(), "a light without a place is left out", "light");
+  scene_.lights.push_back({light, document_.place(v.node().token)});
+}
+
+Vec3 Reader::standard() const { return vrml2_ ? Vec3{} : Vec3{0, 0, 1}; }
+
+void Reader::pointLight(const Values& v, State& s) {
+  if (!v.flag("on", true)) return;
+  addLight(v,
+           PointLight{.position = s.worldFromObject * v.vector("location", standard()), .color = shining(v)});
+}
+
+void Reader::directionalLight(const Values& v, State& s) {
+  if (!v.flag("on", true)) return;
+  addLight(v, DirectionalLight{linear(s.worldFromObject, v.vector("direction", {0, 0, -1})), shining(v)});
+}
+
+void Reader::spotLight(const Values& v, State& s) {
+  if (!v.flag("on", true)) return;
+  SpotLight light{.position = s.worldFromObject * v.vector("location", standard()),
+                  .direction = linear(s.worldFromObject, v.vector("direction", {0, 0, -1})),
+                  .color = shining(v)};
+  const auto degrees = [](Real radians) { return std::clamp(radians * 180 / kPi, 0.0, 180.0); };
+  light.angle = light.fullAngle = degrees(v.number("cutOffAngle", 0.785398));
+  if (vrml2_)
+    light.fullAngle = std::min(light.angle, degrees(v.number("beamWidth", 1.570796)));
+  else
+    light.exponent = std::max(0.0, 128 * v.number("dropOffRate", 0));
+  addLight(v, light);
+}
+
+void Reader::camera(const Values& v, const State& s, const Vec3& position, Real angle, Real aspect) {
+  if (hasCamera_) return;
+  const Affine own = turn(v.numbers("orientation"));
+  Camera camera;
+  camera.position = s.worldFromObject * v.vector("position", position);
+  camera.viewdir = linear(s.worldFromObject, linear(own, {0, 0, -1}));
+  camera.updir = linear(s.worldFromObject, linear(own, {0, 1, 0}));
+  camera.fov = angle * 180 / kPi;
+  if (aspect > 0.01 && aspect < 100) camera.aspectratio = aspect;
+  const bool good = camera.fov > 0 && camera.fov < 180 && canLook(camera.viewdir, camera.updir) &&
+                    isFinite(camera.position);
+  if (!good) return warn(v.node(), "a camera that cannot look is left out", "camera");
+  camera.viewdir = normalize(camera.viewdir);
+  scene_.camera = camera;
+  hasCamera_ = true;
+}
+
+void Reader::perspectiveCamera(const Values& v, State& s) {
+  camera(v, s, {0, 0, 1}, v.number("heightAngle", 0.785398), v.number("aspectRatio", 1));
+}
+
+void Reader::orthographicCamera(const Values& v, State& s) {
+  constexpr Real kFar = 100;
+  if (hasCamera_) return;
+  const Real height = v.number("height", 2);
+  camera(v, s, {0, 0, 1}, 2 * std::atan(0.5 / kFar), v.number("aspectRatio", 1));
+  if (hasCamera_) scene_.camera.position += scene_.camera.viewdir * (-kFar * height);
+  warn(v.node(), "an orthographic camera becomes one that looks from far away", "orthographic");
+}
+
+void Reader::viewpoint(const Values& v, State& s) {
+  camera(v, s, {0, 0, 10}, v.number("fieldOfView", 0.785398), 1);
+}
+
+void Reader::background(const Values& v, State&) {
+  const std::vector<Color> sky = v.colors("skyColor");
+  if (scene_.background.colors.empty() && !sky.empty()) scene_.background.colors = {sky.front()};
+  for (const char* side : {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"})
+    if (const std::string_view file = v.word(side, ""); !file.empty())
+      textures_.note(file, document_.place(v.node().token));
+}
+
+void Reader::drawStyle(const Values& v, State&) {
+  const std::string_view style = v.word("style", "FILLED");
+  if (style == "FILLED") return;
+  warn(v.node(),
+       "DrawStyle " + std::string(style.substr(0, 40)) + " is not rendered: surfaces are drawn whole",
+       "draw style");
+}
+
+}  // namespace trace::inventor

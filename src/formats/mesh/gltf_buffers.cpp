@@ -1,0 +1,89 @@
+// Source: Khronos Group, glTF 2.0 Specification, section 3.6; RFC 2397, The "data" URL scheme.
+#include "formats/mesh/gltf_buffers.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace trace {
+namespace {
+
+using nlohmann::json;
+
+bool isDigit(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
+}
+
+class Checker {
+ public:
+  Checker(const Place& place, std::size_t number)
+      : place_(place), path_("buffers[" + std::to_string(number) + "]"), first_(number == 0) {}
+
+  void check(const json& buffer) const {
+    if (!buffer.is_object()) fail("", "expected an object");
+    const auto length = buffer.find("byteLength");
+    if (length == buffer.end()) fail(".byteLength", "expected the number of bytes, found none");
+    if (!length->is_number_unsigned() || length->get<std::uint64_t>() == 0)
+      fail(".byteLength", "expected a whole number above 0, found " + length->dump().substr(0, 40));
+    const auto uri = buffer.find("uri");
+    if (uri == buffer.end()) {
+      if (!first_) fail(".uri", "expected one: only the first buffer may lie in the file itself");
+      return;
+    }
+    if (!uri->is_string()) fail(".uri", "expected the name of a file, or \"data:\" and its bytes");
+    const std::string_view text = uri->get_ref<const std::string&>();
+    if (text.starts_with("data:")) checkData(text, length->get<std::uint64_t>());
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view of, const std::string& what) const {
+    throw Error(Fault::scene, place_, path_ + std::string(of) + ": " + what);
+  }
+
+  void checkData(std::string_view text, std::uint64_t length) const {
+    constexpr std::string_view kMark = ";base64,", kForms[] = {"application/octet-stream",
+                                                               "text/plain",
+                                                               "application/gltf-buffer",
+                                                               "image/jpeg",
+                                                               "image/png",
+                                                               "image/bmp",
+                                                               "image/gif"};
+    const std::size_t comma = text.find(',');
+    const std::size_t start = comma == text.npos ? text.size() : comma + 1;
+    const std::string_view head = text.substr(5, start - 5);
+    const bool known = std::any_of(std::begin(kForms), std::end(kForms), [&](std::string_view form) {
+      return head.starts_with(form) && head.substr(form.size()) == kMark;
+    });
+    if (!known)
+      fail(".uri", "expected \"data:application/octet-stream;base64,\" before the bytes, found \"" +
+                       std::string(text.substr(0, std::min<std::size_t>(start, 60))) + "\"");
+    std::string_view digits = text.substr(start);
+    for (int i = 0; i < 2 && digits.ends_with('='); ++i) digits.remove_suffix(1);
+    const auto odd = std::find_if_not(digits.begin(), digits.end(), isDigit);
+    if (odd != digits.end())
+      fail(".uri",
+           "expected digits of base64, found " +
+               (*odd > ' ' && *odd < 127 ? "\"" + std::string(1, *odd) + "\"" : "a character that is none") +
+               " after " + std::to_string(odd - digits.begin()) + " of them");
+    const std::uint64_t bytes = digits.size() * 6 / 8;
+    if (bytes != length)
+      fail(".uri", "expected the " + std::to_string(length) + " bytes that byteLength says, found " +
+                       std::to_string(bytes));
+  }
+
+  const Place& place_;
+  std::string path_;
+  bool first_;
+};
+
+}  // namespace
+
+void checkGltfBuffers(const json& root, const Place& place) {
+  const auto buffers = root.find("buffers");
+  if (buffers == root.end()) return;
+  if (!buffers->is_array()) throw Error(Fault::scene, place, "buffers: expected a list");
+  for (std::size_t i = 0; i < buffers->size(); ++i) Checker(place, i).check((*buffers)[i]);
+}
+
+}  // namespace trace

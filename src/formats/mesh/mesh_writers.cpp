@@ -1,0 +1,267 @@
+#include "formats/mesh/mesh_writers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "base/file.h"
+#include "base/match.h"
+#include "base/names.h"
+#include "base/text.h"
+#include "formats/mesh/world_meshes.h"
+#include "geometry/mesh/mesh.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little,
+              "binary PLY files are written as the memory has them");
+
+Phong phongOf(const Scene& scene, std::uint32_t material) {
+  return match(scene.materials.at(material).model, [](const auto& model) -> Phong { return model; });
+}
+
+// --- PLY ----------------------------------------------------------------------------------------------
+
+/// All meshes as one; its `materials` name one for each point.
+MeshData merged(std::vector<WorldMesh> meshes) {
+  const bool normals =
+      std::any_of(meshes.begin(), meshes.end(), [](const auto& m) { return !m.mesh.normals.empty(); });
+  const bool uvs =
+      std::all_of(meshes.begin(), meshes.end(), [](const auto& m) { return !m.mesh.uvs.empty(); });
+  MeshData all;
+  for (WorldMesh& part : meshes) {
+    if (normals && part.mesh.normals.empty()) part.mesh = withFlatNormals(part.mesh);
+    MeshData& mesh = part.mesh;
+    if (mesh.materials.empty()) mesh.materials.assign(mesh.points.size(), part.material);
+    const auto first = static_cast<std::uint32_t>(all.points.size());
+    for (const Triangle& t : mesh.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(all.points, mesh.points), append(all.materials, mesh.materials);
+    if (normals) append(all.normals, mesh.normals);
+    if (uvs) append(all.uvs, mesh.uvs);
+  }
+  return all;
+}
+
+/// Numbers of a row as text, or as bytes.
+class Row {
+ public:
+  Row(std::string& out, const WriteOptions& options) : out_(out), options_(options) {}
+
+  template <class T>
+  void add(T number) {
+    if (!options_.ascii) {
+      char bytes[sizeof number];
+      std::memcpy(bytes, &number, sizeof number);
+      out_.append(bytes, sizeof number);
+      return;
+    }
+    if (!first_) out_ += ' ';
+    first_ = false;
+    if constexpr (std::is_integral_v<T>)
+      out_ += std::to_string(number);
+    else
+      appendNumber(out_, number, options_.digits);
+  }
+  void add(const Vec3f& v) { add(v.x), add(v.y), add(v.z); }
+  void end() {
+    if (options_.ascii) out_ += '\n';
+    first_ = true;
+  }
+
+ private:
+  std::string& out_;
+  const WriteOptions& options_;
+  bool first_ = true;
+};
+
+std::uint8_t toByte(double share) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+}
+
+// --- OBJ ----------------------------------------------------------------------------------------------
+
+/// "#" starts a comment in OBJ, and "\\" at its end joins a line to the next.
+std::string objName(std::string_view name) {
+  std::string clean = onOneLine(name, "#\\");
+  clean.erase(0, std::min(clean.find_first_not_of(' '), clean.size()));
+  clean.erase(clean.find_last_not_of(' ') + 1);
+  return clean;
+}
+
+/// A name without white space for each material that is used, told apart by numbers.
+std::map<std::uint32_t, std::string> materialNames(const Scene& scene, const std::vector<WorldMesh>& meshes) {
+  std::map<std::uint32_t, std::string> names;
+  std::set<std::string> used;
+  for (const WorldMesh& part : meshes) {
+    if (names.count(part.material)) continue;
+    std::string name = onOneLine(objName(scene.materials.at(part.material).name), " ");
+    if (name.empty()) name = "material";
+    std::string fresh = name;
+    for (int times = 2; !used.insert(fresh).second; ++times) fresh = name + "_" + std::to_string(times);
+    names[part.material] = fresh;
+  }
+  return names;
+}
+
+/// Whether the OBJ file that is there now, if any, names that file for its materials.
+bool namesMaterials(const std::string& obj, const std::string& materials) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(obj, ignored)) return false;
+  std::istringstream lines(readFile(obj));
+  for (std::string line; std::getline(lines, line);) {
+    constexpr std::string_view kKeyword = "mtllib ";
+    if (!line.starts_with(kKeyword)) continue;
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line.size() > kKeyword.size() && sameFile(besideFile(obj, line.substr(kKeyword.size())), materials))
+      return true;
+  }
+  return false;
+}
+
+/// Where the materials of an OBJ file go: to NAME.mtl beside it, or NAME-2.mtl and so on if that is there and
+/// belongs to something else than the OBJ file that is replaced.
+std::string placeOfMaterials(const std::string& obj) {
+  std::error_code ignored;
+  const fs::path path(obj);
+  for (int number = 1;; ++number) {
+    const std::string name =
+        path.stem().string() + (number == 1 ? "" : "-" + std::to_string(number)) + ".mtl";
+    std::string place = (path.parent_path() / name).string();
+    if (!fs::exists(place, ignored) || namesMaterials(obj, place)) return place;
+  }
+}
+
+class ObjWriter {
+ public:
+  explicit ObjWriter(const WriteOptions& options) : digits_(options.digits) {}
+
+  void line(std::string_view keyword, std::initializer_list<double> numbers) {
+    out_ += keyword;
+    for (double n : numbers) out_ += ' ', appendNumber(out_, n, digits_);
+    out_ += '\n';
+  }
+  void line(std::string_view keyword, const Vec3f& v) {
+    out_ += keyword;
+    for (int i = 0; i < 3; ++i) out_ += ' ', appendNumber(out_, v[i], digits_);
+    out_ += '\n';
+  }
+  void line(std::string_view keyword, std::string_view word) {
+    out_ += std::string(keyword) + ' ' + std::string(word) + '\n';
+  }
+  void color(std::string_view keyword, const Color& c) { line(keyword, {c.r, c.g, c.b}); }
+
+  /// Illumination models as readObj() understands them.
+  void material(const std::string& name, const Phong& phong) {
+    const bool mirrors = phong.mirrors() || (phong.mirrorsSpecular && !isBlack(phong.specular));
+    line("newmtl", name);
+    color("Ka", phong.ambient), color("Kd", phong.diffuse), color("Ks", phong.specular);
+    color("Ke", phong.emissive);
+    line("Ns", {phong.shininess}), line("Ni", {phong.index});
+    if (phong.transmits()) color("Tf", phong.transmissive);
+    const int glass = mirrors ? 7 : 9, opaque = mirrors ? 3 : isBlack(phong.specular) ? 1 : 2;
+    line("illum", {static_cast<double>(phong.transmits() ? glass : opaque)});
+    out_ += '\n';
+  }
+
+  void mesh(const MeshData& mesh) {
+    for (const Vec3f& p : mesh.points) line("v", p);
+    for (const Vec2& uv : mesh.uvs) line("vt", {uv.x, uv.y});
+    for (const Vec3f& n : mesh.normals) line("vn", n);
+    for (const Triangle& t : mesh.triangles) {
+      out_ += 'f';
+      for (std::uint32_t corner : t) {
+        out_ += ' ' + std::to_string(points_ + corner);
+        if (!mesh.uvs.empty() || !mesh.normals.empty()) out_ += '/';
+        if (!mesh.uvs.empty()) out_ += std::to_string(uvs_ + corner);
+        if (!mesh.normals.empty()) out_ += '/' + std::to_string(normals_ + corner);
+      }
+      out_ += '\n';
+    }
+    points_ += mesh.points.size(), uvs_ += mesh.uvs.size(), normals_ += mesh.normals.size();
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  int digits_;
+  std::string out_;
+  std::size_t points_ = 1, uvs_ = 1, normals_ = 1;  ///< numbers of the next ones
+};
+
+}  // namespace
+
+std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages) {
+  std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const std::size_t objects = meshes.size();
+  const MeshData mesh = merged(std::move(meshes));
+  const auto& m = mesh.materials;
+  const bool colored = std::adjacent_find(m.begin(), m.end(), std::not_equal_to<>()) != m.end();
+  std::string out = "ply\nformat " + std::string(options.ascii ? "ascii" : "binary_little_endian") +
+                    " 1.0\ncomment written by Trace\nelement vertex " + std::to_string(mesh.points.size()) +
+                    "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.uvs.empty()) out += "property float s\nproperty float t\n";
+  if (colored) out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  out += "element face " + std::to_string(mesh.triangles.size()) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  Row row(out, options);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    row.add(mesh.points[i]);
+    if (!mesh.normals.empty()) row.add(mesh.normals[i]);
+    if (!mesh.uvs.empty())
+      row.add(static_cast<float>(mesh.uvs[i].x)), row.add(static_cast<float>(mesh.uvs[i].y));
+    if (colored) {
+      const Color color = phongOf(scene, m[i]).diffuse;
+      row.add(toByte(color.r)), row.add(toByte(color.g)), row.add(toByte(color.b));
+    }
+    row.end();
+  }
+  for (const Triangle& t : mesh.triangles) {
+    row.add(std::uint8_t{3});
+    for (std::uint32_t corner : t) row.add(static_cast<std::int32_t>(corner));
+    row.end();
+  }
+  return {{file, std::move(out), NamedBytes::Contents{objects, mesh.triangles.size()}}};
+}
+
+std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages& messages) {
+  const std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
+  const std::string materialFile = placeOfMaterials(file);
+  ObjWriter materials(options), objects(options);
+  for (const auto& [index, name] : names) materials.material(name, phongOf(scene, index));
+
+  objects.line("mtllib", onOneLine(fs::path(materialFile).filename().string()));
+  std::size_t colored = 0, triangles = 0;
+  for (const WorldMesh& part : meshes) {
+    triangles += part.mesh.triangles.size();
+    if (const std::string name = objName(part.name); !name.empty()) objects.line("o", name);
+    objects.line("usemtl", names.at(part.material));
+    objects.mesh(part.mesh);
+    colored += !part.mesh.materials.empty();
+  }
+  if (colored > 0)
+    messages.warn(Place{scene.file, 0, 0, {}}, "an OBJ file holds no materials of points: left out for " +
+                                                   std::to_string(colored) +
+                                                   (colored == 1 ? " mesh" : " meshes"));
+  return {{file, objects.take(), NamedBytes::Contents{meshes.size(), triangles}},
+          {materialFile, materials.take()}};
+}
+
+}  // namespace trace

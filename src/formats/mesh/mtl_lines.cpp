@@ -1,0 +1,191 @@
+// Source: the MTL material format of Wavefront's Advanced Visualizer, appendix B1, and the extension for
+// physically based materials that exporters write (Pr, Pm, map_Pr, norm ...).
+#include "formats/mesh/mtl_lines.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/field.h"
+#include "formats/mesh/obj_words.h"
+
+namespace trace {
+namespace {
+
+/// A statement of numbers.
+struct Numbers {
+  std::string_view key;
+  int count;
+  double least, most;
+};
+constexpr std::array<Numbers, 12> kNumbers{{{"Ka", 3, 0, 1},
+                                            {"Kd", 3, 0, 1},
+                                            {"Ks", 3, 0, 1},
+                                            {"Ke", 3, 0, kNoLimit},
+                                            {"Kt", 3, 0, 1},
+                                            {"Tf", 3, 0, 1},
+                                            {"Ns", 1, 0, kNoLimit},
+                                            {"Ni", 1, 0.001, kNoLimit},  // what MTL allows
+                                            {"d", 1, 0, 1},
+                                            {"Tr", 1, 0, 1},
+                                            {"illum", 1, 0, 10},
+                                            {"sharpness", 1, 0, kNoLimit}}};
+
+/// Statements that name a picture.
+constexpr std::array<std::string_view, 21> kMaps{
+    "map_Ka", "map_Kd",   "map_Ks",   "map_Ke",   "map_Ns",   "map_d", "map_Tr",
+    "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",  "map_Disp",
+    "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
+
+/// Statements of physically based materials, which Trace's material does not have.
+constexpr std::array<std::string_view, 7> kNotUsed{"Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"};
+
+/// An option of a texture, and how many words follow it at most.
+struct MapOption {
+  std::string_view key;
+  int words;
+};
+constexpr std::array<MapOption, 13> kMapOptions{{{"-blendu", 1},
+                                                 {"-blendv", 1},
+                                                 {"-cc", 1},
+                                                 {"-clamp", 1},
+                                                 {"-boost", 1},
+                                                 {"-bm", 1},
+                                                 {"-texres", 1},
+                                                 {"-imfchan", 1},
+                                                 {"-type", 1},
+                                                 {"-colorspace", 1},
+                                                 {"-mm", 2},
+                                                 {"-o", 3},
+                                                 {"-s", 3}}};
+
+template <std::size_t N>
+bool has(const std::array<std::string_view, N>& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+template <class Row, std::size_t N>
+const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == key; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 40)) + "\""; }
+
+/// The name of the picture after the options.
+std::string_view pictureOf(LineWords words) {
+  while (words.peek().starts_with('-')) {
+    const MapOption* option = rowOf(kMapOptions, words.peek());
+    if (!option && words.peek() != "-t") break;
+    words.next();
+    const int most = option ? option->words : 3;
+    for (int i = 0; i < most && (most == 1 || isFloat(words.peek())); ++i) words.next();
+  }
+  return words.rest();
+}
+
+class Checker {
+ public:
+  /// `lines` are the text with continued lines made one.
+  Checker(const std::string& file, std::string_view text, std::string_view lines, Textures& textures,
+          WarningsByKind& warnings)
+      : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
+
+  void line(std::string_view line) {
+    check(line);
+    plain_ += greyOf(line);
+    plain_ += '\n';
+  }
+  /// The lines checked so far, for tinyobjloader.
+  std::string plain() { return std::move(plain_); }
+
+ private:
+  /// `Kd 0.5` as `Kd 0.5 0.5 0.5`, and so all colours; other lines as they are.
+  static std::string greyOf(std::string_view line) {
+    LineWords words(line);
+    const Numbers* row = rowOf(kNumbers, words.next());
+    const std::string_view first = words.next(), second = words.next();
+    std::string text(line);
+    const bool isOne = row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#');
+    if (isOne)
+      text = std::string(row->key) + ' ' + std::string(first) + ' ' + std::string(first) + ' ' +
+             std::string(first);
+    return text;
+  }
+
+  void check(std::string_view line) {
+    LineWords words(line);
+    const std::string_view key = words.next();
+    if (key.empty() || key[0] == '#') return;
+    if (key == "newmtl") return newMaterial(key, words);
+    if (!inMaterial_)
+      warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
+    if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
+    if (has(kMaps, key)) return map(key, words);
+    if (has(kNotUsed, key) || key == "map_aat") return;
+    warn(key, quoted(key) + " is not known and is skipped");
+  }
+
+  void warn(std::string_view at, std::string what, std::string_view kind = {}) {
+    if (!warnings_.again(kind.empty() ? what : kind)) warnings_.warn(place(at), std::move(what), {}, kind);
+  }
+  Place place(std::string_view at) const {
+    return placeAt(file_, text_, static_cast<std::size_t>(at.data() - lines_.data()));
+  }
+
+  void newMaterial(std::string_view key, LineWords words) {
+    inMaterial_ = true;
+    if (words.rest().empty()) warn(key, "newmtl: expected the name of a material");
+  }
+
+  void numbers(const Numbers& row, std::string_view key, LineWords words) {
+    const std::string name(key);
+    int count = 0;
+    for (std::string_view word = words.next(); !word.empty() && word[0] != '#';
+         word = words.next(), ++count) {
+      if (key == "d" && word == "-halo") {
+        --count;
+        continue;
+      }
+      const auto number = parseNumber(word);
+      if (!isFloat(word)) return warn(word, name + ": " + notAFloat(word), name);
+      if (count < row.count && !(number->value >= row.least && number->value <= row.most))
+        warn(word,
+             name + ": expected " +
+                 (row.most == kNoLimit ? "at least " + toText(row.least)
+                                       : toText(row.least) + " to " + toText(row.most)) +
+                 ", found " + toText(number->value),
+             "range of " + name);
+    }
+    const bool isGrey = row.count == 3 && count == 1;
+    if (count != row.count && !isGrey)
+      warn(key,
+           name + ": expected " + std::to_string(row.count) + (row.count == 1 ? " number" : " numbers") +
+               ", found " + std::to_string(count),
+           "count of " + name);
+  }
+
+  void map(std::string_view key, LineWords words) {
+    const std::string_view picture = pictureOf(words);
+    if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
+    textures_.note(picture, textures_.empty() ? place(key) : Place());
+  }
+
+  const std::string& file_;
+  std::string_view text_, lines_;
+  std::string plain_;
+  Textures& textures_;
+  WarningsByKind& warnings_;
+  bool inMaterial_ = false;
+};
+
+}  // namespace
+
+std::string checkedMtl(const std::string& file, std::string_view text, Textures& textures,
+                       WarningsByKind& warnings) {
+  std::string room;
+  const std::string_view lines = joinedLines(text, room);
+  Checker checker(file, text, lines, textures, warnings);
+  forEachLine(lines, [&](std::string_view line) { checker.line(line); });
+  return checker.plain();
+}
+
+}  // namespace trace

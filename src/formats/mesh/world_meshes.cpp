@@ -1,0 +1,75 @@
+#include "formats/mesh/world_meshes.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/budget.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/tessellation.h"
+
+namespace trace {
+namespace {
+
+MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
+  MeshData result = mesh.generateNormals ? withGeneratedNormals(mesh, true) : mesh;
+  if (worldFromObject == Affine{}) return result;
+  const Affine objectFromWorld = inverse(worldFromObject);
+  for (Vec3f& p : result.points) p = Vec3f(worldFromObject * Vec3(p));
+  for (Vec3f& n : result.normals) {
+    const Vec3 turned = transposed(objectFromWorld, Vec3(n));
+    if (turned != Vec3{}) n = Vec3f(normalize(turned));
+  }
+  if (determinant(worldFromObject) < 0)
+    for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
+  const Place place{scene.file, 0, 0, {}};
+  std::vector<WorldMesh> meshes;
+  bool sampled = false;
+  std::map<std::string, std::size_t> leftOut;
+  Work work("making triangles of the objects", static_cast<std::int64_t>(scene.objects.size()));
+  std::int64_t done = 0;
+  for (const Object& object : scene.objects) {
+    work.reached(done++);
+    std::optional<MeshData> triangles;
+    const auto* mesh = object.shape.as<Mesh>();
+    if (!mesh) triangles = tessellated(object.shape), sampled |= triangles.has_value();
+    if ((mesh || triangles) && invertible(object.worldFromObject))
+      meshes.push_back({object.name, object.material,
+                        transformed(mesh ? *mesh->data : *triangles, object.worldFromObject)});
+    else
+      ++leftOut[std::string(object.shape.keyword())];
+  }
+  std::string kinds;
+  for (const auto& [kind, count] : leftOut)
+    kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  if (meshes.empty())
+    throw Error(Fault::scene, place,
+                "expected a scene with meshes, found " + (kinds.empty() ? "no object" : kinds),
+                "a .ray file holds every shape");
+  if (sampled) messages.warn(place, "shapes other than meshes become triangles");
+  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds);
+  return meshes;
+}
+
+MeshData withFlatNormals(const MeshData& mesh) {
+  MeshData flat;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(flat.points.size());
+    for (std::uint32_t point : mesh.triangles[i]) {
+      flat.points.push_back(mesh.points[point]);
+      flat.normals.push_back(Vec3f(normalize(faceNormal(mesh, i))));
+      if (!mesh.materials.empty()) flat.materials.push_back(mesh.materials[point]);
+      if (!mesh.uvs.empty()) flat.uvs.push_back(mesh.uvs[point]);
+    }
+    flat.triangles.push_back({first, first + 1, first + 2});
+  }
+  return flat;
+}
+
+}  // namespace trace

@@ -1,0 +1,26 @@
+// The meshes of a scene brought to world space, for formats that hold nothing else.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+struct WorldMesh {
+  std::string name;
+  std::uint32_t material;
+  MeshData mesh;  ///< with generated normals, if it asks for them; triangles face outward again if mirrored
+};
+
+/// Other shapes become triangles. Warns of that, and of what has no end and is left out, by kinds. Throws
+/// Error(Fault::scene) if nothing is left.
+std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages);
+
+/// The mesh with three points of its own for each triangle, and the faces' normals.
+MeshData withFlatNormals(const MeshData& mesh);
+
+}  // namespace trace

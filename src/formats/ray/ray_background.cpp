@@ -1,0 +1,38 @@
+#include "formats/ray/ray_background.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "formats/ray/ray_fields.h"
+
+namespace trace::rayfile {
+
+Background readBackground(Findings& findings, const Item& block) {
+  Background background;
+  for (const Item item : block) {
+    if (!item.keyed()) {
+      findings.expected(item, Background::kKeyword, "a field, as in color = (0.4, 0.6, 1)");
+      continue;
+    }
+    if (canonical(item.key()) == "color")
+      read(findings, "color", item.value(), background.colors.emplace_back());
+    else if (!assignField(findings, background, item))
+      findings.unknownField(Background::kKeyword, item, keywords<Background>({"color"}));
+  }
+  const std::vector<Real>& limits = background.limits;
+  if (!limits.empty() && limits.size() + 1 != background.colors.size())
+    findings.error(block, "background: expected one limit less than colors, found " +
+                              std::to_string(limits.size()) + " and " +
+                              std::to_string(background.colors.size()));
+  if (!std::is_sorted(limits.begin(), limits.end()))
+    findings.error(block, "background: expected limits that ascend, from the top of the picture down");
+  for (const Color& color : background.colors)
+    if (color.r < 0 || color.g < 0 || color.b < 0)
+      findings.warn(block, "background: expected colors of at least 0, found a number below");
+  for (Real limit : limits)
+    if (!(limit >= 0 && limit <= 1))
+      findings.warn(block, "background: expected limits from 0 to 1, found " + toText(limit));
+  return background;
+}
+
+}  // namespace trace::rayfile

@@ -1,0 +1,14 @@
+// The background of .ray files.
+#pragma once
+
+#include "formats/ray/ray_findings.h"
+#include "formats/ray/ray_syntax.h"
+#include "shading/background.h"
+
+namespace trace::rayfile {
+
+/// Of a block `background { color = ...; }` or `background { colors = (...); limits = (...); }`. Reports what
+/// is wrong.
+Background readBackground(Findings& findings, const Item& block);
+
+}  // namespace trace::rayfile

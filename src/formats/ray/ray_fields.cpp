@@ -1,0 +1,182 @@
+#include "formats/ray/ray_fields.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "image/codec.h"
+
+namespace trace::rayfile {
+
+bool numbers(const Item& tuple, Real* to, int count) {
+  if (!tuple.is(Kind::tuple)) return false;
+  int n = 0;
+  for (const Item item : tuple) {
+    if (n == count || !item.is(Kind::number)) return false;
+    to[n++] = item.number();
+  }
+  return n == count;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Real& to) {
+  if (!value.is(Kind::number)) return findings.expected(value, name, "a number"), false;
+  to = value.number();
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, int& to) {
+  if (value.is(Kind::number) && !fitsInt(value.number()))
+    return findings.expected(value, name,
+                             "a whole number from " + toText(-kMostWhole) + " to " + toText(kMostWhole)),
+           false;
+  if (!value.is(Kind::number) || value.number() != std::floor(value.number()))
+    return findings.expected(value, name, "a whole number"), false;
+  to = static_cast<int>(value.number());
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, bool& to) {
+  const bool yes = value.is(Kind::word) && value.text() == "true";
+  if (!yes && !(value.is(Kind::word) && value.text() == "false"))
+    return findings.expected(value, name, "true or false"), false;
+  to = yes;
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {
+  Real n[3];
+  if (!numbers(value, n, 3)) return findings.expected(value, name, "(x, y, z)"), false;
+  to = {n[0], n[1], n[2]};
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, Color& to) {
+  Real n[3];
+  if (value.is(Kind::number))
+    n[0] = n[1] = n[2] = value.number();  // a grey
+  else if (!numbers(value, n, 3))
+    return findings.expected(value, name, "(red, green, blue)"), false;
+  to = {n[0], n[1], n[2]};
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, std::string& to) {
+  if (!value.is(Kind::word) && !value.is(Kind::number))
+    return findings.expected(value, name, "a name"), false;
+  to = value.is(Kind::word) ? value.text() : value.source();
+  return true;
+}
+
+bool read(Findings& findings, std::string_view name, const Item& value, EnumValue& to) {
+  const auto all = to.names();
+  std::string list;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (value.is(Kind::word) && value.text() == all[i]) {
+      to.set(i);
+      return true;
+    }
+    list += (i == 0 ? "" : i + 1 == all.size() ? " or " : ", ") + std::string(all[i]);
+  }
+  findings.expected(value, name, list, value.is(Kind::word) ? didYouMean(value.text(), all) : "");
+  return false;
+}
+
+bool assignField(Findings& findings, Shape& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  bool found = false;
+  editEachField(target, [&](const AnyField& f, auto& value) {
+    if (f.keyword != key) return;
+    found = true;
+    readField(findings, f, field.value(), value);
+  });
+  return found;
+}
+
+void checkRange(Findings& findings, const Shape& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  forEachField(target, [&](const AnyField& f, const auto& value) {
+    if (f.keyword == key) checkRange(findings, target.keyword(), f, value, field);
+  });
+}
+
+std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more) {
+  std::vector<std::string_view> words(more);
+  for (const AnyField& field : fieldsOf(shape)) words.push_back(field.keyword);
+  return words;
+}
+
+std::string written(Real value, int digits) {
+  if (!std::isfinite(value))
+    throw Error(Fault::scene, "a number that is not finite cannot be written to a .ray file");
+  std::string text;
+  appendNumber(text, value, digits);
+  return text;
+}
+
+std::string written(bool value, int) { return value ? "true" : "false"; }
+
+std::string written(int value, int) { return std::to_string(value); }
+
+std::string written(const Vec3& v, int digits) {
+  return "(" + written(v.x, digits) + ", " + written(v.y, digits) + ", " + written(v.z, digits) + ")";
+}
+
+std::string written(const Color& c, int digits) { return written(Vec3{c.r, c.g, c.b}, digits); }
+
+std::string written(const std::string& value, int) {
+  std::string text = "\"";
+  for (char c : value) text += c == '"' ? '\'' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  return text.substr(0, Syntax::kLongestWord - 1) + "\"";
+}
+
+namespace {
+
+/// Of linear Rec. 709: its luminance.
+float brightness(const Color& c) { return static_cast<float>(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b); }
+
+}  // namespace
+
+bool read(Findings& findings, std::string_view name, const Item& value, Heights& to) {
+  constexpr int kMostSide = 4096;
+  std::string file;
+  if (!read(findings, name, value, file)) return false;
+  if (file.empty()) return to = {}, true;
+  try {
+    const Picture picture =
+        decodePicture(readBeside(findings.syntax().file(), file, findings.scene().inputs), file);
+    if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide)
+      return findings.error(value, std::string(name) + ": expected a picture of 2 to " +
+                                       std::to_string(kMostSide) + " pixels along each side"),
+             false;
+    auto grid = std::make_shared<HeightGrid>(picture.width, picture.height);
+    for (int y = 0; y < picture.height; ++y)  // the picture's first row is the farthest
+      for (int x = 0; x < picture.width; ++x)
+        grid->at(x, picture.height - 1 - y) = brightness(picture.at(x, y));
+    to = {file, std::move(grid)};
+    return true;
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    return findings.error(value, error.messages().front().what, error.messages().front().hint), false;
+  }
+}
+
+std::string written(const Heights& value, int digits) { return written(value.file, digits); }
+
+std::string_view canonical(std::string_view word) {
+  if (word == "colour") return "color";
+  if (word == "trimesh" || word == "mesh") return "polymesh";
+  if (word == "subtraction") return "difference";
+  if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
+  return word;
+}
+
+void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
+                 double value, const Item& at) {
+  const std::string field = std::string(name) + " of " + std::string(owner);
+  const std::string range =
+      most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
+  findings.warn(at, field + ": expected " + range + ", found " + toText(value), {}, "range: " + field);
+}
+
+}  // namespace trace::rayfile

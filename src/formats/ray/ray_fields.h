@@ -1,0 +1,189 @@
+// Values of .ray files read into the members of scene structs, by the structs' own lists of fields.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+#include "base/text.h"
+#include "formats/ray/ray_findings.h"
+#include "formats/ray/ray_syntax.h"
+#include "geometry/field_value.h"
+#include "geometry/shapes/heights.h"
+#include "math/color.h"
+#include "math/vec.h"
+
+namespace trace::rayfile {
+
+/// Whole numbers in a file are at most this, and at least minus this.
+inline constexpr double kMostWhole = 1e9;
+inline bool fitsInt(double number) { return std::abs(number) <= kMostWhole; }
+
+/// Each reads one value of the field `name`; reports what else was found and returns false.
+bool read(Findings& findings, std::string_view name, const Item& value, Real& to);
+bool read(Findings& findings, std::string_view name, const Item& value, int& to);
+bool read(Findings& findings, std::string_view name, const Item& value, bool& to);
+bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to);
+bool read(Findings& findings, std::string_view name, const Item& value, Color& to);
+/// A word, or a number as written.
+bool read(Findings& findings, std::string_view name, const Item& value, std::string& to);
+
+/// The name of a picture beside the scene, which is read.
+bool read(Findings& findings, std::string_view name, const Item& value, Heights& to);
+
+/// What read() reads as the same value; with `digits` digits that count, if that is not 0.
+std::string written(Real value, int digits);
+std::string written(bool value, int digits);
+std::string written(int value, int digits);
+std::string written(const Vec3& value, int digits);
+std::string written(const Color& value, int digits);
+std::string written(const std::string& value, int digits);
+std::string written(const Heights& value, int digits);
+inline std::string written(const EnumValue& value, int) { return std::string(value.name()); }
+template <class Enum>
+requires std::is_enum_v<Enum> std::string written(Enum value, int digits) {
+  return written(EnumValue(value), digits);
+}
+template <class Sequence>
+std::string writtenList(const Sequence& values, int digits);
+template <std::size_t N>
+std::string written(const std::array<Real, N>& values, int digits) {
+  return writtenList(values, digits);
+}
+template <class Element>
+std::string written(const std::vector<Element>& values, int digits) {
+  return writtenList(values, digits);
+}
+template <class Sequence>
+std::string writtenList(const Sequence& values, int digits) {
+  std::string text;
+  for (const auto& value : values) text += (text.empty() ? "(" : ", ") + written(value, digits);
+  return text.empty() ? "()" : text + ")";
+}
+
+/// One of the names of an enum.
+bool read(Findings& findings, std::string_view name, const Item& value, EnumValue& to);
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool read(Findings& findings, std::string_view name, const Item& value, Enum& to) {
+  EnumValue any(to);
+  return read(findings, name, value, any);
+}
+
+/// What an element of a list looks like.
+inline std::string form(const std::string&) { return "\"text\""; }
+inline std::string form(Real) { return "number"; }
+inline std::string form(const Color&) { return "(red, green, blue)"; }
+template <std::size_t N>
+std::string form(const std::array<Real, N>&) {
+  std::string numbers = "(a";
+  for (std::size_t i = 1; i < N; ++i) numbers += std::string(", ") + static_cast<char>('a' + i);
+  return numbers + ")";
+}
+template <class Element>
+std::string form(const std::vector<Element>&) {
+  return "(" + form(Element{}) + ", " + form(Element{}) + ", ...)";
+}
+
+template <std::size_t N>
+bool read(Findings& findings, std::string_view name, const Item& value, std::array<Real, N>& to) {
+  if (numbers(value, to.data(), static_cast<int>(N))) return true;
+  return findings.expected(value, name, form(to)), false;
+}
+/// A list in brackets, of tuples of numbers or of lists.
+template <class Element>
+bool read(Findings& findings, std::string_view name, const Item& value, std::vector<Element>& to) {
+  if (!value.is(Kind::tuple)) return findings.expected(value, name, "a list " + form(to)), false;
+  std::vector<Element> list;
+  for (const Item item : value) {
+    list.emplace_back();
+    if (!read(findings, name, item, list.back())) return false;
+  }
+  to = std::move(list);
+  return true;
+}
+
+/// Exactly `count` numbers in a tuple; no report.
+bool numbers(const Item& tuple, Real* to, int count);
+
+/// The keyword that `word` is a synonym of, or `word`.
+std::string_view canonical(std::string_view word);
+
+/// read() of the value of the field `f`, whose range is said of a whole number that no int can hold.
+template <class Field, class Value>
+void readField(Findings& findings, const Field& f, const Item& value, Value& to) {
+  if constexpr (std::is_same_v<Value, int>)
+    if (value.is(Kind::number) && !fitsInt(value.number()) && f.most != kNoLimit)
+      return findings.expected(value, f.keyword,
+                               "a whole number from " + toText(f.least) + " to " + toText(f.most));
+  read(findings, f.keyword, value, to);
+}
+
+/// Objects are read as objects, materials as materials.
+inline bool read(Findings&, std::string_view, const Item&, Operands&) { return true; }
+inline bool read(Findings&, std::string_view, const Item&, MaterialList&) { return true; }
+
+/// Reads `field`'s value into the member of that keyword. False if Struct has no such field.
+template <class Struct>
+bool assignField(Findings& findings, Struct& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  bool found = false;
+  forEachField<Struct>([&](const auto& f) {
+    if (f.keyword != key) return;
+    found = true;
+    readField(findings, f, field.value(), target.*f.member);
+  });
+  return found;
+}
+bool assignField(Findings& findings, Shape& target, const Item& field);
+
+/// Warns, as for a person, that a number is outside its range.
+void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
+                 double value, const Item& at);
+
+/// Warns if a number of the value is outside the range of the field `f`.
+template <class Field, class Value>
+void checkRange(Findings& findings, std::string_view owner, const Field& f, const Value& value,
+                const Item& at) {
+  const auto check = [&](Real number) {
+    if (number < f.least || number > f.most)
+      warnOfRange(findings, owner, f.keyword, f.least, f.most, number, at);
+  };
+  if constexpr (requires { value.x; }) {
+    check(value.x);
+    check(value.y);
+    check(value.z);
+  } else if constexpr (requires { value.r; }) {
+    check(value.r);
+    check(value.g);
+    check(value.b);
+  } else if constexpr (std::is_same_v<Value, Real> || std::is_same_v<Value, int>) {
+    check(value);
+  }
+}
+
+/// Warns if the field of that keyword is outside its range; the value stays.
+template <class Struct>
+void checkRange(Findings& findings, const Struct& target, const Item& field) {
+  const std::string_view key = canonical(field.key());
+  forEachField<Struct>([&](const auto& f) {
+    if (f.keyword == key) checkRange(findings, Struct::kKeyword, f, target.*f.member, field);
+  });
+}
+void checkRange(Findings& findings, const Shape& target, const Item& field);
+
+/// The keywords of Struct's fields, and more.
+template <class Struct>
+std::vector<std::string_view> keywords(std::initializer_list<std::string_view> more = {}) {
+  std::vector<std::string_view> words(more);
+  forEachField<Struct>([&](const auto& f) { words.push_back(f.keyword); });
+  return words;
+}
+std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more = {});
+
+}  // namespace trace::rayfile

@@ -1,0 +1,177 @@
+#include "formats/ray/ray_findings.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.h"
+
+namespace trace::rayfile {
+namespace {
+
+/// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
+constexpr std::array<std::string_view, 24> kRelatives{
+    "area_light",  "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
+    "environment", "fog",       "hyperbolic",   "map",          "map_points", "marble",
+    "metaball",    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh",
+    "shape_light", "skybox",    "texture",      "warn_light",   "warn_model", "wood"};
+
+/// This many warnings show their line and a hint; a flood of others does without.
+constexpr std::size_t kFullWarnings = 50;
+
+/// What Trace has for words of others.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kInstead{{
+    {"csg", "Trace has union, intersection and difference, as in difference { box { } sphere { } }"},
+    {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
+    {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
+    {"obj_mesh", "Trace has mesh { file = \"name.obj\"; }"},
+    {"displace", "Trace has height_field { } and isosurface { }"},
+    {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
+}};
+
+std::string_view insteadOf(std::string_view kind) {
+  for (const auto& [word, hint] : kInstead)
+    if (word == kind) return hint;
+  return {};
+}
+
+std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
+
+}  // namespace
+
+bool isRelative(std::string_view keyword) {
+  return std::find(kRelatives.begin(), kRelatives.end(), keyword) != kRelatives.end();
+}
+
+void Findings::error(const Item& at, std::string what, std::string hint) {
+  ++errors_;
+  messages_.error(syntax_.place(at.offset()), std::move(what), std::move(hint));
+}
+
+void Findings::expected(const Item& value, std::string_view name, const std::string& what, std::string hint) {
+  error(value, std::string(name) + ": expected " + what + ", found " + describe(value), std::move(hint));
+}
+
+bool Findings::again(const std::string& kind) {
+  const auto found = kinds_.find(kind);
+  if (found == kinds_.end()) return false;
+  ++warnings_[found->second].times;
+  return true;
+}
+
+void Findings::add(const std::string& kind, const Item& at, std::string what, std::string hint) {
+  const bool full = warnings_.size() < kFullWarnings;
+  kinds_.emplace(kind, warnings_.size());
+  warnings_.push_back({full ? syntax_.place(at.offset()) : syntax_.shortPlace(at.offset()), std::move(what),
+                       full ? std::move(hint) : std::string(), 1});
+}
+
+void Findings::warn(const Item& at, std::string what, std::string hint, std::string_view kind) {
+  const std::string key = kind.empty() ? what : std::string(kind);
+  if (!again(key)) add(key, at, std::move(what), std::move(hint));
+}
+
+void Findings::warnOfNumber(const Item& at, std::string what, std::size_t count) {
+  const std::string kind = what;
+  if (!again(kind)) {
+    add(kind, at, std::move(what), {});
+    warnings_.back().times = 0;
+    warnings_.back().sums = true;
+  } else {
+    --warnings_[kinds_.find(kind)->second].times;
+  }
+  warnings_[kinds_.find(kind)->second].times += count;
+}
+
+void Findings::notRendered(std::string_view kind, const Item& node, std::span<const std::string_view> known) {
+  notRendered(kind, node, std::string(node.source()), known);
+}
+
+void Findings::notRendered(std::string_view kind, const Item& node, std::string text,
+                           std::span<const std::string_view> known) {
+  scene_.unrendered.push_back({std::string(kind), syntax_.shortPlace(node.offset()), std::move(text)});
+  const std::string key = "not rendered: " + std::string(kind);
+  if (again(key)) return;
+  if (isRelative(kind))
+    add(key, node, quoted(kind) + " is not rendered yet", std::string(insteadOf(kind)));
+  else
+    add(key, node, quoted(kind) + " is not known and is left out", didYouMean(kind, known));
+}
+
+void Findings::unknownField(std::string_view owner, const Item& field,
+                            std::span<const std::string_view> known) {
+  const std::string_view name = field.key();
+  if (isRelative(name)) return notRendered(name, field, known);
+  const std::string key = "unknown field: " + std::string(owner) + "." + std::string(name);
+  if (again(key)) return;
+  add(key, field, "unknown field " + quoted(name) + " of " + std::string(owner) + " is ignored",
+      warnings_.size() < kFullWarnings ? didYouMean(name, known) : std::string());
+}
+
+void Findings::texture(std::string_view file, const Item& node) {
+  const Place place = textures_.empty() ? syntax_.place(node.offset()) : syntax_.shortPlace(node.offset());
+  scene_.unrendered.push_back({"map", syntax_.shortPlace(node.offset()), std::string(node.source())});
+  textures_.note(file, place);
+}
+
+bool Findings::isUnknown(std::string_view owner, std::string_view field) const {
+  return kinds_.contains("unknown field: " + std::string(owner) + "." + std::string(field)) ||
+         kinds_.contains("not rendered: " + std::string(field));
+}
+
+void Findings::signOf2001(const Item& at) {
+  if (!of2001_) of2001_ = syntax_.place(at.offset());
+}
+
+void Findings::noteShininess(const Item& at, double shininess) {
+  if (!(shininess > 0 && shininess <= 1))
+    largeShininess_ = true;
+  else if (!smallShininess_)
+    smallShininess_ = syntax_.place(at.offset());
+}
+
+void Findings::finish() {
+  finishDialect();
+  for (Warning& warning : warnings_) {
+    if (warning.sums)
+      warning.what += ": " + std::to_string(warning.times);
+    else if (warning.times > 1)
+      warning.what += " (" + std::to_string(warning.times) + " times, first here)";
+    messages_.warn(std::move(warning.place), std::move(warning.what), std::move(warning.hint));
+  }
+  warnings_.clear();
+  kinds_.clear();
+  textures_.report(messages_, "white, or the second value of map(\"file\", (r, g, b)),");
+}
+
+std::optional<Item> blockOf(Findings& findings, const Item& call) {
+  if (call.value().is(Kind::block)) return call.value();
+  findings.expected(call.value(), call.key(), "{ ... }");
+  return {};
+}
+
+bool isField(Findings& findings, const Item& item, std::string_view owner) {
+  if (item.keyed()) return true;
+  findings.expected(item, owner, "a field, as in name = value");
+  return false;
+}
+
+void RepeatedFields::note(const Item& field) {
+  const std::string_view key = field.key();
+  if (std::find(given_.begin(), given_.end(), key) == given_.end()) return given_.push_back(key);
+  if (findings_.isUnknown(owner_, key)) return;  // and told as such
+  findings_.warn(field, std::string(key) + " of " + std::string(owner_) + " given again; the last counts");
+}
+
+/// Words of 2001 and shininess tell only where nothing says that the file is newer, and no highlight has an
+/// exponent above 1. Exponents from 0 to 1 would make highlights so wide that nobody wants them.
+void Findings::finishDialect() {
+  if (later_ || largeShininess_) return;
+  const std::optional<Place>& sign = of2001_ ? of2001_ : smallShininess_;
+  if (!sign) return;
+  for (const Choice& choice : scene_.choices)
+    if (choice.option == "like") return;
+  scene_.choices.push_back({"like", "uw2001", *sign});
+}
+
+}  // namespace trace::rayfile

@@ -1,0 +1,154 @@
+// The meaning of .ray scene files: the tree of ray_syntax.h turned into a Scene, by loops over the lists of
+// shapes and lights and their fields. A new shape or light needs nothing here.
+//
+// Source: the skeletons of the courses (docs/ray-format.md). Where they refuse although the
+// intention is clear, this reader accepts: named materials, materials inside groups, missing semicolons,
+// unknown fields. What Trace does not render yet is kept as text and reported once per kind. What a block
+// says is read in the file of its kind, ray_camera.cpp and the like.
+#include "formats/ray/ray_format.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "formats/ray/ray_background.h"
+#include "formats/ray/ray_camera.h"
+#include "formats/ray/ray_findings.h"
+#include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_light.h"
+#include "formats/ray/ray_material.h"
+#include "formats/ray/ray_notes.h"
+#include "formats/ray/ray_objects.h"
+#include "formats/ray/ray_settings.h"
+#include "formats/ray/ray_syntax.h"
+
+namespace trace {
+namespace rayfile {
+namespace {
+
+constexpr std::string_view kMagic = "SBT-raytracer";
+constexpr double kNewestVersion = 1.1;
+
+// --- the reader -----------------------------------------------------------------------------------------
+
+class Reader {
+ public:
+  Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time, Notes* notes)
+      : syntax_(syntax),
+        scene_(scene),
+        messages_(messages),
+        findings_(syntax, scene, messages, notes),
+        materials_(findings_),
+        objects_(findings_, materials_, time) {}
+
+  void read() {
+    const Item root = syntax_.root();
+    auto item = root.begin();
+    for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
+    scene_.unusedMaterials = materials_.unused();
+    if (Notes* notes = findings_.notes()) notes->last = materials_.current;
+    findings_.finish();
+    warnOfDarkness();
+    messages_.throwIfFailed();
+  }
+
+ private:
+  // --- the file ---
+
+  /// Leaves `item` after the header.
+  void readHeader(Item::Iterator& item, const Item::Iterator& end) {
+    if (item == end || !(*item).is(Kind::word) || (*item).text() != kMagic)
+      throw Error(Fault::scene, syntax_.place(item == end ? 0 : (*item).offset()),
+                  "expected SBT-raytracer 1.0");
+    const Item magic = *item;
+    if (++item == end || !(*item).is(Kind::number))
+      throw Error(Fault::scene, syntax_.place(magic.offset()),
+                  "expected a version after SBT-raytracer, as in 1.0");
+    if (!((*item).number() > 0 && (*item).number() <= kNewestVersion))
+      throw Error(Fault::scene, syntax_.place((*item).offset()),
+                  "expected version 1.1 or older of the format, found " + describe(*item));
+    ++item;
+  }
+
+  void topLevel(const Item& item) {
+    if (item.is(Kind::entry)) return topLevelEntry(item);
+    if (item.is(Kind::call)) {
+      if (item.key() == Phong::kKeyword) return objects_.namedMaterial(item);
+      if (item.key() == Camera::kKeyword) return camera(item);
+      if (item.key() == kSettings) return readSettings(findings_, item);
+      if (item.key() == Background::kKeyword) return background(item);
+      if (readLight(findings_, item)) return;
+    }
+    objects_.object(item, {});
+  }
+
+  void topLevelEntry(const Item& item) {
+    if (item.key() != Phong::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
+    findings_.sureSignOf2005();
+    materials_.current = materials_.read(item.value(), materials_.current);
+  }
+
+  void warnOfDarkness() {
+    const Place place{scene_.file, 0, 0, {}};
+    if (scene_.objects.empty()) return messages_.warn(place, "no object: the picture will be empty");
+    const bool glows = std::any_of(
+        scene_.materials.begin(), scene_.materials.end(),
+        [](const Material& material) { return !isBlack(std::get_if<Phong>(&material.model)->emissive); });
+    if (scene_.lights.empty() && !glows)
+      messages_.warn(place, "no light: everything will be black",
+                     "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
+  }
+
+  void camera(const Item& call) {
+    const std::optional<Item> block = blockOf(findings_, call);
+    if (!block) return;
+    if (std::exchange(hasCamera_, true)) findings_.warn(call, "there are several cameras; the last counts");
+    scene_.camera = readCamera(findings_, *block);
+  }
+
+  void background(const Item& call) {
+    if (const std::optional<Item> block = blockOf(findings_, call))
+      scene_.background = readBackground(findings_, *block);
+  }
+
+  const Syntax& syntax_;
+  Scene& scene_;
+  Messages& messages_;
+  Findings findings_;
+  Materials materials_;
+  ObjectReader objects_;
+  bool hasCamera_ = false;
+};
+
+}  // namespace
+
+Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
+  Scene scene;
+  scene.file = syntax.file();
+  scene.format = "ray";
+  settleKeys(syntax, time);
+  Reader(syntax, scene, messages, time, &notes).read();
+  return scene;
+}
+
+}  // namespace rayfile
+
+bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
+
+bool changesWithTime(const std::string& file, std::string_view bytes) {
+  const bool mayHave = bytes.find(rayfile::Syntax::kKey) != bytes.npos;  // the look is cheap, the syntax not
+  return mayHave && recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+}
+
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
+  Scene scene;
+  scene.file = file;
+  scene.format = "ray";
+  rayfile::Syntax syntax(file, bytes);
+  rayfile::settleKeys(syntax, time);
+  rayfile::Reader(syntax, scene, messages, time, nullptr).read();
+  return scene;
+}
+
+}  // namespace trace

@@ -1,0 +1,55 @@
+// Materials of .ray files: blocks, names, inheritance.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "formats/ray/ray_findings.h"
+#include "formats/ray/ray_notes.h"
+#include "formats/ray/ray_syntax.h"
+#include "shading/material.h"
+
+namespace trace::rayfile {
+
+class Materials {
+ public:
+  explicit Materials(Findings& findings) : findings_(findings) {}
+
+  /// What primitives without a material get, and material blocks start from.
+  NotedMaterial current;
+
+  /// The material that a block `{ ... }` describes, starting as a copy of `inherited`, or that a name
+  /// stands for. Reports what is wrong, and returns what could be read.
+  NotedMaterial read(const Item& value, const NotedMaterial& inherited);
+
+  /// Its index in Scene::materials; equal materials share one.
+  std::uint32_t index(const Material& material);
+  std::uint32_t index(const NotedMaterial& material);
+
+  /// Named materials that nothing uses, in the order of the file.
+  std::vector<UnusedMaterial> unused() const;
+
+ private:
+  struct Block;
+  void field(Block& block, const Item& field);
+  bool picture(Block& block, const Item& field);
+  NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
+  void warnOfInheritedGlass(const Item& block, const Material& inherited);
+
+  Findings& findings_;
+  struct Named {
+    NotedMaterial material;
+    Place place;
+    bool used = false;
+  };
+  /// An object, or another material, has it.
+  void markUsed(const std::string& name);
+  std::map<std::string, Named, std::less<>> named_;
+  std::unordered_multimap<std::size_t, std::uint32_t> byHash_;
+};
+
+}  // namespace trace::rayfile

@@ -1,0 +1,31 @@
+// Triangle meshes of .ray files.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "formats/ray/ray_findings.h"
+#include "formats/ray/ray_material.h"
+#include "formats/ray/ray_syntax.h"
+#include "geometry/mesh/mesh.h"
+
+namespace trace::rayfile {
+
+/// A mesh and what its block says beside its shape.
+struct MeshNode {
+  Mesh mesh;
+  NotedMaterial material;
+  std::string name;
+};
+
+/// Meshes that later blocks may name: `shared = NAME;`.
+using SharedMeshes = std::map<std::string, Mesh, std::less<>>;
+
+/// The mesh of a block `polymesh { ... }`. Reports what is wrong, and returns nothing if it cannot be used.
+/// Points and faces are counted from 0 in messages, as in the file.
+std::optional<MeshNode> readMesh(Findings& findings, Materials& materials, SharedMeshes& shared,
+                                 const Item& block);
+
+}  // namespace trace::rayfile

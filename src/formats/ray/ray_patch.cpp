@@ -1,0 +1,282 @@
+#include "formats/ray/ray_patch.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/file.h"
+#include "formats/ray/ray_edits.h"
+#include "formats/ray/ray_format.h"
+#include "formats/ray/ray_outline.h"
+#include "formats/ray/ray_round.h"
+#include "formats/ray/ray_same.h"
+#include "formats/ray/ray_writer.h"
+#include "geometry/shapes/csg_tree.h"
+
+namespace trace {
+namespace rayfile {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostRounds = 4;
+
+bool samePlace(const Place& a, const Place& b) {
+  return a.file == b.file && a.line == b.line && a.column == b.column && a.line > 0;
+}
+
+/// Which thing of `before` each of `after` is, by its place in the text: the k-th of several at one place.
+/// New ones go to the end.
+template <class Thing>
+std::vector<std::size_t> matched(const std::vector<Thing>& before, std::vector<Thing>& after) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> places;
+  for (std::size_t i = before.size(); i-- > 0;)
+    places[{before[i].place.line, before[i].place.column}].push_back(i);
+  std::vector<std::pair<std::size_t, Thing>> all;
+  for (Thing& thing : after) {
+    auto found = places.find({thing.place.line, thing.place.column});
+    const bool known = found != places.end() && !found->second.empty() &&
+                       samePlace(before[found->second.back()].place, thing.place);
+    all.emplace_back(known ? found->second.back() : Wanted::kNew, std::move(thing));
+    if (known) found->second.pop_back();
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::size_t> indices;
+  after.clear();
+  for (auto& [index, thing] : all) {
+    indices.push_back(index);
+    after.push_back(std::move(thing));
+  }
+  return indices;
+}
+
+/// Objects that stand in one place of the text together, such as particles, stay together or become single
+/// objects at the end of the file.
+void breakUpChanged(const Reading& now, Wanted& wanted, Messages& messages) {
+  const Scene& from = now.scene;
+  const Outline outline(*now.syntax);
+  std::vector<bool> changed(from.objects.size(), false);
+  std::vector<std::size_t> kept(from.objects.size(), Wanted::kNew);
+  for (std::size_t i = 0; i < wanted.objects.size(); ++i)
+    if (wanted.objects[i] != Wanted::kNew) kept[wanted.objects[i]] = i;
+  for (std::size_t first = 0; first < from.objects.size();) {
+    std::size_t end = first + 1;
+    while (end < from.objects.size() && samePlace(from.objects[end].place, from.objects[first].place)) ++end;
+    bool differs = false;
+    const bool single =
+        end - first == 1 && outline.find(now.syntax->offsetOf(from.objects[first].place)) != nullptr;
+    for (std::size_t i = first; i < end && !single; ++i) {
+      const bool gone = kept[i] == Wanted::kNew;
+      differs =
+          differs || gone || !sameObject(from, from.objects[i], wanted.scene, wanted.scene.objects[kept[i]]);
+    }
+    for (std::size_t i = first; i < end; ++i) changed[i] = differs;
+    if (differs)
+      messages.warn(
+          from.objects[first].place,
+          "the objects that this makes are written one by one at the end of the file, as they were edited");
+    first = end;
+  }
+  std::vector<std::pair<std::size_t, Object>> all;
+  for (std::size_t i = 0; i < wanted.objects.size(); ++i) {
+    const std::size_t index = wanted.objects[i];
+    const bool alone = index == Wanted::kNew || changed[index];
+    all.emplace_back(alone ? Wanted::kNew : index, std::move(wanted.scene.objects[i]));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  wanted.objects.clear();
+  wanted.scene.objects.clear();
+  for (auto& [index, object] : all) {
+    wanted.objects.push_back(index);
+    wanted.scene.objects.push_back(std::move(object));
+  }
+}
+
+/// For what was not edited, what the text and the files that it names say now.
+bool takeOver(const Scene& read, const Scene& now, Wanted& wanted) {
+  if (read == now) return true;
+  if (read.objects.size() != now.objects.size() || read.materials != now.materials ||
+      read.lights != now.lights || read.choices != now.choices)
+    return false;
+  for (std::size_t i = 0; i < wanted.objects.size(); ++i) {
+    const std::size_t index = wanted.objects[i];
+    if (index == Wanted::kNew) continue;
+    Object& object = wanted.scene.objects[i];
+    if (object.shape == read.objects[index].shape) object.shape = now.objects[index].shape;
+  }
+  return true;
+}
+
+/// What the materials of a text become, told by the objects that have them.
+class MaterialMap {
+ public:
+  MaterialMap(const Scene& from, const Scene& to) : from_(from), to_(to), map_(from.materials.size()) {
+    for (std::size_t i = 0; i < from.objects.size(); ++i) {
+      pair(from.objects[i].material, to.objects[i].material);
+      pairAll(from.objects[i].shape, to.objects[i].shape);
+    }
+  }
+  std::vector<std::optional<Material>> take() { return std::move(map_); }
+
+ private:
+  void pair(std::uint32_t from, std::uint32_t to) {
+    if (!map_.at(from)) map_[from] = to_.materials.at(to);
+  }
+  void pairAll(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to) {
+    for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) pair(from[i], to[i]);
+  }
+  void pairAll(const Shape& from, const Shape& to) {
+    if (&from.type() != &to.type()) return;
+    pairAll(materialsOf(from), materialsOf(to));
+    const auto &a = from.operands().list(), &b = to.operands().list();
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+      pair(a[i].material, b[i].material);
+      pairAll(a[i].shape, b[i].shape);
+    }
+  }
+
+  const Scene &from_, &to_;
+  std::vector<std::optional<Material>> map_;
+};
+
+/// The changed text; nothing if it cannot be brought to say the scene.
+class Patch {
+ public:
+  Patch(const SceneText& read, Messages& messages) : read_(read), messages_(messages) {}
+
+  std::optional<std::string> text(const Scene& edited) {
+    auto now = std::make_unique<Reading>(read_.file, *read_.bytes, read_.time);
+    Wanted wanted = first(*read_.scene, edited);
+    if (!takeOver(*read_.scene, now->scene, wanted)) return {};
+    breakUpChanged(*now, wanted, messages_);
+    noteUnused(edited, now->scene.materials.size());
+    std::set<std::size_t> rewrite;
+    for (int round = 0; !says(*now, wanted); ++round) {
+      if (round == kMostRounds) return {};
+      const std::string text = changedText(*now, wanted, rewrite, messages_);
+      noteRewritten(*now, rewrite);
+      now = std::make_unique<Reading>(read_.file, text, read_.time);
+      const Scene &is = now->scene, &to = wanted.scene;
+      if (is.objects.size() != to.objects.size() || is.lights.size() != to.lights.size()) return {};
+      rewrite = round > 0 ? wrongObjects(is, to) : std::set<std::size_t>();
+      wanted.materials = MaterialMap(now->scene, wanted.scene).take();
+      for (std::size_t i = 0; i < wanted.objects.size(); ++i) wanted.objects[i] = i;
+      for (std::size_t i = 0; i < wanted.lights.size(); ++i) wanted.lights[i] = i;
+    }
+    return *now->text;
+  }
+
+ private:
+  static Wanted first(const Scene& read, const Scene& edited) {
+    Wanted wanted{edited, {}, {}, {}};
+    for (Object& object : wanted.scene.objects) object.name = sayable(object.name);
+    for (Material& material : wanted.scene.materials) material.name = sayable(material.name);
+    wanted.objects = matched(read.objects, wanted.scene.objects);
+    wanted.lights = matched(read.lights, wanted.scene.lights);
+    for (std::size_t i = 0; i < std::min(read.materials.size(), edited.materials.size()); ++i)
+      wanted.materials.emplace_back(wanted.scene.materials[i]);
+    return wanted;
+  }
+
+  /// A name with the letters that the format takes.
+  static std::string sayable(const std::string& name) {
+    const std::string text = written(name, 0);
+    const Syntax syntax("", text);
+    return std::string((*syntax.root().begin()).text());
+  }
+
+  static bool says(const Reading& now, const Wanted& wanted) {
+    const Scene &is = now.scene, &to = wanted.scene;
+    return is.objects.size() == to.objects.size() && is.lights.size() == to.lights.size() &&
+           wrongObjects(is, to).empty() && sameButObjects(is, to);
+  }
+
+  static std::set<std::size_t> wrongObjects(const Scene& is, const Scene& to) {
+    std::set<std::size_t> wrong;
+    for (std::size_t i = 0; i < is.objects.size(); ++i)
+      if (!sameObject(is, is.objects[i], to, to.objects[i])) wrong.insert(i);
+    return wrong;
+  }
+
+  static bool sameButObjects(const Scene& is, const Scene& to) {
+    return is.camera == to.camera && is.background == to.background && sameSettings(is, to) &&
+           std::equal(is.lights.begin(), is.lights.end(), to.lights.begin(),
+                      [](const LightSource& a, const LightSource& b) { return a.light == b.light; });
+  }
+
+  static void addMaterials(const Shape& shape, std::uint32_t material, std::set<std::uint32_t>& used) {
+    used.insert(material);
+    for (const Operand& operand : shape.operands().list())
+      addMaterials(operand.shape, operand.material, used);
+  }
+
+  void noteUnused(const Scene& edited, std::size_t known) {
+    std::set<std::uint32_t> used;
+    for (const Object& object : edited.objects) addMaterials(object.shape, object.material, used);
+    for (std::size_t i = known; i < edited.materials.size(); ++i)
+      if (!used.contains(static_cast<std::uint32_t>(i)))
+        messages_.warn(Place{.file = read_.file},
+                       nameOf(edited.materials[i], i) + " is not kept: no object has it");
+  }
+
+  void noteRewritten(const Reading& now, const std::set<std::size_t>& rewrite) {
+    for (std::size_t i : rewrite)
+      messages_.warn(now.scene.objects[i].place,
+                     "this object is written anew: comments and nesting within it are lost");
+  }
+
+  const SceneText& read_;
+  Messages& messages_;
+};
+
+/// The text with the names of files beside the scene as they are seen from another folder.
+std::string moved(const std::string& text, const std::string& from, const std::string& to) {
+  std::error_code error;
+  const fs::path source = fs::absolute(from, error).parent_path().lexically_normal();
+  const fs::path target = fs::absolute(to, error).parent_path().lexically_normal();
+  if (error || source == target) return text;
+  const Syntax syntax(from, text);
+  TextEdits edits(syntax);
+  const auto see = [&](const Item& name) {
+    const fs::path path = fs::path(std::string(name.text()));
+    if (!name.is(Kind::word) || path.empty() || path.is_absolute()) return;
+    if (!fs::exists(source / path, error)) return;
+    edits.replace(name, written((source / path).lexically_relative(target).string(), 0));
+  };
+  for (std::size_t i = 0; i < syntax.nodes().size(); ++i) {
+    const Item item(syntax, static_cast<std::uint32_t>(i));
+    if (!item.keyed()) continue;
+    const std::string_view key = item.key();
+    if (item.is(Kind::entry) && (key == "file" || key == "objfile")) see(item.value());
+    if (item.is(Kind::call) && key == "map" && item.value().count() > 0) see(*item.value().begin());
+  }
+  return edits.text();
+}
+
+}  // namespace
+}  // namespace rayfile
+
+std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
+                                   Messages& messages) {
+  Messages found;
+  std::optional<std::string> text;
+  try {
+    text = rayfile::Patch(read, found).text(edited);
+  } catch (const Error&) {
+    text.reset();  // a file that it names is gone, or the reader does not take the text
+  }
+  if (text) {
+    for (const Message& message : found.all()) messages.warn(message.place, message.what, message.hint);
+    return {{file, rayfile::moved(*text, read.file, file)}};
+  }
+  messages.warn(
+      Place{.file = file},
+      "the text could not be kept: the scene is written anew, without its comments and nesting" +
+          std::string(changesWithTime(read.file, *read.bytes) ? " and as it is at this moment" : ""),
+      "undo, or edit the file itself");
+  return writeRay(edited, file, {}, messages);
+}
+
+}  // namespace trace

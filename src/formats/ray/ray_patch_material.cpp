@@ -1,0 +1,210 @@
+#include "formats/ray/ray_patch_material.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trace::rayfile {
+namespace {
+
+const Phong& phongOf(const Material& material) { return *std::get_if<Phong>(&material.model); }
+
+const std::string* pictureOf(const Material& material, std::string_view field) {
+  for (const FieldMap& map : material.maps)
+    if (map.field == field) return &map.file;
+  return nullptr;
+}
+
+bool samePicture(const Material& a, const Material& b, std::string_view field) {
+  const std::string *x = pictureOf(a, field), *y = pictureOf(b, field);
+  return x && y ? *x == *y : x == y;
+}
+
+template <class Value>
+std::string valueText(const Material& material, std::string_view field, const Value& value) {
+  const std::string* picture = pictureOf(material, field);
+  return picture ? "map(" + written(*picture, 0) + ", " + written(value, 0) + ")" : written(value, 0);
+}
+
+/// Follows, as the reader does, whether the mirror has the colour of the highlight.
+struct Mirror {
+  bool specular, given = false;
+  void meet(std::string_view key, bool namesSpecular) {
+    if (key == "reflective") {
+      given = !namesSpecular;
+      specular = namesSpecular;
+    } else if (key == "specular" && !given) {
+      specular = true;
+    }
+  }
+};
+
+bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.text() == "specular"; }
+
+}  // namespace
+
+void MaterialEdits::want(const Item& call, std::uint32_t has, const Material& was, const Material& material) {
+  const bool other = has >= wanted_.size() || !wanted_[has] || !(*wanted_[has] == material);
+  const std::optional<Item> own = fieldOf(call.value(), Phong::kKeyword);
+  if (own) {
+    if (other) instead_.insert_or_assign(own->value().offset(), material);
+    return;
+  }
+  const auto inForce = notes_.inForce.find(call.offset());
+  if (inForce == notes_.inForce.end()) return;
+  const NotedMaterial& base = inForce->second;
+  // No block says what shapes start from, or the grey of a mesh from a file.
+  const bool stands = base.block == NotedMaterial::kNoBlock ? was == material : !other;
+  if (!stands) additions_.insert_or_assign(call.offset(), Addition{call, material});
+}
+
+bool MaterialEdits::isDropped(std::size_t offset) const {
+  return std::any_of(dropped_.begin(), dropped_.end(),
+                     [&](const auto& range) { return range.first <= offset && offset < range.second; });
+}
+
+bool MaterialEdits::isKnown(const Material& material) const {
+  const auto found = material.name.empty() ? named_.end() : named_.find(material.name);
+  return found != named_.end() && found->second == material;
+}
+
+void MaterialEdits::define(const Material& material) {
+  if (!material.name.empty()) named_.insert_or_assign(material.name, material);
+}
+
+void MaterialEdits::run() {
+  for (const Notes::Block& block : notes_.blocks) now_.push_back(block.material);
+  auto next = additions_.begin();
+  for (const Notes::Use& use : notes_.uses) {
+    for (; next != additions_.end() && next->first < use.offset; ++next) add(next->second);
+    this->use(use);
+  }
+  for (; next != additions_.end(); ++next) add(next->second);
+}
+
+const Material& MaterialEdits::now(const NotedMaterial& material) const {
+  return material.block == NotedMaterial::kNoBlock ? material : now_[material.block];
+}
+
+void MaterialEdits::use(const Notes::Use& use) {
+  if (use.block == NotedMaterial::kNoBlock) return;
+  const Notes::Block& block = notes_.blocks[use.block];
+  const bool counts = block.index < wanted_.size() && wanted_[block.index];
+  if (isDropped(use.offset)) {
+    if (counts) now_[use.block] = *wanted_[block.index];
+    return;
+  }
+  if (!seen_.insert(use.offset).second) return;  // the objects of particles are read several times
+  const auto instead = instead_.find(use.offset);
+  const std::optional<Item> item = edits_.syntax().itemAt(use.offset);
+  if (!item) return;
+
+  if (item->is(Kind::word)) {
+    const Material& wanted = instead == instead_.end() ? now_[use.block] : instead->second;
+    const auto means = named_.find(std::string(item->text()));
+    if (means != named_.end() && means->second == wanted) return;
+    if (isKnown(wanted)) return edits_.replace(*item, written(wanted.name, 0));
+    edits_.replace(*item, blockText({}, wanted, true));
+    return define(wanted);
+  }
+
+  const Material& from = block.inherits == NotedMaterial::kNoBlock ? block.inherited : now_[block.inherits];
+  if (instead != instead_.end()) {
+    const Material& wanted = instead->second;
+    now_[use.block] = wanted;
+    if (isKnown(wanted)) return edits_.replace(*item, written(wanted.name, 0));
+    edits_.replace(*item, blockText(from, wanted, false));
+    return define(wanted);
+  }
+  const Material wanted = counts ? *wanted_[block.index] : followed(*item, from, block.material);
+  changeBlock(*item, from, block.material, wanted);
+  now_[use.block] = wanted;
+  define(wanted);
+}
+
+/// What the block says if its text stays and what it inherits from is `from`.
+Material MaterialEdits::followed(const Item& block, const Material& from, const Material& was) const {
+  Material result = was;
+  Phong& phong = *std::get_if<Phong>(&result.model);
+  Mirror mirror{phongOf(from).mirrorsSpecular};
+  for (const Item item : block)
+    if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
+  phong.mirrorsSpecular = mirror.specular;
+  std::erase_if(result.maps, [&](const FieldMap& map) { return !fieldOf(block, map.field); });
+  forEachField<Phong>([&](const auto& f) {
+    const std::optional<Item> given = fieldOf(block, f.keyword);
+    if (given && !namesSpecular(given->value())) return;
+    phong.*f.member = phongOf(from).*f.member;
+    if (const std::string* picture = pictureOf(from, f.keyword))
+      result.maps.push_back({std::string(f.keyword), *picture});
+  });
+  return result;
+}
+
+void MaterialEdits::changeBlock(const Item& block, const Material& from, const Material& was,
+                                const Material& wanted) {
+  if (const std::optional<Item> name = fieldOf(block, "name"); name && was.name != wanted.name) {
+    if (wanted.name.empty())
+      edits_.erase(*name);
+    else
+      edits_.change(name->value(), written(wanted.name, 0));
+  }
+  forEachField<Phong>([&](const auto& f) {
+    const std::optional<Item> given = fieldOf(block, f.keyword);
+    const auto& value = phongOf(wanted).*f.member;
+    if (given && !(value == phongOf(was).*f.member))
+      edits_.change(given->value(), valueText(wanted, f.keyword, value));
+  });
+  for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
+}
+
+/// The fields that a block lacks which starts as a copy of `from` and is to say `wanted`.
+MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& from, const Material& wanted,
+                                             bool all) {
+  Fields fields;
+  Mirror mirror{phongOf(from).mirrorsSpecular};
+  const auto given = [&](std::string_view key) { return block && fieldOf(*block, key); };
+  if (!wanted.name.empty() && !given("name")) fields.push_back("name = " + written(wanted.name, 0));
+  if (block)
+    for (const Item item : *block)
+      if (item.keyed()) {
+        const bool changed = !(phongOf(from).reflective == phongOf(wanted).reflective);
+        mirror.meet(canonical(item.key()), namesSpecular(item.value()) && !changed);
+      }
+  const auto add = [&](std::string_view key, const std::string& value) {
+    fields.push_back(std::string(key) + " = " + value);
+    mirror.meet(key, value == "specular");
+  };
+  forEachField<Phong>([&](const auto& f) {
+    if (given(f.keyword)) return;
+    const auto& value = phongOf(wanted).*f.member;
+    if (all || !(value == phongOf(from).*f.member) || !samePicture(from, wanted, f.keyword))
+      add(f.keyword, valueText(wanted, f.keyword, value));
+  });
+  if (mirror.specular != phongOf(wanted).mirrorsSpecular)
+    add("reflective",
+        mirror.specular ? valueText(wanted, "reflective", phongOf(wanted).reflective) : "specular");
+  return fields;
+}
+
+std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) {
+  std::string text = "{ ";
+  for (const std::string& field : missing(nullptr, from, wanted, whole)) text += field + "; ";
+  return text + "}";
+}
+
+void MaterialEdits::add(const Addition& addition) {
+  if (isDropped(addition.call.offset())) return;
+  const Material& from = now(notes_.inForce.at(addition.call.offset()));
+  const std::string text = isKnown(addition.material) ? written(addition.material.name, 0)
+                                                      : blockText(from, addition.material, false);
+  define(addition.material);
+  edits_.addField(addition.call.value(), "material = " + text);
+}
+
+std::string MaterialEdits::text(const Material& material, bool whole) {
+  if (isKnown(material)) return written(material.name, 0);
+  define(material);
+  return blockText(now(notes_.last), material, whole);
+}
+
+}  // namespace trace::rayfile

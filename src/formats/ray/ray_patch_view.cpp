@@ -1,0 +1,194 @@
+#include "formats/ray/ray_patch_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_patch.h"
+
+namespace trace::rayfile {
+namespace {
+
+constexpr std::string_view kSettings = "settings";
+
+/// The blocks `name { ... }` at the top of the file.
+std::vector<Item> blocksOf(const Syntax& syntax, std::string_view name) {
+  std::vector<Item> blocks;
+  for (const Item item : syntax.root())
+    if (item.is(Kind::call) && item.key() == name && item.value().is(Kind::block))
+      blocks.push_back(item.value());
+  return blocks;
+}
+
+std::string fieldText(std::string_view key, const std::string& value) {
+  return std::string(key) + " = " + value;
+}
+
+// --- camera ---------------------------------------------------------------------------------------------
+
+/// As it is if it looks at the point, which `look_at` says.
+bool looksAt(const Camera& camera, const Item& target) {
+  Real n[3];
+  return numbers(target, n, 3) && normalize(Vec3{n[0], n[1], n[2]} - camera.position) == camera.viewdir;
+}
+
+/// What `look_at` and `quaternian` say is said by viewdir and updir from now on.
+void changeDirections(TextEdits& edits, const Item& block, const Camera& from, const Camera& to) {
+  const std::optional<Item> target = fieldOf(block, "look_at"), turn = fieldOf(block, "quaternian");
+  const bool targetStays = target && looksAt(to, target->value());
+  const bool turns = !(from.viewdir == to.viewdir) && !targetStays, tilts = !(from.updir == to.updir);
+  if (!turns && !(tilts && !targetStays) && !tilts) return;
+  std::vector<std::string> more;
+  const auto say = [&](std::string_view key, const Vec3& value) {
+    if (const std::optional<Item> field = fieldOf(block, key))
+      edits.change(field->value(), written(value, 0));
+    else
+      more.push_back(fieldText(key, written(value, 0)));
+  };
+  if (!targetStays) say("viewdir", to.viewdir);
+  say("updir", to.updir);
+  std::string joined;
+  for (const std::string& field : more) joined += (joined.empty() ? "" : "; ") + field;
+  const std::optional<Item>& replaced = target && !targetStays ? target : turn;
+  if (replaced && !joined.empty()) return edits.replace(*replaced, joined);
+  if (target && !targetStays) edits.erase(*target);
+  for (const std::string& field : more) edits.addField(block, field);
+}
+
+void changeCamera(TextEdits& edits, const Camera& from, const Camera& to) {
+  if (from == to) return;
+  const std::vector<Item> blocks = blocksOf(edits.syntax(), Camera::kKeyword);
+  if (blocks.empty()) {
+    std::string text = std::string(Camera::kKeyword) + " {";
+    forEachField<Camera>([&](const auto& f) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(to.*f.member)>, Real>)
+        if (to.*f.member == kNoLimit) return;
+      text += " " + fieldText(f.keyword, written(to.*f.member, 0)) + ";";
+    });
+    return edits.addOnTop(text + " }");
+  }
+  const Item& block = blocks.back();  // the last counts
+  changeDirections(edits, block, from, to);
+  Camera was = from;
+  was.viewdir = to.viewdir, was.updir = to.updir;  // they are settled
+  if (const std::optional<Item> wide = fieldOf(block, "horizontal_fov"); wide && was.fov != to.fov) {
+    was.fov = to.fov;
+    edits.replace(*wide, fieldText("fov", written(to.fov, 0)));
+  }
+  changeFields(edits, block, was, to);
+}
+
+// --- background -----------------------------------------------------------------------------------------
+
+void changeBackground(TextEdits& edits, const Background& from, const Background& to) {
+  if (from == to) return;
+  const std::vector<Item> blocks = blocksOf(edits.syntax(), Background::kKeyword);
+  if (blocks.empty()) {
+    std::string text =
+        std::string(Background::kKeyword) + " { " + fieldText("colors", written(to.colors, 0)) + ";";
+    if (!to.limits.empty()) text += " " + fieldText("limits", written(to.limits, 0)) + ";";
+    return edits.addOnTop(text + " }");
+  }
+  const Item& block = blocks.back();
+  std::vector<Item> single;  // of one colour each
+  bool list = false;
+  for (const Item item : block) {
+    if (!item.keyed()) continue;
+    if (canonical(item.key()) == "color") single.push_back(item);
+    if (item.key() == "colors") list = true;
+  }
+  if (from.colors != to.colors && !single.empty()) {
+    if (!list && single.size() == to.colors.size()) {
+      for (std::size_t i = 0; i < single.size(); ++i)
+        edits.change(single[i].value(), written(to.colors[i], 0));
+    } else {
+      for (const Item& item : single) edits.erase(item);
+      if (list) edits.change(fieldOf(block, "colors")->value(), written(to.colors, 0));
+      if (!list && !to.colors.empty()) edits.addField(block, fieldText("colors", written(to.colors, 0)));
+    }
+    Background colored = from;
+    colored.colors = to.colors;
+    return changeFields(edits, block, colored, to);
+  }
+  changeFields(edits, block, from, to);
+}
+
+// --- settings -------------------------------------------------------------------------------------------
+
+/// As a person writes it: numbers and words bare.
+std::string choiceText(const std::string& value) {
+  const std::optional<ParsedNumber> number = parseNumber(value);
+  if (number && number->length == value.size()) return value;
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const bool word =
+      !value.empty() && isLetter(value[0]) && std::all_of(value.begin(), value.end(), [&](char c) {
+        return isLetter(c) || c == '-' || c == '_' || (c >= '0' && c <= '9');
+      });
+  return word ? value : written(value, 0);
+}
+
+class SettingsChange {
+ public:
+  SettingsChange(TextEdits& edits, const Scene& from, const Scene& to)
+      : edits_(edits),
+        blocks_(blocksOf(edits.syntax(), kSettings)),
+        choices_(from.choices),
+        to_(resolve({to.choices})) {}
+
+  void run() {
+    change(findOption("like"));
+    for (const Option& option : options())
+      if (option.repeats != Repeats::nothing) change(option);
+    if (!lines_.empty()) edits_.addOnTop(std::string(kSettings) + " {" + lines_ + " }");
+  }
+
+ private:
+  void change(const Option& option) {
+    const std::string value = option.get(to_);
+    if (option.get(resolve({choices_})) == value) return;
+    choices_.push_back({std::string(option.name), value, {}});
+    std::optional<Item> field;
+    for (const Item& block : blocks_)
+      for (const Item item : block)
+        if (item.keyed() && item.key() == option.name) field.emplace(item);
+    if (field)
+      edits_.replace(field->value(), choiceText(value));
+    else if (!blocks_.empty())
+      edits_.addField(blocks_.back(), fieldText(option.name, choiceText(value)));
+    else
+      lines_ += " " + fieldText(option.name, choiceText(value)) + ";";
+  }
+
+  TextEdits& edits_;
+  std::vector<Item> blocks_;
+  std::vector<Choice> choices_;  ///< of the text so far
+  Settings to_;
+  std::string lines_;
+};
+
+}  // namespace
+
+void changeView(TextEdits& edits, const Scene& from, const Scene& to) {
+  changeCamera(edits, from.camera, to.camera);
+  changeBackground(edits, from.background, to.background);
+  SettingsChange(edits, from, to).run();
+}
+
+}  // namespace trace::rayfile
+
+namespace trace {
+
+std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time) {
+  if (bytes.find("look_at") == bytes.npos) return {};  // the look is cheap, the syntax not
+  rayfile::Syntax syntax(file, bytes);
+  rayfile::settleKeys(syntax, time);
+  const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);
+  if (blocks.empty()) return {};
+  const std::optional<rayfile::Item> field = rayfile::fieldOf(blocks.back(), "look_at");
+  Real n[3];
+  if (!field || !rayfile::numbers(field->value(), n, 3)) return {};
+  return Vec3{n[0], n[1], n[2]};
+}
+
+}  // namespace trace

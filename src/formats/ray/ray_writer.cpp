@@ -1,0 +1,334 @@
+// Loops over the lists of shapes, lights and fields, as the reader does: a new one needs nothing here.
+//
+// Every material stands where it is first used, as a whole, since a block inherits from what is in force
+// around it; one that is used again has a name, which then stands for it. Meshes from files are written in
+// full, but those of several objects only once.
+#include "formats/ray/ray_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <type_traits>
+#include <utility>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_transform.h"
+#include "geometry/field_value.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/csg_tree.h"
+
+namespace trace {
+namespace rayfile {
+namespace {
+
+class Writer {
+ public:
+  Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Object& object : scene.objects) count(object.shape, object.material);
+    nameMaterials();
+  }
+  /// For one object of the scene.
+  Writer(const Scene& scene, const Object& object, MaterialText text)
+      : scene_(scene), digits_(0), materialText_(std::move(text)) {
+    count(object.shape, object.material);
+  }
+
+  std::string write() {
+    out_ = "SBT-raytracer 1.0\n\n";
+    writeSettings();
+    writeCamera();
+    writeBackground();
+    for (const LightSource& light : scene_.lights) writeLight(light.light);
+    for (const Object& object : scene_.objects) writeObject(object);
+    writeUnrendered();
+    return std::move(out_);
+  }
+  std::string write(const Object& object) {
+    writeObject(object);
+    return std::move(out_);
+  }
+  std::string write(const Light& light) {
+    writeLight(light);
+    return std::move(out_);
+  }
+
+ private:
+  /// A number that is infinite stands for no limit, which is what there is without the field.
+  template <class Value>
+  void field(std::string_view keyword, const Value& value) {
+    if constexpr (std::is_same_v<Value, Real>)
+      if (value == kNoLimit) return;
+    out_ += "  " + std::string(keyword) + " = " + written(value, digits_) + ";\n";
+  }
+  template <class Struct>
+  void fields(const Struct& from) {
+    forEachField<Struct>([&](const auto& f) { field(f.keyword, from.*f.member); });
+  }
+  /// They stand in the block, after the material, which they would inherit.
+  void field(std::string_view, const Operands&) {}
+  void field(std::string_view keyword, const MaterialList& materials) {
+    if (!materials.empty())
+      list(keyword, materials.indices, [&](std::uint32_t material) { writeMaterial(material); });
+  }
+
+  /// The objects that the shape is made of; none for most.
+  template <class Visit>
+  static void forEachOperand(const Shape& shape, Visit&& visit) {
+    for (const Operand& operand : shape.operands().list()) visit(operand);
+  }
+
+  void count(const Shape& shape, std::uint32_t material) {
+    ++materialUses_[material];
+    const auto* mesh = shape.as<Mesh>();
+    const bool again = mesh && ++uses_[mesh->data.get()] > 1;
+    if (!again) count(materialsOf(shape));
+    forEachOperand(shape, [&](const Operand& operand) { count(operand.shape, operand.material); });
+  }
+  void count(const std::vector<std::uint32_t>& materials) {
+    for (std::uint32_t material : materials) ++materialUses_[material];
+  }
+
+  /// Those that are used again get the names that a person sees for them.
+  void nameMaterials() {
+    std::set<std::string> taken;
+    for (const Material& material : scene_.materials) taken.insert(material.name);
+    for (const auto& [index, uses] : materialUses_) {
+      const Material& material = scene_.materials.at(index);
+      if (uses < 2 || !material.name.empty()) continue;
+      std::string name = nameOf(material, index);
+      while (!taken.insert(name).second) name += "'";
+      newNames_[index] = name;
+    }
+  }
+
+  // --- what is not an object ---
+
+  void writeSettings() {
+    const auto isLike = [](const Choice& choice) { return choice.option == "like"; };
+    // Else a reader could guess the dialect of 2001 from the shininess of materials.
+    if (std::none_of(scene_.choices.begin(), scene_.choices.end(), isLike))
+      out_ += "material = { };  // what shapes start from\n\n";
+    if (scene_.choices.empty()) return;
+    out_ += "settings {\n";
+    for (const Choice& choice : scene_.choices) field(choice.option, choice.value);
+    out_ += "}\n\n";
+  }
+
+  void writeCamera() {
+    out_ += "camera {\n";
+    fields(scene_.camera);
+    out_ += "}\n\n";
+  }
+
+  void writeBackground() {
+    if (scene_.background == Background{}) return;
+    out_ += "background {\n";
+    fields(scene_.background);
+    out_ += "}\n\n";
+  }
+
+  void writeLight(const Light& light) {
+    match(light, [&](const auto& from) {
+      out_ += std::string(from.kKeyword) + " {\n";
+      fields(from);
+    });
+    out_ += "}\n\n";
+  }
+
+  /// As found in a .ray file; the text of other formats only as a comment. Pictures of materials stand there.
+  void writeUnrendered() {
+    for (const Unrendered& node : scene_.unrendered) {
+      if (node.kind == "map") continue;
+      if (scene_.format == "ray") {
+        out_ += node.text + "\n\n";
+        continue;
+      }
+      out_ += "// not rendered: ";
+      for (char c : node.text) out_ += c == '\n' || c == '\r' ? std::string("\n// ") : std::string(1, c);
+      out_ += "\n\n";
+    }
+  }
+
+  // --- materials ---
+
+  void writeMaterial(std::uint32_t index) {
+    if (materialText_) {
+      out_ += materialText_(index, inWhole_);
+      return;
+    }
+    const Material& material = scene_.materials.at(index);
+    const auto given = newNames_.find(index);
+    const std::string& name = given == newNames_.end() ? material.name : given->second;
+    if (!name.empty()) {
+      const auto [named, fresh] = named_.try_emplace(name, index);
+      if (!fresh && named->second == index) {
+        out_ += written(name, digits_);
+        return;
+      }
+      named->second = index;
+    }
+    out_ += "{ ";
+    if (!name.empty()) item("name", written(name, digits_));
+    match(material.model, [&](const auto& model) { modelFields(material, model); });
+    out_ += "}";
+  }
+
+  void item(std::string_view keyword, const std::string& value) {
+    out_ += std::string(keyword) + " = " + value + "; ";
+  }
+
+  /// Those that differ from the defaults; all of an operand's, which would inherit from the whole.
+  template <class Model>
+  void modelFields(const Material& material, const Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      const auto& value = model.*f.member;
+      const std::string* picture = pictureOf(material, f.keyword);
+      const bool differs = inWhole_ || picture || value != Model{}.*f.member;
+      if (picture)
+        item(f.keyword, "map(" + written(*picture, digits_) + ", " + written(value, digits_) + ")");
+      else if (differs || isSaidAnyway(material, model, f.keyword))
+        item(f.keyword, written(value, digits_));
+      if constexpr (requires { model.mirrorsSpecular; })
+        if (f.keyword == "reflective" && model.mirrorsSpecular && differs) item(f.keyword, "specular");
+    });
+  }
+
+  /// `specular` without `reflective` after it says that the surface mirrors with it.
+  template <class Model>
+  static bool isSaidAnyway(const Material& material, const Model& model, std::string_view keyword) {
+    if constexpr (requires { model.mirrorsSpecular; }) {
+      if (keyword == "specular") return model.mirrorsSpecular;
+      const bool saidSpecular = !isBlack(model.specular) || pictureOf(material, "specular");
+      if (keyword == "reflective") return !model.mirrorsSpecular && saidSpecular;
+    }
+    return false;
+  }
+
+  static const std::string* pictureOf(const Material& material, std::string_view field) {
+    for (const FieldMap& map : material.maps)
+      if (map.field == field) return &map.file;
+    return nullptr;
+  }
+
+  // --- objects ---
+
+  void writeObject(const Object& object) {
+    const std::vector<TransformStep> steps = stepsOf(object.worldFromObject);
+    for (const TransformStep& step : steps) {
+      out_ += head(step, digits_);
+      if (step.kind == TransformStep::Kind::matrix) out_.back() = '\n';
+    }
+    if (const auto* mesh = object.shape.as<Mesh>()) {
+      writeMesh(object, *mesh->data);
+    } else {
+      out_ += std::string(object.shape.keyword()) + " {\n";
+      writeName(object);
+      forEachField(object.shape, [&](const AnyField& f, const auto& value) { field(f.keyword, value); });
+      writeOwnMaterial(object);
+    }
+    const bool outside = std::exchange(inWhole_, true);
+    forEachOperand(object.shape, [&](const Operand& operand) {
+      writeObject({.name = operand.name,
+                   .shape = operand.shape,
+                   .worldFromObject = operand.wholeFromOperand,
+                   .material = operand.material,
+                   .place = {}});
+    });
+    inWhole_ = outside;
+    out_ += "}" + std::string(steps.size(), ')') + "\n\n";
+  }
+
+  void writeName(const Object& object) {
+    if (!object.name.empty()) field("name", object.name);
+  }
+
+  void writeOwnMaterial(const Object& object) {
+    out_ += "  material = ";
+    writeMaterial(object.material);
+    out_ += ";\n";
+  }
+
+  /// The materials of points stand before that of the mesh, which they would inherit from.
+  void writeMesh(const Object& object, const MeshData& mesh) {
+    out_ += std::string(Mesh::kKeyword) + " {\n";
+    writeName(object);
+    if (uses_.at(&mesh) > 1) {
+      const auto [number, fresh] = shared_.try_emplace(&mesh, shared_.size());
+      out_ += "  shared = " + std::to_string(number->second) + ";\n";
+      if (!fresh) return writeOwnMaterial(object);
+    }
+    list("points", mesh.points, [&](const Vec3f& p) { tuple(std::array{p.x, p.y, p.z}); });
+    if (!mesh.normals.empty())
+      list("normals", mesh.normals, [&](const Vec3f& n) { tuple(std::array{n.x, n.y, n.z}); });
+    if (!mesh.uvs.empty())
+      list("texture_uv", mesh.uvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
+    if (!mesh.materials.empty())
+      list("materials", mesh.materials, [&](std::uint32_t material) { writeMaterial(material); });
+    writeOwnMaterial(object);
+    if (mesh.generateNormals) out_ += "  gennormals;\n";
+    if (mesh.twoSided) out_ += "  two_sided;\n";
+    list("faces", mesh.triangles, [&](const Triangle& t) { tuple(t); });
+  }
+
+  /// Wraps lines, so that an editor can show them.
+  template <class Items, class Write>
+  void list(std::string_view keyword, const Items& items, Write&& write) {
+    constexpr std::size_t kLine = 100;
+    out_ += "  " + std::string(keyword) + " = (\n    ";
+    std::size_t lineStart = out_.size();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const bool full = out_.size() - lineStart > kLine;
+      if (i > 0) out_ += full ? ",\n    " : ", ";
+      if (full) lineStart = out_.size();
+      write(items[i]);
+    }
+    out_ += ");\n";
+  }
+
+  template <class Numbers>
+  void tuple(const Numbers& numbers) {
+    out_ += '(';
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      if constexpr (std::is_integral_v<typename Numbers::value_type>)
+        out_ += std::to_string(numbers[i]);
+      else
+        appendNumber(out_, numbers[i], digits_);
+    }
+    out_ += ')';
+  }
+
+  const Scene& scene_;
+  int digits_;
+  MaterialText materialText_;  ///< says materials in another way, if there is one
+  bool inWhole_ = false;       ///< what is written is an operand
+  std::string out_;
+  std::map<const MeshData*, std::size_t> uses_,
+      shared_;  ///< how many objects have a mesh; its number in the file
+  std::map<std::uint32_t, std::size_t> materialUses_;
+  std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
+  std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
+};
+
+}  // namespace
+
+std::string writtenObject(const Scene& scene, const Object& object, const MaterialText& material) {
+  return Writer(scene, object, material).write(object);
+}
+
+std::string writtenLight(const Light& light) {
+  const Scene none;
+  return Writer(none, 0).write(light);
+}
+
+}  // namespace rayfile
+
+std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,
+                                 Messages&) {
+  return {{file, rayfile::Writer(scene, options.digits).write()}};
+}
+
+}  // namespace trace

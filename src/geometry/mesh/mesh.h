@@ -1,0 +1,71 @@
+// Triangle meshes. The arrays are bulk data behind a shared const handle: copying a scene never copies
+// them, and a mesh named twice is stored once.
+//
+// A mesh is not asked for its crossings like the other shapes: the World keeps a hierarchy over each
+// mesh's triangles and tests them here, without a dispatch per triangle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/field.h"
+#include "geometry/mesh/triangle.h"
+#include "geometry/ray.h"
+#include "math/box.h"
+
+namespace trace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct MeshData {
+  std::vector<Vec3f> points;
+  std::vector<Triangle> triangles;       ///< indices into points; counter-clockwise is the front
+  std::vector<Vec3f> normals;            ///< per point, or empty: faces look flat
+  std::vector<std::uint32_t> materials;  ///< per point, indices into Scene::materials, or empty
+  std::vector<Vec2> uvs;                 ///< per point, or empty
+  bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
+  bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
+
+  /// Of polygons with more than three corners: the first of their triangles and how many. What is seen is the
+  /// same without; subdivision begins with them.
+  std::vector<std::array<std::uint32_t, 2>> polygons;
+
+  /// Is the same seen?
+  bool operator==(const MeshData& other) const {
+    return points == other.points && triangles == other.triangles && normals == other.normals &&
+           materials == other.materials && uvs == other.uvs && generateNormals == other.generateNormals &&
+           twoSided == other.twoSided;
+  }
+};
+
+struct Mesh {
+  static constexpr std::string_view kKeyword = "polymesh";
+  static constexpr std::string_view kHelp =
+      "triangle mesh: points, faces, and per-point normals, materials, uv";
+  static constexpr auto fields() { return std::tuple{}; }
+
+  std::shared_ptr<const MeshData> data = std::make_shared<MeshData>();
+
+  bool operator==(const Mesh& other) const { return data == other.data || *data == *other.data; }
+};
+
+/// The corners of a triangle, as a ray meets them.
+Corners corners(const MeshData& mesh, std::uint32_t index);
+
+SurfacePoint surface(const MeshData& mesh, std::uint32_t index, const TriangleHit& hit);
+
+/// (b - a) x (c - a), not normalised; zero for a degenerate triangle.
+Vec3 faceNormal(const MeshData& mesh, std::uint32_t index);
+
+Box3 bounds(const MeshData& mesh, std::uint32_t index);
+Box3 bounds(const MeshData& mesh);
+
+/// The mesh with each point's normal the unweighted mean of the unit normals of the faces around it, added
+/// to its explicit normals if it has any. `unit` scales the means to length 1; else they stay shorter
+/// where faces turn away from each other, which weighs them less when a face interpolates.
+MeshData withGeneratedNormals(const MeshData& mesh, bool unit);
+
+}  // namespace trace

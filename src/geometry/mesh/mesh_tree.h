@@ -1,0 +1,175 @@
+// A mesh as rays meet it: its triangles in the leaves of a hierarchy, four to a block.
+//
+// A block's four lanes are tested at once, in double; where a weight is so near zero that rounding might have
+// given it the wrong sign, the exact test decides (triangle.h). So the hit is the one that testing every
+// triangle finds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "accel/bvh.h"
+#include "geometry/mesh/mesh.h"
+
+namespace trace {
+
+/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never met.
+struct alignas(16) TriangleBlock {
+  float corner[3][3][4];
+
+  Corners corners(std::size_t lane) const {
+    const auto at = [&](int i) { return Vec3{corner[i][0][lane], corner[i][1][lane], corner[i][2][lane]}; };
+    return {at(0), at(1), at(2)};
+  }
+};
+
+struct MeshHit {
+  std::uint32_t triangle = Bvh::kNoItem;
+  TriangleHit hit;
+};
+
+/// A mesh as the kernels see it.
+struct MeshArrays {
+  const BvhNode* nodes;
+  const TriangleBlock* blocks;
+  const std::uint32_t* triangles;  ///< four for each block
+  BvhExtent extent;
+};
+
+/// A ray's way through a mesh.
+struct MeshQuery {
+  const Ray& ray;
+  const MeshArrays& mesh;
+  NodeCount& nodes;
+  MeshHit& best;  ///< the nearest accepted so far; best.hit.t bounds what is sought
+  /// Whether a hit counts; null: every hit does.
+  bool (*accept)(void* context, const MeshHit&) = nullptr;
+  void* context = nullptr;
+  std::uint64_t blocks = 0;  ///< tested
+
+  /// The exact test of a lane of a block.
+  bool passes(std::uint32_t block, std::size_t lane) const;
+};
+
+/// The way through a mesh, compiled for one instruction set.
+struct MeshKernel {
+  std::string_view name;
+  /// The nearest accepted hit at 0 < t <= best.hit.t; of several at the same t the first triangle.
+  void (*closest)(MeshQuery&);
+  /// Asks `accept` for every hit at 0 < t < best.hit.t, in any order, until it returns true.
+  void (*crossings)(MeshQuery&);
+};
+
+/// Those that this machine can run, the best first.
+std::span<const MeshKernel> meshKernels();
+
+/// Counted on the way.
+struct MeshCounts {
+  NodeCount& nodes;
+  std::uint64_t& triangles;  ///< tested, four at a time
+};
+
+class MeshTree {
+ public:
+  /// Built by so many threads; 0 means all the hardware has.
+  MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int threads = 1,
+           const MeshKernel& kernel = meshKernels().front());
+
+  const MeshData& data() const { return *data_; }
+
+  /// Whether there is a hit at 0 < t <= best.hit.t that accept(MeshHit) likes; `accept` may be nullptr, which
+  /// likes all. Then `best` is the nearest, of several at the same t the triangle with the lowest number.
+  template <class Accept>
+  bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const;
+
+  /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
+  /// A triangle that the hierarchy holds in parts may be met more than once.
+  template <class Visit>
+  void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const;
+
+  /// Of the structure for tracing, without the mesh's own arrays.
+  std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
+
+  MeshTree(const MeshTree&) = delete;
+  MeshTree& operator=(const MeshTree&) = delete;
+
+ private:
+  /// Without a hierarchy: the scalar test for every triangle.
+  template <class Visit>
+  [[gnu::noinline]] void everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit,
+                                       MeshCounts counts) const;
+
+  std::shared_ptr<const MeshData> data_;
+  Bvh bvh_;
+  HugeVector<TriangleBlock> blocks_;  ///< one for each leaf
+  MeshArrays arrays_{};
+  const MeshKernel& kernel_;
+};
+
+// ------------------------------------------------------------------------------------------------------
+
+template <class Visit>
+void MeshTree::everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const {
+  const TriangleRay triangleRay(ray);
+  MeshHit met;
+  for (std::uint32_t triangle : bvh_.items()) {
+    ++counts.triangles;
+    met.triangle = triangle;
+    if (triangleRay.intersect(corners(*data_, triangle), tMost, met.hit) && visit(met)) return;
+  }
+}
+
+template <class Accept>
+bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const {
+  constexpr bool kFiltered = !std::is_same_v<std::remove_cvref_t<Accept>, std::nullptr_t>;
+  best.triangle = Bvh::kNoItem;
+  if (bvh_.nodes().empty()) {
+    everyTriangle(
+        ray, best.hit.t,
+        [&](const MeshHit& met) {
+          const bool nearer =
+              met.hit.t < best.hit.t || (met.hit.t == best.hit.t && met.triangle < best.triangle);
+          if constexpr (kFiltered) {
+            if (nearer && accept(met)) best = met;
+          } else if (nearer) {
+            best = met;
+          }
+          return false;
+        },
+        counts);
+    return best.triangle != Bvh::kNoItem;
+  }
+  MeshQuery query{ray, arrays_, counts.nodes, best};
+  if constexpr (kFiltered) {
+    query.context = const_cast<void*>(static_cast<const void*>(&accept));
+    query.accept = [](void* context, const MeshHit& met) {
+      return (*static_cast<std::remove_reference_t<Accept>*>(context))(met);
+    };
+  }
+  kernel_.closest(query);
+  counts.triangles += query.blocks * Bvh::kLeafSize;
+  return best.triangle != Bvh::kNoItem;
+}
+
+template <class Visit>
+void MeshTree::crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const {
+  if (bvh_.nodes().empty()) {
+    everyTriangle(
+        ray, tMost, [&](const MeshHit& met) { return met.hit.t < tMost && visit(met); }, counts);
+    return;
+  }
+  MeshHit met;
+  met.hit.t = tMost;
+  MeshQuery query{ray, arrays_, counts.nodes, met};
+  query.context = const_cast<void*>(static_cast<const void*>(&visit));
+  query.accept = [](void* context, const MeshHit& hit) {
+    return (*static_cast<std::remove_reference_t<Visit>*>(context))(hit);
+  };
+  kernel_.crossings(query);
+  counts.triangles += query.blocks * Bvh::kLeafSize;
+}
+
+}  // namespace trace

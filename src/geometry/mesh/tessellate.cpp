@@ -1,0 +1,203 @@
+#include "geometry/mesh/tessellate.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "base/budget.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/traced.h"
+#include "math/transform.h"
+
+namespace trace {
+namespace {
+
+/// Normals within this angle of each other, 53 degrees, belong to one smooth surface.
+constexpr Real kCrease = 0.6;
+/// Pulls a cell's point to the middle of its crossings where their planes leave it free.
+constexpr Real kPull = 1e-3;
+/// How far the outermost lines stay inside the bounds, in shares of the longest side.
+constexpr Real kInset = 1e-7;
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+struct Sample {
+  Vec3 point, normal;
+  std::uint32_t next = kNone;  ///< of the same cell
+};
+
+class Grid {
+ public:
+  Grid(const Box3& bounds, int divisions) : bounds_(bounds) {
+    const Real longest = maxComponent(bounds.size()), cell = longest / divisions;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Real>& at = lines_[axis];
+      const Real low = bounds.low[axis], size = bounds.high[axis] - low;
+      at.push_back(low - cell);
+      if (size > 4 * kInset * longest) {  // flat shapes have no line across them
+        const int count = std::max(2, static_cast<int>(std::ceil(size / cell)) + 1);
+        for (int i = 0; i < count; ++i)
+          at.push_back(low + kInset * longest + (size - 2 * kInset * longest) * i / (count - 1));
+      }
+      at.push_back(bounds.high[axis] + cell);
+    }
+    heads_.assign(cells(0) * cells(1) * cells(2), kNone);
+  }
+
+  void sample(const TracedShape& shape) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t j = 1; j + 1 < lines_[next(axis)].size(); ++j)
+        for (std::size_t k = 1; k + 1 < lines_[after(axis)].size(); ++k) sampleLine(shape, axis, j, k);
+  }
+
+  std::vector<SurfaceCorner> triangles(bool solid) {
+    std::vector<SurfaceCorner> corners;
+    std::vector<std::optional<Vec3>> points(heads_.size());
+    for (const Edge& edge : edges_) {
+      checkBudget();
+      std::array<SurfaceCorner, 4> quad;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t cell = cellAround(edge, i);
+        if (!points[cell]) points[cell] = place(cell);
+        quad[i] = {*points[cell], smoothNormal(cell, edge.normal, solid), edge.material};
+      }
+      for (const std::size_t i : {0, 1, 2, 0, 2, 3}) corners.push_back(quad[i]);
+    }
+    return corners;
+  }
+
+ private:
+  struct Edge {
+    int axis;
+    std::size_t i, j, k;  ///< interval along the axis, lines along the two others
+    Vec3 normal;
+    std::uint32_t material;
+  };
+
+  static int next(int axis) { return (axis + 1) % 3; }
+  static int after(int axis) { return (axis + 2) % 3; }
+  std::size_t cells(int axis) const { return lines_[axis].size() - 1; }
+
+  /// The four cells around an edge, in a ring.
+  std::size_t cellAround(const Edge& edge, std::size_t corner) const {
+    std::size_t at[3];
+    at[edge.axis] = edge.i;
+    at[next(edge.axis)] = edge.j - (corner == 0 || corner == 3);
+    at[after(edge.axis)] = edge.k - (corner == 0 || corner == 1);
+    return (at[2] * cells(1) + at[1]) * cells(0) + at[0];
+  }
+
+  void sampleLine(const TracedShape& shape, int axis, std::size_t j, std::size_t k) {
+    checkBudget();
+    const std::vector<Real>& along = lines_[axis];
+    Ray ray;
+    ray.origin[axis] = along.front();
+    ray.origin[next(axis)] = lines_[next(axis)][j];
+    ray.origin[after(axis)] = lines_[after(axis)][k];
+    ray.direction[axis] = 1;
+    found_.clear();
+    const auto keep = [&](const Crossing& crossing) { found_.push_back(crossing); };
+    const Real end = along.back() - along.front();
+    shape.crossings(ray, {0, end}, keep);
+    std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::size_t last = kNone;
+    for (const Crossing& crossing : found_) {
+      const Real x = ray.origin[axis] + crossing.t;
+      if (!(x > along.front() && x < along.back())) continue;
+      const std::size_t i =
+          static_cast<std::size_t>(std::upper_bound(along.begin(), along.end(), x) - along.begin()) - 1;
+      if (i == last) continue;  // what is thinner than a cell is drawn once
+      last = i;
+      const SurfacePoint surface = shape.surface(ray, crossing);
+      if (!isFinite(surface.point) || !isFinite(surface.normal)) continue;
+      const MaterialMix mix = shape.material(crossing.part, SurfaceCorner::kOwn);
+      const auto most = std::max_element(mix.weight, mix.weight + mix.count) - mix.weight;
+      const Edge edge{axis, i, j, k, surface.normal, mix.material[most]};
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        std::uint32_t& head = heads_[cellAround(edge, corner)];
+        samples_.push_back({surface.point, surface.normal, head});
+        head = static_cast<std::uint32_t>(samples_.size() - 1);
+      }
+      edges_.push_back(edge);
+    }
+  }
+
+  /// Where the tangent planes of the cell's crossings meet best, inside the cell and the bounds.
+  Vec3 place(std::size_t cell) const {
+    Vec3 middle;
+    int count = 0;
+    for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next)
+      middle += samples_[s].point, ++count;
+    middle = middle / count;
+    Affine normal;  // of the normal equations, for the way from the middle
+    for (int i = 0; i < 3; ++i) normal.row[i] = normal.row[i] * (kPull * count);
+    Vec3 right;
+    for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next) {
+      const Vec3& n = samples_[s].normal;
+      for (int i = 0; i < 3; ++i) normal.row[i] += n * n[i];
+      right += n * dot(n, samples_[s].point - middle);
+    }
+    const Vec3 p = middle + linear(inverse(normal), right);
+    const std::size_t at[3] = {cell % cells(0), cell / cells(0) % cells(1), cell / (cells(0) * cells(1))};
+    Vec3 inside;
+    for (int i = 0; i < 3; ++i) inside[i] = std::clamp(p[i], lines_[i][at[i]], lines_[i][at[i] + 1]);
+    return min(max(inside, bounds_.low), bounds_.high);
+  }
+
+  /// The mean of those of the cell's normals that belong to the surface with `normal`.
+  Vec3 smoothNormal(std::size_t cell, const Vec3& normal, bool solid) const {
+    Vec3 sum;
+    for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next) {
+      const Real cosine = dot(samples_[s].normal, normal);
+      if (solid ? cosine > kCrease : std::abs(cosine) > kCrease)
+        sum += cosine < 0 ? -samples_[s].normal : samples_[s].normal;
+    }
+    return normalize(sum);
+  }
+
+  Box3 bounds_;
+  std::vector<Real> lines_[3];
+  std::vector<std::uint32_t> heads_;  // first sample of each cell
+  std::vector<Sample> samples_;
+  std::vector<Edge> edges_;
+  std::vector<Crossing> found_;
+};
+
+Box3 cutOff(Box3 box, const Box3& within) {
+  if (!isFinite(box.size())) box.low = max(box.low, within.low), box.high = min(box.high, within.high);
+  return box;
+}
+
+std::vector<SurfaceCorner> meshCorners(const MeshData& given) {
+  const MeshData data = given.generateNormals ? withGeneratedNormals(given, true) : given;
+  std::vector<SurfaceCorner> result;
+  result.reserve(data.triangles.size() * 3);
+  for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
+    const Vec3 face = faceNormal(data, i);
+    if (!(length(face) > 0)) continue;
+    for (const std::uint32_t corner : data.triangles[i]) {
+      const Vec3 n = data.normals.empty() ? face : Vec3(data.normals[corner]);
+      result.push_back({Vec3(data.points[corner]), normalize(length(n) > 0 ? n : face),
+                        data.materials.empty() ? SurfaceCorner::kOwn : data.materials[data.triangles[i][0]]});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Box3 drawnBounds(const Shape& shape, const Box3& within) {
+  const Box3 box = prepare(shape).bounds();
+  return shape.is<Mesh>() ? box : cutOff(box, within);
+}
+
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within) {
+  if (const auto* mesh = shape.as<Mesh>()) return meshCorners(*mesh->data);
+  const TracedShape form = prepare(shape);
+  const Box3 box = cutOff(form.bounds(), within);
+  if (!(maxComponent(box.size()) > 0)) return {};
+  Grid grid(box, divisions);
+  grid.sample(form);
+  return grid.triangles(form.solid());
+}
+
+}  // namespace trace

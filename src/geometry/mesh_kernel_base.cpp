@@ -1,9 +1,0 @@
-// The kernel for what every machine of the architecture can run: SSE2, NEON, WebAssembly or plain C++.
-#include "geometry/mesh_kernel.h"
-
-namespace trace {
-
-extern const MeshKernel kMeshKernelBase;
-const MeshKernel kMeshKernelBase{"base", simd::closestInMesh, simd::crossingsOfMesh};
-
-}  // namespace trace
