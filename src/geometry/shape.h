@@ -18,6 +18,7 @@ namespace trace {
 
 struct AnyField;
 class Shape;
+struct ShapeFacts;
 class TracedShape;
 
 /// More types of shapes than there will be.
@@ -34,6 +35,7 @@ struct ShapeType {
   bool (*equal)(const void* a, const void* b);
   std::vector<AnyField> (*fields)(void* shape);
   TracedShape (*prepare)(const void* shape, const MeshTrees& made);
+  ShapeFacts (*check)(const void* shape);
 };
 
 std::span<const ShapeType> shapeTypes();
@@ -98,6 +100,7 @@ class Shape {
 
  private:
   friend TracedShape prepare(const Shape& shape, const MeshTrees& made);
+  friend ShapeFacts check(const Shape& shape);
   friend std::vector<AnyField> fieldsOf(const Shape& shape);
 
   /// The data, copied first where others share it.

@@ -21,7 +21,9 @@
 //
 // A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
 //   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
-// prepare() asks for it once. What is costly to find everywhere may take the wanted part of the line:
+// prepare() asks for it once. Where that takes long, it adds
+//   checked()           its ShapeFacts, found without; throws what prepared() throws
+// What is costly to find everywhere may take the wanted part of the line:
 //   crossings(ray, range, f)   as above, but only those in the Range need be visited; nearest first
 #pragma once
 

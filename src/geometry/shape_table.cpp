@@ -26,10 +26,33 @@ std::vector<AnyField> fieldsIn(void* at) {
   return all;
 }
 
+/// The parts of a form are numbered below this.
+template <class Form>
+std::int64_t partCountOf(const Form& form) {
+  constexpr std::int64_t kEnough = std::int64_t{1} << 24;
+  if constexpr (requires { form.partCount(); })
+    return form.partCount();
+  else
+    return kEnough;
+}
+
 template <class S>
 constexpr bool kTraceable = Traceable<std::remove_cvref_t<decltype(formOf(formFor(std::declval<S>())))>>;
 template <>
 constexpr bool kTraceable<Mesh> = true;
+
+/// Of a shape without checked(), those of its form.
+template <class S>
+ShapeFacts factsOf(const S& shape) {
+  if constexpr (requires { shape.checked(); }) {
+    return shape.checked();
+  } else if constexpr (std::is_same_v<S, Mesh>) {
+    return {true, trace::bounds(*shape.data), static_cast<std::int64_t>(shape.data->triangles.size())};
+  } else {
+    const auto form = formFor(shape);
+    return {formOf(form).solid(), formOf(form).bounds(), partCountOf(formOf(form))};
+  }
+}
 
 template <class S, std::size_t kIndex>
 ShapeType rowOf() {
@@ -43,13 +66,16 @@ ShapeType rowOf() {
   },
   .equal = [](const void* a,
               const void* b) { return *static_cast<const S*>(a) == *static_cast<const S*>(b); },
-  .fields = fieldsIn<S>, .prepare = [](const void* at, const MeshTrees& made) {
-    TracedShape::Held held{AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)),
-                           {}};
-    if constexpr (!std::is_same_v<S, Mesh>)
-      held.approach = Approach(formOf(*std::get_if<kIndex>(&held.form)).bounds());
-    return TracedShape(shapeTypes()[kIndex], std::make_shared<const TracedShape::Held>(std::move(held)));
-  },
+  .fields = fieldsIn<S>,
+  .prepare =
+      [](const void* at, const MeshTrees& made) {
+        TracedShape::Held held{
+            AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)), {}};
+        if constexpr (!std::is_same_v<S, Mesh>)
+          held.approach = Approach(formOf(*std::get_if<kIndex>(&held.form)).bounds());
+        return TracedShape(shapeTypes()[kIndex], std::make_shared<const TracedShape::Held>(std::move(held)));
+      },
+  .check = [](const void* at) { return factsOf(*static_cast<const S*>(at)); },
 };  // namespace
 }  // namespace trace
 
@@ -119,6 +145,8 @@ void Shape::setOperands(Operands operands) {
 }
 
 // --- forms --------------------------------------------------------------------------------------------
+
+ShapeFacts check(const Shape& shape) { return shape.type_->check(shape.data_.get()); }
 
 TracedShape prepare(const Shape& shape, const MeshTrees& made) {
   return shape.type_->prepare(shape.data_.get(), made);
@@ -195,15 +223,8 @@ void TracedShape::addMaterials(std::vector<std::uint32_t>& all) const {
 }
 
 std::int64_t TracedShape::partCount() const {
-  constexpr std::int64_t kEnough = std::int64_t{1} << 24;
   return withForm(
-      *this,
-      [](const auto& form) {
-        if constexpr (requires { form.partCount(); })
-          return std::int64_t{form.partCount()};
-        else
-          return kEnough;
-      },
+      *this, [](const auto& form) { return partCountOf(form); },
       [](const Mesh& mesh) { return static_cast<std::int64_t>(mesh.data->triangles.size()); });
 }
 

@@ -50,6 +50,17 @@ class TracedShape {
   std::shared_ptr<const Held> held_;
 };
 
+/// What is known of a shape before anything is built of it.
+struct ShapeFacts {
+  bool solid = false;  ///< a mesh counts as one: the World warns of those that are not closed
+  Box3 bounds{};       ///< holds the shape, perhaps with room left
+  std::int64_t partCount = 0;
+};
+
+/// Throws Error for a shape that cannot be traced, as prepare() does. Hierarchies of meshes and heights of
+/// terrains are not built for it.
+ShapeFacts check(const Shape& shape);
+
 /// What rays meet of the shape. Solids of solids take over the hierarchies of meshes that are `made`. Throws
 /// Error for a shape that cannot be traced.
 TracedShape prepare(const Shape& shape, const MeshTrees& made = {});

@@ -106,7 +106,9 @@ TEST(Reinsertion, OddBoxes) {
   for (const auto& box : odd)
     for (int count : {1, 2, 5, 6, 17, 3600}) {
       const auto [before, after] = reinserted(treeOf(count, box));
-      if (std::isfinite(before)) EXPECT_LE(after, before * (1 + 1e-6));
+      if (std::isfinite(before)) {
+        EXPECT_LE(after, before * (1 + 1e-6));
+      }
     }
 }
 

@@ -17,6 +17,7 @@
 #include "base/file.h"
 #include "formats/format.h"
 #include "support/folder.h"
+#include "support/paths.h"
 
 namespace trace {
 namespace {
@@ -689,6 +690,12 @@ TEST(BrokenFiles, Gltf) {
                    "\"image/png\", \"name\": \"dents\"}], "),
        "warning the texture \"dents (inside the file)\" is not rendered yet"},
   });
+}
+
+TEST(BrokenFiles, GltfCountsPointsFromZero) {
+  const std::string file = test::sourceFolder() + "/tests/corpus/gltf/broken_index.gltf";
+  EXPECT_EQ(said(file, readFile(file)),
+            "error: a triangle uses point 3, but the mesh has 3 points, counted from 0\n");
 }
 
 TEST(BrokenFiles, GltfTellsWhereItsJsonIsBroken) {

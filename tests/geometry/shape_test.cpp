@@ -1,9 +1,11 @@
 // What must hold for every shape on the list.
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/conic.h"
 #include "geometry/shapes/copies.h"
+#include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/isosurface.h"
@@ -17,6 +19,7 @@
 #include "geometry/shapes/rounded_box.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/sphere_sweep.h"
+#include "geometry/shapes/square.h"
 #include "geometry/shapes/superellipsoid.h"
 #include "geometry/shapes/supertoroid.h"
 #include "geometry/shapes/torus.h"
@@ -34,6 +37,49 @@ Ray rayToward(const Box3& box, Random& random) {
   const Vec3 target = box.center() + random.inCube(0.55 * maxComponent(box.size()));
   const Vec3 d = random.direction();
   return {target - d * (3 * length(box.size())), d};
+}
+
+TEST(Shapes, AreCheckedAsTheyArePrepared) {
+  for (const Shape& plain : analyticShapes()) {
+    SCOPED_TRACE(nameOf(plain));
+    const TracedShape shape = prepare(plain);
+    const ShapeFacts facts = check(plain);
+    const Box3 box = shape.bounds();
+    EXPECT_EQ(facts.solid, shape.solid());
+    EXPECT_EQ(facts.partCount, shape.partCount());
+    EXPECT_TRUE(box.empty() || facts.bounds.unbounded() ||
+                (facts.bounds.contains(box.low) && facts.bounds.contains(box.high)));
+  }
+}
+
+/// What the call says is wrong.
+template <class Call>
+std::string errorOf(Call&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.messages().front().what;
+  }
+  return "nothing";
+}
+
+TEST(Shapes, ThatCannotBeTracedAreFoundByBoth) {
+  const Operand ball{"", Sphere{}, {}, 0}, flat{"", Sphere{}, Affine::scaling({1, 1, 0}), 0},
+      open{"", Square{}, {}, 0};
+  const auto both = [](const Shape& shape) {
+    const std::string error = errorOf([&] { prepare(shape); });
+    EXPECT_EQ(errorOf([&] { check(shape); }), error);
+    return error;
+  };
+  const auto solids = [](std::vector<Operand> all) { return Operands(std::move(all)); };
+  EXPECT_EQ(both(Union{solids({ball, flat})}), "an object of a solid is squeezed flat by its transform");
+  EXPECT_EQ(both(Difference{solids({open, ball})}), "an object of a solid is open: it encloses nothing");
+  EXPECT_EQ(both(Clip{solids({open, ball})}), "nothing");
+  EXPECT_EQ(both(Clip{solids({ball, open})}), "an object of a solid is open: it encloses nothing");
+  EXPECT_EQ(both(Ifs{.maps = {}}), "maps: expected at least one");
+  Shape nested = Sphere{};
+  for (int i = 0; i < 70; ++i) nested = Union{solids({{"", nested, {}, 0}, ball})};
+  EXPECT_EQ(both(nested), "solids are nested too deeply in unions, intersections or differences");
 }
 
 TEST(Shapes, HitsLieInBoundsOnTheRayWithUnitNormals) {

@@ -72,7 +72,6 @@ class Checker {
     index(root_, "scene", "scenes");
     each(root_, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
     each(root_, "nodes", [&](const Part& node) { checkNode(node); });
-    checkCycles();
     each(root_, "meshes", [&](const Part& mesh) {
       each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
     });
@@ -279,40 +278,6 @@ class Checker {
         if (node.find(other))
           warn(node.path + ": " + other + " is ignored, since matrix is given", {}, "matrix and others");
     extension(node, kLights, [&](const Part& light) { index(light, "light", "lights"); });
-  }
-
-  /// Fails where a node is below itself. Precondition: the indices of nodes and children are sound.
-  void checkCycles() const {
-    const std::size_t count = countOf("nodes");
-    const auto childrenOf = [&](std::size_t node) {
-      return Part{(*root_.find("nodes"))[node], ""}.find("children");
-    };
-    enum class Seen : char { no, open, done };
-    std::vector<Seen> seen(count, Seen::no);
-    struct Step {
-      std::size_t node, next;
-    };
-    for (std::size_t root = 0; root < count; ++root) {
-      if (seen[root] != Seen::no) continue;
-      std::vector<Step> path{{root, 0}};  // from the root; all of them are open
-      seen[root] = Seen::open;
-      while (!path.empty()) {
-        const std::size_t node = path.back().node;
-        const json* children = childrenOf(node);
-        if (!children || path.back().next == children->size()) {
-          seen[node] = Seen::done;
-          path.pop_back();
-          continue;
-        }
-        const auto child = (*children)[path.back().next++].get<std::size_t>();
-        if (seen[child] == Seen::open)
-          fail("nodes[" + std::to_string(child) + "]: " +
-               (child == node ? "it is its own child"
-                              : "it stands below itself: it is a child of nodes[" + std::to_string(node) +
-                                    "], which stands below it"));
-        if (seen[child] == Seen::no) seen[child] = Seen::open, path.push_back({child, 0});
-      }
-    }
   }
 
   void checkPrimitive(const Part& primitive) {

@@ -22,6 +22,7 @@
 #include "formats/mesh/gltf_check.h"
 #include "formats/mesh/gltf_json.h"
 #include "formats/mesh/gltf_material.h"
+#include "formats/mesh/gltf_tree.h"
 #include "formats/textures.h"
 #include "geometry/mesh/mesh.h"
 
@@ -93,6 +94,7 @@ tinygltf::Model parse(const std::string& file, std::string_view bytes, const Pla
   const nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
   checkGltf(json, place, messages);
   checkGltfBuffers(json, place);
+  checkGltfTree(json, place);
   Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
@@ -445,8 +447,8 @@ class GltfReader {
     for (std::size_t i = 0; i < from.count(); ++i) {
       const double corner = from.number(i, 0);
       if (!(corner >= 0 && corner < static_cast<double>(points)))
-        fail("a triangle uses point " + std::to_string(corner) + " but the mesh has " +
-             std::to_string(points));
+        fail("a triangle uses point " + toText(corner) + ", but the mesh has " + std::to_string(points) +
+             " points, counted from 0");
       corners.push_back(static_cast<std::uint32_t>(corner));
     }
     return corners;

@@ -149,9 +149,9 @@ void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& bloc
   try {
     const std::string_view reason = repair(shape, worldFromObject);
     if (!reason.empty()) return findings_.warn(call, std::string(reason));
-    const TracedShape form = prepare(shape);
+    const ShapeFacts facts = check(shape);
     const bool isEmpty = ofObjects && shape.operands().list().empty();  // which is said
-    if (!isEmpty) checkShape(shape, form, tell);
+    if (!isEmpty) checkShape(shape, facts, tell);
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     return findings_.error(call, error.messages().front().what, error.messages().front().hint);
@@ -220,7 +220,7 @@ void ObjectReader::operand(const Item& whole, const Item& item, bool mayBeOpen,
   }
   std::vector<Operand> parts;
   for (Object& o : found) {
-    if (!mayBeOpen && !Placed(o.shape, {}).solid())
+    if (!mayBeOpen && !check(o.shape).solid)
       findings_.error(item, "expected a solid, found " + describe(item),
                       "an open object can only be the first in a clip { }");
     parts.push_back({std::move(o.name), std::move(o.shape), o.worldFromObject, o.material});

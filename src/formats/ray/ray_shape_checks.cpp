@@ -152,7 +152,7 @@ std::string_view repair(Shape& shape, Affine& worldFromObject) {
   return {};
 }
 
-void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
+void checkShape(const Shape& shape, const ShapeFacts& facts, const Tell& tell) {
   if (const auto* lathe = shape.as<Lathe>())
     checkCurve(tell, "profile", lathe->profile.size(), lathe->spline, false);
   if (const auto* prism = shape.as<Prism>()) {
@@ -171,7 +171,7 @@ void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell) {
   if (const auto* field = shape.as<HeightField>(); field && field->file.file.empty())
     checkFormula(tell, field->formula, {-1, -1, 0}, {1, 1, 0});
   checkMeaning(shape, tell);
-  checkSize(tell, shape.keyword(), form.bounds(), form.solid());
+  checkSize(tell, shape.keyword(), facts.bounds, facts.solid);
 }
 
 }  // namespace trace::rayfile

@@ -16,7 +16,7 @@ using Tell = std::function<void(std::string what, std::string hint)>;
 /// Makes a shape with its transform one that can be traced. Returns why it cannot be, or "".
 std::string_view repair(Shape& shape, Affine& worldFromObject);
 
-/// `form` is what prepare() made of the shape.
-void checkShape(const Shape& shape, const TracedShape& form, const Tell& tell);
+/// `facts` are what check() found.
+void checkShape(const Shape& shape, const ShapeFacts& facts, const Tell& tell);
 
 }  // namespace trace::rayfile

@@ -16,6 +16,7 @@ struct Operand;
 class CsgTree;
 struct MeshData;
 class MeshTree;
+struct ShapeFacts;
 
 /// Hierarchies of meshes that are made already.
 using MeshTrees = std::map<const MeshData*, std::shared_ptr<const MeshTree>>;
@@ -43,6 +44,7 @@ struct Union {
   }
   bool operator==(const Union&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
+  ShapeFacts checked() const;
 };
 
 struct Intersection {
@@ -55,6 +57,7 @@ struct Intersection {
   }
   bool operator==(const Intersection&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
+  ShapeFacts checked() const;
 };
 
 struct Difference {
@@ -67,6 +70,7 @@ struct Difference {
   }
   bool operator==(const Difference&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
+  ShapeFacts checked() const;
 };
 
 struct Clip {
@@ -79,6 +83,7 @@ struct Clip {
   }
   bool operator==(const Clip&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
+  ShapeFacts checked() const;
 };
 
 }  // namespace trace

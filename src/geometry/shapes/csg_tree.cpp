@@ -20,18 +20,86 @@ bool Operands::operator==(const Operands& other) const {
   return list_ == other.list_ || list() == other.list();
 }
 
+// --- the whole ----------------------------------------------------------------------------------------
+
+namespace {
+
+void checkPlace(const Operand& operand) {
+  if (!invertible(operand.wholeFromOperand))
+    throw Error(Fault::scene, "an object of a solid is squeezed flat by its transform");
+}
+
+/// What follows for the whole from its operands, one after the other.
+class Whole {
+ public:
+  explicit Whole(CsgOperation operation) : operation_(operation) {}
+
+  /// The bounds are those in the whole.
+  void add(const ShapeFacts& operand) {
+    const bool mayBeOpen = operation_ == CsgOperation::clip && count_ == 0;
+    if (!operand.solid && !mayBeOpen)
+      throw Error(Fault::scene, "an object of a solid is open: it encloses nothing",
+                  "an open object can only be the first in a clip { }");
+    if (count_ == 0)
+      bounds_ = operand.bounds;
+    else if (operation_ == CsgOperation::unite)
+      bounds_.extend(operand.bounds);
+    else if (operation_ != CsgOperation::subtract)
+      bounds_.low = max(bounds_.low, operand.bounds.low),
+      bounds_.high = min(bounds_.high, operand.bounds.high);
+    mostParts_ = std::max(mostParts_, operand.partCount);
+    ++count_;
+  }
+
+  ShapeFacts facts() const {
+    constexpr std::int64_t kMostParts = std::int64_t{1} << 62;
+    const std::int64_t count = std::max<std::int64_t>(count_, 1);
+    if (mostParts_ > kMostParts / count)
+      throw Error(Fault::scene, "solids are nested too deeply in unions, intersections or differences",
+                  "put more solids into one union in place of unions in unions");
+    return {operation_ != CsgOperation::clip, bounds_, mostParts_ * count};
+  }
+
+ private:
+  CsgOperation operation_;
+  Box3 bounds_{};
+  std::int64_t count_ = 0, mostParts_ = 1;
+};
+
+ShapeFacts factsOf(CsgOperation operation, const Operands& operands) {
+  Whole whole(operation);
+  for (const Operand& operand : operands.list()) {
+    checkPlace(operand);
+    ShapeFacts facts = check(operand.shape);
+    facts.bounds = placedBounds(facts.bounds, operand.wholeFromOperand);
+    whole.add(facts);
+  }
+  return whole.facts();
+}
+
+std::shared_ptr<const CsgTree> treeOf(CsgOperation operation, const Operands& operands,
+                                      const MeshTrees& made) {
+  return std::make_shared<const CsgTree>(operation, operands.list(), made);
+}
+
+}  // namespace
+
 std::shared_ptr<const CsgTree> Union::prepared(const MeshTrees& made) const {
-  return std::make_shared<const CsgTree>(CsgOperation::unite, objects.list(), made);
+  return treeOf(CsgOperation::unite, objects, made);
 }
+ShapeFacts Union::checked() const { return factsOf(CsgOperation::unite, objects); }
 std::shared_ptr<const CsgTree> Intersection::prepared(const MeshTrees& made) const {
-  return std::make_shared<const CsgTree>(CsgOperation::intersect, objects.list(), made);
+  return treeOf(CsgOperation::intersect, objects, made);
 }
+ShapeFacts Intersection::checked() const { return factsOf(CsgOperation::intersect, objects); }
 std::shared_ptr<const CsgTree> Difference::prepared(const MeshTrees& made) const {
-  return std::make_shared<const CsgTree>(CsgOperation::subtract, objects.list(), made);
+  return treeOf(CsgOperation::subtract, objects, made);
 }
+ShapeFacts Difference::checked() const { return factsOf(CsgOperation::subtract, objects); }
 std::shared_ptr<const CsgTree> Clip::prepared(const MeshTrees& made) const {
-  return std::make_shared<const CsgTree>(CsgOperation::clip, objects.list(), made);
+  return treeOf(CsgOperation::clip, objects, made);
 }
+ShapeFacts Clip::checked() const { return factsOf(CsgOperation::clip, objects); }
 
 // --- crossings ----------------------------------------------------------------------------------------
 
@@ -74,42 +142,20 @@ class CsgTree::State {
 
 CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands, const MeshTrees& made)
     : operation_(operation) {
-  constexpr std::int64_t kMostParts = std::int64_t{1} << 62;
   std::vector<Box3> boxes;
-  std::int64_t mostParts = 1;
+  Whole whole(operation);
   for (const Operand& operand : operands) {
-    if (!invertible(operand.wholeFromOperand))
-      throw Error(Fault::scene, "an object of a solid is squeezed flat by its transform");
+    checkPlace(operand);
     operands_.emplace_back(operand.shape, operand.wholeFromOperand, made);
-    if (!operands_.back().solid() && (operation != CsgOperation::clip || operands_.size() > 1))
-      throw Error(Fault::scene, "an object of a solid is open: it encloses nothing",
-                  "an open object can only be the first in a clip { }");
+    whole.add(operands_.back().facts());
     materials_.push_back(operand.material);
     boxes.push_back(operands_.back().bounds());
-    mostParts = std::max(mostParts, operands_.back().partCount());
   }
-  const auto count = static_cast<std::int64_t>(std::max<std::size_t>(operands.size(), 1));
-  if (mostParts > kMostParts / count)
-    throw Error(Fault::scene, "solids are nested too deeply in unions, intersections or differences",
-                "put more solids into one union in place of unions in unions");
-  partCount_ = mostParts * count;
-  bounds_ = boundsOfWhole();
+  const ShapeFacts facts = whole.facts();
+  partCount_ = facts.partCount;
+  bounds_ = facts.bounds;
   near_ = std::ldexp(maxComponent(bounds_.size()), -20);
   tree_ = LineTree(std::move(boxes));
-}
-
-Box3 CsgTree::boundsOfWhole() const {
-  if (operands_.empty()) return {};
-  Box3 box = operands_[0].bounds();
-  if (operation_ == CsgOperation::subtract) return box;
-  for (std::size_t i = 1; i < operands_.size(); ++i) {
-    const Box3& other = operands_[i].bounds();
-    if (operation_ == CsgOperation::unite)
-      box.extend(other);
-    else
-      box.low = max(box.low, other.low), box.high = min(box.high, other.high);
-  }
-  return box;
 }
 
 void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {

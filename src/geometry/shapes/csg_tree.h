@@ -59,7 +59,6 @@ class CsgTree {
   void gather(const Ray& ray, SmallList<Event, 16>& events) const;
   bool coincide(const Ray& ray, const Event& a, const Event& b) const;
   SurfacePoint operandSurface(const Ray& ray, const Crossing& crossing) const;
-  Box3 boundsOfWhole() const;
 
   CsgOperation operation_;
   std::vector<Placed> operands_;

@@ -37,15 +37,18 @@ std::shared_ptr<const MeshTree> treeOf(std::shared_ptr<const MeshData> data) {
 
 }  // namespace
 
+Box3 placedBounds(const Box3& bounds, const Affine& outFromIn) {
+  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  return bounds.unbounded() ? kEverywhere : outFromIn * bounds;
+}
+
 Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made)
     : shape_(prepare(shape, made)), placement_(outFromIn) {
   if (const auto data = shape_.mesh()) {
     const auto known = made.find(data.get());
     mesh_ = known == made.end() ? treeOf(data) : known->second;
   }
-  const Box3 box = mesh_ ? trace::bounds(mesh_->data()) : shape_.bounds();
-  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-  bounds_ = box.unbounded() ? kEverywhere : outFromIn * box;
+  bounds_ = placedBounds(mesh_ ? trace::bounds(mesh_->data()) : shape_.bounds(), outFromIn);
 }
 
 void Placed::crossings(const Ray& ray, VisitCrossing visit) const {

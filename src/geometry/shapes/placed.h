@@ -9,20 +9,21 @@
 
 namespace trace {
 
+/// The bounds of a shape seen from outside of its transform; everywhere if they have no end.
+Box3 placedBounds(const Box3& bounds, const Affine& outFromIn);
+
 /// A shape and the transform out of its space. Precondition: the transform can be undone.
 class Placed {
  public:
   /// The hierarchy of a mesh is taken from those `made`, if it is there.
   Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& made = {});
 
-  /// A mesh counts as one: the World warns of those that are not closed.
   bool solid() const { return mesh_ || shape_.solid(); }
+  ShapeFacts facts() const { return {solid(), bounds_, shape_.partCount()}; }
   const Box3& bounds() const { return bounds_; }
   /// Every crossing of the ray's line, in any order.
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
-  /// The shape's parts are numbered below this.
-  std::int64_t partCount() const { return shape_.partCount(); }
   const TracedShape& shape() const { return shape_; }
   /// Of a mesh; null for other shapes.
   const std::shared_ptr<const MeshTree>& meshTree() const { return mesh_; }

@@ -10,6 +10,8 @@
 
 namespace trace {
 
+struct ShapeFacts;
+
 struct Terrain {
   static constexpr std::string_view kKeyword = "terrain";
   static constexpr std::string_view kHelp = "fractal landscape over x and y from -1 to 1, down to a floor";
@@ -35,6 +37,8 @@ struct Terrain {
   bool operator==(const Terrain&) const = default;
 
   std::shared_ptr<const TracedHeights> prepared() const;
+  /// Its bounds are as high as hills of that height can be.
+  ShapeFacts checked() const;
 };
 
 }  // namespace trace

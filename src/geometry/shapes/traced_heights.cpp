@@ -6,6 +6,7 @@
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/terrain.h"
 #include "geometry/solve/span.h"
+#include "geometry/traced.h"
 #include "math/expression.h"
 #include "math/noise.h"
 
@@ -49,6 +50,17 @@ std::shared_ptr<const TracedHeights> Terrain::prepared() const {
       grid.at(column, row) = static_cast<float>(z * height);
     }
   return std::make_shared<const TracedHeights>(std::move(grid), floor, smooth, capped);
+}
+
+ShapeFacts Terrain::checked() const {
+  const int n = std::clamp(points, 2, kMostPoints), layers = std::clamp(octaves, 1, 20);
+  Real most = 0, share = 1;  // noise is between -1 and 1
+  for (int octave = 0; octave < layers; ++octave, share *= std::abs(roughness))
+    most += share * (std::abs(1 - ridges) + std::abs(ridges) * 2.5);
+  most *= std::abs(height);
+  Box3 box{{-1, -1, capped ? floor : -most}, {1, 1, most}};
+  if (capped && !(floor < most)) box = {};
+  return {capped, box, TracedHeights::partsOf(n, n)};
 }
 
 // --- patches ------------------------------------------------------------------------------------------
@@ -102,8 +114,6 @@ TracedHeights::TracedHeights(HeightGrid grid, Real floor, bool smooth, bool capp
   if (capped_ && !(floor < all.most)) box_ = {};
   error_ = max(1, max(std::abs(Real{all.least}), std::abs(Real{all.most}))) * gammaError(80);
 }
-
-std::int64_t TracedHeights::partCount() const { return kSurface + std::int64_t{grid_.columns} * grid_.rows; }
 
 Real TracedHeights::heightBeyond(int column, int row) const {
   const auto in = [](int i, int count) { return std::clamp(i, 0, count - 1); };

@@ -24,7 +24,9 @@ class TracedHeights {
   Box3 bounds() const { return box_; }
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
-  std::int64_t partCount() const;
+  std::int64_t partCount() const { return partsOf(grid_.columns, grid_.rows); }
+  /// Of a grid of that size.
+  static std::int64_t partsOf(int columns, int rows) { return kSurface + std::int64_t{columns} * rows; }
 
  private:
   static constexpr std::int64_t kSurface = 6;  ///< part of the first cell; below: the faces of the box
