@@ -33,8 +33,8 @@ std::string percent(double share) { return toText(std::max(1.0, std::round(share
 
 const Place& placeOf(const LintScene& s, std::uint32_t object) { return s.scene.objects[object].place; }
 
-const Phong& materialOf(const LintScene& s, std::uint32_t object) {
-  return *std::get_if<Phong>(&s.scene.materials[s.scene.objects[object].material].model);
+Phong materialOf(const LintScene& s, std::uint32_t object) {
+  return phongOf(s.scene.materials[s.scene.objects[object].material]);
 }
 
 bool isAroundCamera(const LintScene& s, std::uint32_t object) {
@@ -201,7 +201,7 @@ void inheritedGlass(const LintScene& s, Findings& findings) {
 void indexBelowOne(const LintScene& s, Findings& findings) {
   std::set<std::uint32_t> told;
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
-    const Phong& material = materialOf(s, object);
+    const Phong material = materialOf(s, object);
     if (!material.transmits() || material.index >= 1) continue;
     if (!told.insert(s.scene.objects[object].material).second) continue;
     warn(findings, "index-below-1", placeOf(s, object),
@@ -229,7 +229,7 @@ void depthTooLow(const LintScene& s, Findings& findings) {
 
 /// Nothing but black, and nothing said of it.
 bool isBare(const Material& material) {
-  return material.name.empty() && material.maps.empty() && *std::get_if<Phong>(&material.model) == Phong{};
+  return material.name.empty() && material.maps.empty() && material.model == MaterialModel();
 }
 
 /// Whether the shape, or a part of it, would be of that material and it is bare.

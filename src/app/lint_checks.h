@@ -33,7 +33,7 @@ std::string quoted(const LintScene& s, std::uint32_t object);
 /// "12 %"; never less than 1.
 std::string percent(double share);
 const Place& placeOf(const LintScene& s, std::uint32_t object);
-const Phong& materialOf(const LintScene& s, std::uint32_t object);
+Phong materialOf(const LintScene& s, std::uint32_t object);
 bool isAroundCamera(const LintScene& s, std::uint32_t object);
 
 // The checks of lights and camera (lint_lights.cpp).

@@ -142,7 +142,8 @@ class Surveyor {
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
       return term.light && !isBlack(term.factor * term.value);
     });
-    for (const SpotLight& spot : spots_) seen.outOfCone += !spot.illuminate(node.hit->surface.point, world_.rules());
+    for (const SpotLight& spot : spots_)
+      seen.outOfCone += !spot.illuminate(node.hit->surface.point, world_.rules());
     for (const Term& term : node.terms) {
       if (!term.light) continue;
       Survey::Lamp& lamp = survey_.lights[term.light->light];

@@ -125,7 +125,7 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
     }
     for (const auto& [material, firsts] : triangles) {
       if (material >= scene.materials.size()) continue;  // as if nothing were there
-      const Phong& phong = *std::get_if<Phong>(&scene.materials[material].model);
+      const Phong phong = phongOf(scene.materials[material]);
       model.parts.push_back(
           {i, lookOf(phong), opacityOf(phong), model.corners.size() / 6, 3 * firsts.size(), box});
       for (const std::size_t first : firsts)

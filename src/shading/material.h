@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/match.h"
 #include "shading/materials/phong.h"
 
 namespace trace {
@@ -24,6 +25,14 @@ struct Material {
   std::vector<FieldMap> maps;
   bool operator==(const Material&) const = default;
 };
+
+/// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
+/// them.
+inline Phong phongOf(const Material& material) {
+  return match(material.model, [](const auto& model) -> Phong { return model.asPhong(); });
+}
+
+inline bool glows(const Material& material) { return !isBlack(phongOf(material).emissive); }
 
 /// Its name, or "material 3" for the third of a scene.
 inline std::string nameOf(const Material& material, std::size_t index) {

@@ -80,7 +80,7 @@ class Writer {
   // --- objects ---
 
   cf::Material material(std::uint32_t index, std::string& name) {
-    const Phong& p = std::get<Phong>(scene_.materials.at(index).model);
+    const Phong p = phongOf(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     for (const FieldMap& map : scene_.materials[index].maps)
       if (map.field == "diffuse") say(name, "texture=" + map.file);

@@ -471,7 +471,7 @@ class GltfReader {
     if (colors.empty()) return;
     Color base = Color(1);
     if (isIndex(primitive.material, gltf_.materials.size()))
-      base = std::get<Phong>(model_.materials[static_cast<std::size_t>(primitive.material)].model).diffuse;
+      base = phongOf(model_.materials[static_cast<std::size_t>(primitive.material)]).diffuse;
     for (const Vec3f& c : colors) {
       if (!std::isfinite(c.x + c.y + c.z)) fail("COLOR_0: expected finite numbers");
       mesh.materials.push_back(colors_.number(Vec3f(Vec3{c.x * base.r, c.y * base.g, c.z * base.b})));

@@ -27,10 +27,6 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little,
               "binary PLY files are written as the memory has them");
 
-Phong phongOf(const Scene& scene, std::uint32_t material) {
-  return match(scene.materials.at(material).model, [](const auto& model) -> Phong { return model; });
-}
-
 // --- PLY ----------------------------------------------------------------------------------------------
 
 /// All meshes as one; its `materials` name one for each point.
@@ -226,7 +222,7 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
     if (!mesh.uvs.empty())
       row.add(static_cast<float>(mesh.uvs[i].x)), row.add(static_cast<float>(mesh.uvs[i].y));
     if (colored) {
-      const Color color = phongOf(scene, m[i]).diffuse;
+      const Color color = phongOf(scene.materials.at(m[i])).diffuse;
       row.add(toByte(color.r)), row.add(toByte(color.g)), row.add(toByte(color.b));
     }
     row.end();
@@ -245,7 +241,7 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
   const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
   const std::string materialFile = placeOfMaterials(file);
   ObjWriter materials(options), objects(options);
-  for (const auto& [index, name] : names) materials.material(name, phongOf(scene, index));
+  for (const auto& [index, name] : names) materials.material(name, phongOf(scene.materials.at(index)));
 
   objects.line("mtllib", onOneLine(fs::path(materialFile).filename().string()));
   std::size_t colored = 0, triangles = 0;

@@ -74,7 +74,7 @@ Material toMaterial(const tinyobj::material_t& mtl) {
 }
 
 bool isSound(const Material& material) {
-  const Phong& phong = *std::get_if<Phong>(&material.model);
+  const Phong phong = phongOf(material);
   bool sound = true;
   forEachField<Phong>([&](const auto& field) {
     const auto& value = phong.*field.member;

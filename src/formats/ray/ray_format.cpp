@@ -92,10 +92,8 @@ class Reader {
   void warnOfDarkness() {
     const Place place{scene_.file, 0, 0, {}};
     if (scene_.objects.empty()) return messages_.warn(place, "no object: the picture will be empty");
-    const bool glows = std::any_of(
-        scene_.materials.begin(), scene_.materials.end(),
-        [](const Material& material) { return !isBlack(std::get_if<Phong>(&material.model)->emissive); });
-    if (scene_.lights.empty() && !glows)
+    const bool glow = std::any_of(scene_.materials.begin(), scene_.materials.end(), glows);
+    if (scene_.lights.empty() && !glow)
       messages_.warn(place, "no light: everything will be black",
                      "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
   }

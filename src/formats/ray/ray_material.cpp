@@ -100,7 +100,7 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     return inherited;
   }
 
-  Block block{inherited, *std::get_if<Phong>(&inherited.model), false, {}};
+  Block block{inherited, phongOf(inherited), false, {}};
   block.material.name.clear();
   RepeatedFields repeats(findings_, Phong::kKeyword);
   for (const Item item : value) {
@@ -183,7 +183,7 @@ bool Materials::picture(Block& block, const Item& field) {
 
 /// Whoever describes all looks of a material but that it is glass seldom wants the glass of another.
 void Materials::warnOfInheritedGlass(const Item& block, const Material& inherited) {
-  const Phong& before = *std::get_if<Phong>(&inherited.model);
+  const Phong before = phongOf(inherited);
   if (!before.transmits()) return;
   bool looks = false;
   for (const Item item : block) {
@@ -220,7 +220,7 @@ std::uint32_t Materials::index(const NotedMaterial& material) {
 std::uint32_t Materials::index(const Material& material) {
   markUsed(material.name);
   std::vector<Material>& all = findings_.scene().materials;
-  const std::size_t hash = hashOf(material, *std::get_if<Phong>(&material.model));
+  const std::size_t hash = hashOf(material, phongOf(material));
   const auto [first, last] = byHash_.equal_range(hash);
   for (auto found = first; found != last; ++found)
     if (all[found->second] == material) return found->second;

@@ -14,9 +14,11 @@ namespace trace::rayfile {
 namespace {
 
 void tint(Material& material, const Color& color) {
-  auto& phong = *std::get_if<Phong>(&material.model);
-  phong.emissive = phong.emissive * color, phong.ambient = phong.ambient * color;
+  Phong phong = phongOf(material);
+  phong.emissive = phong.emissive * color;
+  phong.ambient = phong.ambient * color;
   phong.diffuse = phong.diffuse * color;
+  material.model = phong;
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 namespace trace::rayfile {
 namespace {
 
-const Phong& phongOf(const Material& material) { return *std::get_if<Phong>(&material.model); }
-
 const std::string* pictureOf(const Material& material, std::string_view field) {
   for (const FieldMap& map : material.maps)
     if (map.field == field) return &map.file;
@@ -124,7 +122,7 @@ void MaterialEdits::use(const Notes::Use& use) {
 /// What the block says if its text stays and what it inherits from is `from`.
 Material MaterialEdits::followed(const Item& block, const Material& from, const Material& was) const {
   Material result = was;
-  Phong& phong = *std::get_if<Phong>(&result.model);
+  Phong phong = phongOf(was);
   Mirror mirror{phongOf(from).mirrorsSpecular};
   for (const Item item : block)
     if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
@@ -137,6 +135,7 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
     if (const std::string* picture = pictureOf(from, f.keyword))
       result.maps.push_back({std::string(f.keyword), *picture});
   });
+  result.model = phong;
   return result;
 }
 
@@ -150,7 +149,7 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
   }
   forEachField<Phong>([&](const auto& f) {
     const std::optional<Item> given = fieldOf(block, f.keyword);
-    const auto& value = phongOf(wanted).*f.member;
+    const auto value = phongOf(wanted).*f.member;
     if (given && !(value == phongOf(was).*f.member))
       edits_.change(given->value(), valueText(wanted, f.keyword, value));
   });
@@ -176,7 +175,7 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
   };
   forEachField<Phong>([&](const auto& f) {
     if (given(f.keyword)) return;
-    const auto& value = phongOf(wanted).*f.member;
+    const auto value = phongOf(wanted).*f.member;
     if (all || !(value == phongOf(from).*f.member) || !samePicture(from, wanted, f.keyword))
       add(f.keyword, valueText(wanted, f.keyword, value));
   });

@@ -83,7 +83,7 @@ void checkLengths(const Tell& tell, std::string_view list, const std::vector<std
 /// Values that the shape's geometry cannot mean although each is in its range.
 void checkMeaning(const Shape& shape, const Tell& tell) {
   if (const auto* sweep = shape.as<SphereSweep>()) checkLengths(tell, "points", sweep->points, 3, "radii");
-  if (const auto* lathe = shape.as<Lathe>())
+  if (const auto* lathe = shape.as<Lathe>(); lathe && lathe->spline == Spline::linear)  // others have handles
     checkLengths(tell, "profile", lathe->profile, 0, "distances from the axis");
   if (const auto* metaballs = shape.as<Metaballs>()) {
     checkLengths(tell, "balls", metaballs->balls, 3, "radii");

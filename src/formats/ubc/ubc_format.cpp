@@ -56,7 +56,11 @@ class Reader {
     while (!tokens_.atEnd()) command();
     if (hasMeshes_) repairs_.report({scene_.file, 0, 0, {}}, messages_);
     if (!shadowGiven_)  // since 2021 Montreal's files have no such key, and all shadows are black
-      for (Material& material : scene_.materials) std::get<Phong>(material.model).shadow = 1;
+      for (Material& material : scene_.materials) {
+        Phong phong = phongOf(material);
+        phong.shadow = 1;
+        material.model = phong;
+      }
     scene_.camera = ubc::camera(view_, viewPlace_);
     addChoices(scene_, width_, height_, view_);
     if (supersampling_) scene_.choices.push_back({"spp", std::to_string(*supersampling_), {}});

@@ -56,16 +56,14 @@ void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace,
     messages.warn(viewPlace, "expected near to be less than far, found " + toText(view.near) + " and " +
                                  toText(view.far) + ": nothing is seen");
   if (scene.objects.empty()) return messages.warn(place, "no object: the picture will be empty");
-  const bool glows = std::any_of(
-      scene.materials.begin(), scene.materials.end(),
-      [](const Material& material) { return !isBlack(std::get_if<Phong>(&material.model)->emissive); });
-  if (scene.lights.empty() && !glows)
+  const bool glow = std::any_of(scene.materials.begin(), scene.materials.end(), glows);
+  if (scene.lights.empty() && !glow)
     messages.warn(place, "no light: everything will be black",
                   "add one, as in PointLight 0 5 5 \"diffuse\" [1 1 1]");
 }
 
 void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings) {
-  const Phong& phong = *std::get_if<Phong>(&material.model);
+  const Phong phong = phongOf(material);
   const auto check = [&](const char* name, double value, double most) {
     if (value >= 0 && value <= most) return;
     const std::string range = most == kNoLimit ? "at least 0" : "0 to " + toText(most);

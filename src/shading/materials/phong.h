@@ -62,6 +62,7 @@ struct Phong {
   bool transmits() const { return !isBlack(transmissive); }
   bool mirrors() const { return !isBlack(reflective); }
 
+  const Phong& asPhong() const { return *this; }
   /// The surface as light meets it.
   PhongBsdf at(const Rules& rules) const;
 };
