@@ -107,12 +107,10 @@ Nodes rootsAmong(const Nodes& turns, std::span<const Real> coefficients) {
   const auto p = [&](Real t) { return evaluate(coefficients, t); };
   Nodes roots;
   roots.add(turns.at[0]);
-  bool negative = p(turns.at[0]).value < 0;
-  for (std::size_t i = 0; i + 1 < turns.count; ++i) {
-    const bool after = p(turns.at[i + 1]).value < 0;
-    if (negative != after) roots.add(rootBetween(p, turns.at[i], turns.at[i + 1], negative));
-    negative = after;
-  }
+  const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(p, a, b, negativeAtA); };
+  SignWalk walk{turns.at[0], p(turns.at[0]).value < 0};
+  for (std::size_t i = 1; i < turns.count; ++i)
+    walk.to(turns.at[i], p(turns.at[i]).value < 0, root, [&](Real t, bool) { roots.add(t); });
   roots.add(turns.at[turns.count - 1]);
   return roots;
 }

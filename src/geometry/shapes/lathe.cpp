@@ -164,21 +164,17 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     const Real radius = bottom ? arc.r0 : arc.r1;
     return square(t) < radius * radius;
   };
-  bool inside = insideAtEnd(begin, beginIsEnd, bottomFirst);
-  Real last = begin;
-  const auto root = [&](Real a, Real b) {
+  const auto root = [&](Real a, Real b, bool insideAtA) {
     Real guess = a;
     for (std::size_t i = 0; i < guessCount; ++i)
       if (a < guesses[i] && guesses[i] < b) guess = guesses[i];
-    return rootNear(distance, a, b, inside, guess);
+    return rootNear(distance, a, b, insideAtA, guess);
   };
-  const auto advance = [&](Real t, bool after) {
-    if (after != inside) visit({last < t ? root(last, t) : t, number});
-    inside = after, last = t;
-  };
-  for (std::size_t i = 0; i < count && last < range.to; ++i)
-    if (last < nodes[i] && nodes[i] < end) advance(nodes[i], distance(nodes[i]).value < 0);
-  if (last < range.to) advance(end, insideAtEnd(end, endIsEnd, !bottomFirst));
+  const auto crossing = [&](Real t, bool) { visit({t, number}); };
+  SignWalk walk{begin, insideAtEnd(begin, beginIsEnd, bottomFirst)};
+  for (std::size_t i = 0; i < count && walk.at < range.to; ++i)
+    if (walk.at < nodes[i] && nodes[i] < end) walk.to(nodes[i], distance(nodes[i]).value < 0, root, crossing);
+  if (walk.at < range.to) walk.to(end, insideAtEnd(end, endIsEnd, !bottomFirst), root, crossing);
 }
 
 SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) const {

@@ -145,14 +145,17 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
     if (!known) inside = begin > span.from && isInside(begin), known = true;
     // The polynomial tells where to look; the signs are those of the sum itself.
     const Nodes roots = rootsWithEnds(quartic, begin - middle, end - middle);
-    Real last = begin;
+    SignWalk walk{begin, inside};
     for (std::size_t n = 1; n == 1 || n + 1 < roots.count; ++n) {
       const bool toEnd = n + 2 >= roots.count;
-      const Real node = toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), last, end);
-      const bool after = isInside(node);
-      if (after != inside) visit(Crossing{rootNear(sum, last, node, inside, middle + roots.at[n]), 0});
-      inside = after, last = node;
+      const Real node =
+          toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), walk.at, end);
+      const auto root = [&](Real a, Real b, bool insideAtA) {
+        return rootNear(sum, a, b, insideAtA, middle + roots.at[n]);
+      };
+      walk.to(node, isInside(node), root, [&](Real t, bool) { visit(Crossing{t, 0}); });
     }
+    inside = walk.negative;
   }
   if (inside && i + 1 == count) visit(Crossing{at[i], 0});
 }

@@ -104,18 +104,18 @@ void TracedPrism::meetPlane(const Vec3& normal, Visit&& visit) const {
     std::array<Real, 4> cubic{};
     for (std::size_t k = 0; k < 4; ++k) cubic[k] = normal.x * x[k] + normal.y * y[k];
     cubic[0] += normal.z;
-    bool negative = side(arc.from);
-    const bool atEnd = side(arc.to);
+    const bool atStart = side(arc.from), atEnd = side(arc.to);
     if (cubic[2] == 0 && cubic[3] == 0) {
-      if (negative != atEnd) visit(i, std::clamp(-cubic[0] / cubic[1], 0.0, 1.0));
+      if (atStart != atEnd) visit(i, std::clamp(-cubic[0] / cubic[1], 0.0, 1.0));
       continue;
     }
     const Nodes nodes = extremaWithEnds(cubic, 0, 1);
     const auto value = [&](Real u) { return evaluate(cubic, u); };
+    const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(value, a, b, negativeAtA); };
+    SignWalk walk{0, atStart};
     for (std::size_t n = 1; n < nodes.count; ++n) {
-      const bool after = n + 1 == nodes.count ? atEnd : value(nodes.at[n]).value < 0;
-      if (after != negative) visit(i, rootBetween(value, nodes.at[n - 1], nodes.at[n], negative));
-      negative = after;
+      const bool negative = n + 1 == nodes.count ? atEnd : value(nodes.at[n]).value < 0;
+      walk.to(nodes.at[n], negative, root, [&](Real u, bool) { visit(i, u); });
     }
   }
 }

@@ -216,15 +216,10 @@ struct TracedHeights::Walk {
     const Patch patch = field.patch(column, row);
     const std::int64_t part = kSurface + std::int64_t{row} * (field.grid_.columns - 1) + column;
     const auto f = [&](Real t) { return field.above(patch, ray, t); };
-    Real last = a;
-    const auto advance = [&](Real t) {
-      const bool after = f(t).value < 0;
-      if (after != inside) become(after, last < t ? rootBetween(f, last, t, inside) : t, part, visit);
-      last = t;
-    };
+    const auto crossing = [&](Real t, bool) { visit(Crossing{t, part}); };
+    SignWalk walk{a, inside};
     const auto node = [&](Real t) {
-      if (last < 0 && 0 < t && t <= b) advance(0);
-      if (last < t && t < b) advance(t);
+      if (walk.at < t && t < b) walk.to(t, f, crossing);
     };
     if (patch.terms == 2) {  // the slope changes linearly
       const Real slope = f(a).slope,
@@ -234,8 +229,8 @@ struct TracedHeights::Walk {
       const Nodes nodes = turns(patch, a, b);
       for (std::size_t i = 1; i + 1 < nodes.count; ++i) node(a + nodes.at[i]);
     }
-    if (last < 0 && 0 < b) advance(0);
-    advance(b);
+    walk.to(b, f, crossing);
+    inside = walk.negative;
   }
 
   /// Where z minus the height may turn, counted from a.
