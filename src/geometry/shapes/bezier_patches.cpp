@@ -5,6 +5,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/small_list.h"
+#include "math/perpendicular.h"
 
 namespace trace {
 
@@ -154,7 +155,7 @@ Root polished(const std::array<Real, 16>& a, const std::array<Real, 16>& b, Root
 
 void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
   const Vec3 along = normalize(ray.direction);
-  const Vec3 aside = normalize(cross(along, std::abs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 aside = perpendicularTo(along);
   const Vec3 third = cross(along, aside);
   tree_.query(ray, [&](std::uint32_t number) {
     const Patch& patch = patches_[number];

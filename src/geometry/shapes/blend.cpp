@@ -16,6 +16,7 @@
 #include "geometry/shapes/sphere_sweep.h"
 #include "geometry/shapes/torus.h"
 #include "geometry/solve/interval_search.h"
+#include "math/perpendicular.h"
 
 namespace trace {
 
@@ -43,7 +44,7 @@ PlacedForm frustum(Real bottom, Real top, Real low, Real height) {
 PlacedForm capsule(const Vec3& a, const Vec3& b, Real radius) {
   const Real l = length(b - a);
   const Vec3 z = l > 0 ? (b - a) / l : Vec3{0, 0, 1};
-  const Vec3 x = normalize(cross(z, std::abs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), y = cross(z, x);
+  const Vec3 x = perpendicularTo(z), y = cross(z, x);
   Affine place;
   for (int i = 0; i < 3; ++i) place.row[i] = {x[i], y[i], z[i]};
   place.offset = a;
