@@ -98,8 +98,8 @@ Forms formsOf(const Shape& shape) {
 Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
 
 /// How near one of two values must be where what they become is as near as `near`; see smoothLesser().
-Real nearestOf(BlendOperation operation, Real radius, Real near) {
-  if (operation != BlendOperation::unite) return near;
+Real nearestOf(CsgOperation operation, Real radius, Real near) {
+  if (operation != CsgOperation::unite) return near;
   return max(near, radius - (radius - near) * std::sqrt(0.5));
 }
 
@@ -124,7 +124,7 @@ Box3 TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& w
   return box.unbounded() ? box : wholeFromForm * box;
 }
 
-Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<Operand>& operands,
+Box3 TracedBlend::add(CsgOperation operation, Real radius, const std::vector<Operand>& operands,
                       const Affine& wholeFromPart, Real near) {
   const Real fillet = radius * scaleOf(wholeFromPart);
   std::vector<Real> nears(operands.size(), near);  // of each operand; they are taken in one by one
@@ -136,9 +136,9 @@ Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<O
     if (i > 0) steps_.push_back({false, 0, operation, fillet});
     if (i == 0)
       box = own;
-    else if (operation == BlendOperation::unite)
+    else if (operation == CsgOperation::unite)
       box.extend(own);
-    else if (operation == BlendOperation::intersect)
+    else if (operation == CsgOperation::intersect)
       box.low = max(box.low, own.low), box.high = min(box.high, own.high);
   }
   return box;
@@ -147,13 +147,13 @@ Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<O
 Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Real near) {
   const Affine wholeFromShape = wholeFromOutside * operand.wholeFromOperand;
   const Shape& shape = operand.shape;
-  const auto nested = [&](BlendOperation operation, Real radius) {
+  const auto nested = [&](CsgOperation operation, Real radius) {
     return add(operation, radius, shape.operands().list(), wholeFromShape, near);
   };
   if (const auto* blend = shape.as<Blend>()) return nested(blend->operation, std::abs(blend->radius));
-  if (shape.is<Union>()) return nested(BlendOperation::unite, 0);
-  if (shape.is<Intersection>()) return nested(BlendOperation::intersect, 0);
-  if (shape.is<Difference>()) return nested(BlendOperation::subtract, 0);
+  if (shape.is<Union>()) return nested(CsgOperation::unite, 0);
+  if (shape.is<Intersection>()) return nested(CsgOperation::intersect, 0);
+  if (shape.is<Difference>()) return nested(CsgOperation::subtract, 0);
 
   const Forms forms = formsOf(shape);
   if (forms.empty())
@@ -165,7 +165,7 @@ Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Re
   Box3 box;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     box.extend(add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm, near));
-    if (i > 0) steps_.push_back({false, 0, BlendOperation::unite, 0});
+    if (i > 0) steps_.push_back({false, 0, CsgOperation::unite, 0});
   }
   return box;
 }
@@ -202,11 +202,11 @@ Along<Interval> united(const Along<Interval>& a, const Along<Interval>& b, Real 
 }
 
 template <class T>
-T combined(BlendOperation operation, const T& a, const T& b, Real r) {
+T combined(CsgOperation operation, const T& a, const T& b, Real r) {
   switch (operation) {
-    case BlendOperation::unite: return united(a, b, r);
-    case BlendOperation::intersect: return -united(-a, -b, r);
-    case BlendOperation::subtract: return -united(-a, b, r);
+    case CsgOperation::unite: return united(a, b, r);
+    case CsgOperation::intersect: return -united(-a, -b, r);
+    case CsgOperation::subtract: return -united(-a, b, r);
   }
   return a;
 }
