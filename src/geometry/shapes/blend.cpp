@@ -94,7 +94,7 @@ Forms formsOf(const Shape& shape) {
   return forms;
 }
 
-/// What a length of the part is in the whole, on the average of all directions.
+/// By how much lengths of the part grow in the whole, on the average of all directions.
 Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
 
 /// How near one of two values must be where what they become is as near as `near`; see smoothLesser().
@@ -117,9 +117,11 @@ TracedBlend::TracedBlend(const Blend& shape) {
 Box3 TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm, Real near) {
   if (!invertible(wholeFromForm))
     throw Error(Fault::scene, "an object of a blend is squeezed flat by its transform");
-  form.formFromWhole = inverse(wholeFromForm), form.scale = scaleOf(wholeFromForm);
+  form.formFromWhole = inverse(wholeFromForm);
+  form.scale = scaleOf(wholeFromForm);
   steps_.push_back({true, forms_.size(), {}, 0});
-  forms_.push_back(form), materials_.push_back(material);
+  forms_.push_back(form);
+  materials_.push_back(material);
   const Box3 box = form.within(near);
   return box.unbounded() ? box : wholeFromForm * box;
 }
@@ -138,8 +140,10 @@ Box3 TracedBlend::add(CsgOperation operation, Real radius, const std::vector<Ope
       box = own;
     else if (operation == CsgOperation::unite)
       box.extend(own);
-    else if (operation == CsgOperation::intersect)
-      box.low = max(box.low, own.low), box.high = min(box.high, own.high);
+    else if (operation == CsgOperation::intersect) {
+      box.low = max(box.low, own.low);
+      box.high = min(box.high, own.high);
+    }
   }
   return box;
 }
@@ -242,7 +246,7 @@ class TracedBlend::Line {
       return blend_.forms_[i].template along<T>(line.origin, line.direction, t);
     });
   }
-  /// Of the line's origin.
+  /// The distance of the line's origin, and the solids it is from.
   Named named() {
     return evaluate<Named>([&](std::size_t i) {
       return Named{blend_.forms_[i].template along<Real>(lines_.all()[i].origin, {}, 0.0).value, i, i, 0};
@@ -316,7 +320,8 @@ SurfacePoint TracedBlend::surface(const Ray& ray, const Crossing& crossing) cons
   for (int step = 0; step < 2; ++step) {  // back to the surface
     const Vec3 next = p - g * (Line(*this, p, {}).at(0.0).value / dot(g, g));
     if (!(length(next - p) < 1e-6 * size)) break;
-    p = next, g = gradientAt(p);
+    p = next;
+    g = gradientAt(p);
   }
   const Real l = length(g);
   const Vec3 n = l > 0 && std::isfinite(l) ? g / l : normalize(-ray.direction);

@@ -1,5 +1,5 @@
 // Solids that flow together: union, intersection and difference with a fillet along the edge where they meet.
-// Of two walls at a right angle the fillet is a quarter of a circle.
+// The fillet of two walls at a right angle is a quarter of a circle.
 //
 // Where both signed distances a and b are below the radius r the distance of the union is r - |(r - a, r -
 // b)|, else the lesser of them (the round union of Mercury's hg_sdf, 2015); the others follow by signs. It is

@@ -227,7 +227,10 @@ SurfacePoint CsgTree::surface(const Ray& ray, const Crossing& crossing) const {
   const bool first = crossing.part % static_cast<std::int64_t>(operands_.size()) == 0;
   const bool away =
       solid() ? rule_.operation == CsgOperation::subtract && !first : dot(s.normal, ray.direction) > 0;
-  if (away) s.normal = -s.normal, s.shading = -s.shading;
+  if (away) {
+    s.normal = -s.normal;
+    s.shading = -s.shading;
+  }
   return s;
 }
 

@@ -49,11 +49,11 @@ class CsgTree {
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
 
   std::int64_t partCount() const { return partCount_; }
-  /// Of the operand, however deep, that the part belongs to.
+  /// The material of the operand, however deep, that the part belongs to.
   MaterialMix material(std::int64_t part, std::uint32_t own) const;
-  /// Of all operands, however deep.
+  /// Adds the materials of all operands, however deep.
   void addMaterials(std::vector<std::uint32_t>& materials) const;
-  /// Those of its operands that are meshes, however deep.
+  /// Adds the trees of the operands that are meshes, however deep.
   void addMeshTrees(MeshTrees& trees) const;
 
  private:

@@ -29,10 +29,12 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
   std::size_t count = 0;
   const Real first = max(span.from, range.from);
   if (!(first < span.to)) return;
-  if (first < 0 && 0 < span.to)
-    stack[count++] = {0, span.to, 0}, stack[count++] = {first, 0, 0};
-  else
+  if (first < 0 && 0 < span.to) {
+    stack[count++] = {0, span.to, 0};
+    stack[count++] = {first, 0, 0};
+  } else {
     stack[count++] = {first, span.to, 0};
+  }
   SignWalk walk{first, at(first).value < 0};
   int steps = 0;
   while (count > 0) {
