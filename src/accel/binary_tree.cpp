@@ -24,10 +24,14 @@ struct ThreeBoxes {
          high[3] = {Float4::all(-Bounds::kFar), Float4::all(-Bounds::kFar), Float4::all(-Bounds::kFar)};
 
   void set(const Bounds& a, const Bounds& b, const Bounds& c) {
-    transpose(a.low, b.low, c.low, c.low, low), transpose(a.high, b.high, c.high, c.high, high);
+    transpose(a.low, b.low, c.low, c.low, low);
+    transpose(a.high, b.high, c.high, c.high, high);
   }
   void extend(const ThreeBoxes& b) {
-    for (int i = 0; i < 3; ++i) low[i] = min(low[i], b.low[i]), high[i] = max(high[i], b.high[i]);
+    for (int i = 0; i < 3; ++i) {
+      low[i] = min(low[i], b.low[i]);
+      high[i] = max(high[i], b.high[i]);
+    }
   }
   Float4 halfArea() const {
     const Float4 x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
@@ -35,7 +39,7 @@ struct ThreeBoxes {
   }
 };
 
-/// What lies between two planes across each axis: a box and the number of items, one axis in each lane.
+/// The box and the number of the items between two planes across each axis, one axis in each lane.
 struct Slices {
   ThreeBoxes box;
   Float4 count;
@@ -80,7 +84,8 @@ class BinaryTree {
     Slices side = slices.back();
     for (std::size_t i = slices.size() - 1; i > 0; --i) {
       rightCost[i] = cost(side);
-      side.box.extend(slices[i - 1].box), side.count = side.count + slices[i - 1].count;
+      side.box.extend(slices[i - 1].box);
+      side.count = side.count + slices[i - 1].count;
     }
     // An empty side costs infinity times 0, which is not a number and so never the least.
     side = slices.front();
@@ -89,10 +94,12 @@ class BinaryTree {
       const Float4 both = cost(side) + rightCost[i];
       at = whereLess(both, least, Float4::all(static_cast<float>(i - 1)), at);
       least = min(both, least);
-      side.box.extend(slices[i].box), side.count = side.count + slices[i].count;
+      side.box.extend(slices[i].box);
+      side.count = side.count + slices[i].count;
     }
     alignas(16) float costs[4], places[4];
-    least.store(costs), at.store(places);
+    least.store(costs);
+    at.store(places);
     Split best;
     for (int axis = 0; axis < 3; ++axis)
       if (costs[axis] < best.cost) best = {costs[axis], axis, static_cast<std::uint32_t>(places[axis])};
@@ -129,7 +136,8 @@ class Bins {
     const Float4 low = centers.low, last = Float4::all(static_cast<float>(count_ - 1)),
                  scale = Float4::all(static_cast<float>(count_) * 0.9999f) /
                          max(centers.high - low, Float4::all(std::numeric_limits<float>::min()));
-    low_ = low, scale_ = scale;
+    low_ = low;
+    scale_ = scale;
     for (std::size_t i = 0; i < count_; ++i) bins_[i] = {};
     for (const BoxedItem& item : items) {
       const Bounds box = boxOf(item);
@@ -137,7 +145,8 @@ class Bins {
       min((box.low + box.high - low) * scale, last).storeWhole(number);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Bin& bin = bins_[static_cast<std::size_t>(number[axis])];
-        bin.box[axis].extend(box), ++bin.count[axis];
+        bin.box[axis].extend(box);
+        ++bin.count[axis];
       }
     }
   }
@@ -155,7 +164,8 @@ class Bins {
     const auto axis = static_cast<std::size_t>(split.axis);
     for (std::size_t i = 0; i < count_; ++i) (i <= split.slice ? left : right).extend(bins_[i].box[axis]);
     alignas(16) float low[4], scale[4];
-    low_.store(low), scale_.store(scale);
+    low_.store(low);
+    scale_.store(scale);
     const float edge = static_cast<float>(split.slice + 1);
     std::uint32_t leftCount = 0;
     for (BoxedItem& item : items) {
@@ -215,12 +225,14 @@ void BinaryTree::few(std::vector<Branch>& tree, std::uint32_t index, std::uint32
   std::array<Float4, kFew> center, rank;
   std::array<std::uint32_t, kFew> names;
   for (std::uint32_t i = 0; i < count; ++i) {
-    few.box[i] = boxOf(some[i]), names[i] = some[i].item;
+    few.box[i] = boxOf(some[i]);
+    names[i] = some[i].item;
     center[i] = few.box[i].low + few.box[i].high;
     Float4 before = Float4::all(0);
     for (std::uint32_t j = 0; j < i; ++j) {
       const Float4 after = step(center[j], center[i]);
-      before = before + after, rank[j] = rank[j] + (Float4::all(1) - after);
+      before = before + after;
+      rank[j] = rank[j] + (Float4::all(1) - after);
     }
     rank[i] = before;
   }
@@ -233,7 +245,8 @@ void BinaryTree::few(std::vector<Branch>& tree, std::uint32_t index, std::uint32
   fewBranch(tree, index, few, 0, count, box, first);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint8_t old = few.order[0][i];
-    few.box[old].low.store(some[i].low), few.box[old].high.store(some[i].high);
+    few.box[old].low.store(some[i].low);
+    few.box[old].high.store(some[i].high);
     some[i].item = names[old];
   }
 }
@@ -269,8 +282,10 @@ void BinaryTree::fewBranch(std::vector<Branch>& tree, std::uint32_t index, Few& 
     for (std::uint32_t i = begin; i < begin + count; ++i) {
       const std::uint8_t item = order[i];
       const unsigned goesLeft = isLeft >> item & 1;
-      order[l] = item, others[r] = item;
-      l += goesLeft, r += 1 - goesLeft;
+      order[l] = item;
+      others[r] = item;
+      l += goesLeft;
+      r += 1 - goesLeft;
     }
     std::copy_n(others.begin(), r, order.begin() + l);
   }

@@ -14,11 +14,13 @@ namespace trace {
 inline void swap(BoxedItem& a, BoxedItem& b) {
   using simd::Float4;
   const Float4 low = Float4::load(a.low), high = Float4::load(a.high);
-  Float4::load(b.low).store(a.low), Float4::load(b.high).store(a.high);
-  low.store(b.low), high.store(b.high);
+  Float4::load(b.low).store(a.low);
+  Float4::load(b.high).store(a.high);
+  low.store(b.low);
+  high.store(b.high);
 }
 
-/// Of the binary tree.
+/// A node of the binary tree, with the box of all that hangs on it.
 struct alignas(16) Branch {
   float low[3];
   std::uint32_t first;  ///< of the left child, the right one follows; of a leaf: the first of its items
@@ -30,8 +32,10 @@ inline Bounds boxOf(const Branch& branch) {
 }
 
 inline void set(Branch& branch, const Bounds& box, std::uint32_t first, std::uint32_t count) {
-  box.low.store(branch.low), box.high.store(branch.high);
-  branch.first = first, branch.count = count;
+  box.low.store(branch.low);
+  box.high.store(branch.high);
+  branch.first = first;
+  branch.count = count;
 }
 
 /// What visiting a node costs, and a leaf, whose items are tested so many at a time.

@@ -14,7 +14,10 @@ struct Bounds {
   static constexpr float kFar = std::numeric_limits<float>::infinity();
   simd::Float4 low = simd::Float4::all(kFar), high = simd::Float4::all(-kFar);
 
-  void extend(const Bounds& b) { low = min(low, b.low), high = max(high, b.high); }
+  void extend(const Bounds& b) {
+    low = min(low, b.low);
+    high = max(high, b.high);
+  }
   bool inside(const Bounds& b) const { return (lessEqual(b.low, low) & lessEqual(high, b.high) & 7) == 7; }
   float halfArea() const {
     const simd::Float4 size = high - low, products = size * rotate(size);
@@ -32,7 +35,8 @@ inline Bounds boxOf(const Vec3f& p) {
 
 inline Box3 box3(const Bounds& box) {
   alignas(16) float low[4], high[4];
-  box.low.store(low), box.high.store(high);
+  box.low.store(low);
+  box.high.store(high);
   return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 

@@ -63,14 +63,18 @@ struct Bvh::Builder {
   void planCollapse(std::uint32_t index) {
     const Branch& b = branches[index];
     if (b.count > 0) return;
-    planCollapse(b.first), planCollapse(b.first + 1);
+    planCollapse(b.first);
+    planCollapse(b.first + 1);
     Forests& f = forestsOf(b);
     const std::array<float, 8> left = costsOf(branches[b.first]), right = costsOf(branches[b.first + 1]);
     const auto parted = [&](std::uint8_t into) {
       float best = Bounds::kFar;
       for (std::uint8_t k = 1; k < into; ++k) {
         const float cost = left[k] + right[into - k];
-        if (k == 1 || cost < best) best = cost, f.left[into] = k;
+        if (k == 1 || cost < best) {
+          best = cost;
+          f.left[into] = k;
+        }
       }
       return best;
     };
@@ -78,7 +82,10 @@ struct Bvh::Builder {
     f.cost[1] = boxOf(b).halfArea() * kCostOfNode + parted(8);
     for (std::uint8_t into = 2; into < 8; ++into) {
       f.cost[into] = parted(into);
-      if (f.cost[into - 1] <= f.cost[into]) f.cost[into] = f.cost[into - 1], f.left[into] = 0;
+      if (f.cost[into - 1] <= f.cost[into]) {
+        f.cost[into] = f.cost[into - 1];
+        f.left[into] = 0;
+      }
     }
   }
 
@@ -125,9 +132,12 @@ struct Bvh::Builder {
       }
       BvhNode& node = bvh.nodes_[number];
       alignas(16) float low[4], high[4];
-      box.low.store(low), box.high.store(high);
-      for (int axis = 0; axis < 3; ++axis)
-        node.plane[axis][0][lane] = low[axis], node.plane[axis][1][lane] = high[axis];
+      box.low.store(low);
+      box.high.store(high);
+      for (int axis = 0; axis < 3; ++axis) {
+        node.plane[axis][0][lane] = low[axis];
+        node.plane[axis][1][lane] = high[axis];
+      }
       node.child[lane] = child;
     }
     return number * kNodePlaces;
@@ -167,8 +177,10 @@ void Bvh::build(std::vector<BoxedItem> items, const Box3& whole, Leaves leaves, 
   const Real largest = max(maxComponent(abs(whole.low)), maxComponent(abs(whole.high)));
   const Real pad = largest * 0x1p-19;
   extent_.reach = static_cast<float>(4 * largest);
-  for (int axis = 0; axis < 3; ++axis)
-    extent_.low[axis] = whole.low[axis] - pad, extent_.high[axis] = whole.high[axis] + pad;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent_.low[axis] = whole.low[axis] - pad;
+    extent_.high[axis] = whole.high[axis] + pad;
+  }
 
   const std::uint32_t leafSize = leaves == Leaves::single ? 1 : kLeafSize;
   std::vector<Branch> branches = binaryTree(items, leafSize, threads);

@@ -7,7 +7,7 @@
 namespace trace {
 namespace {
 
-// Of the whole's area: first so large branches, then smaller ones too.
+// Large branches come first, then smaller ones too: these are their shares of the whole's area.
 constexpr float kShares[] = {1e-2f, 1e-3f, 3e-4f};
 constexpr double kPays = 0.99;  // on only if no more than this is left of the inner boxes' areas
 
@@ -21,11 +21,14 @@ class Top {
  public:
   /// Branches of at least that area. No item of the tree lies deeper than `depth`.
   Top(std::vector<Branch>& tree, float smallest, int depth) : tree_(tree), smallest_(smallest) {
-    add(tree[0], depth), add({}, 0), addPair(0, 0);
+    add(tree[0], depth);
+    add({}, 0);
+    addPair(0, 0);
     for (std::uint32_t i = 0; i < nodes_.size() && nodes_.size() < kMostNodes; ++i) {
       const Branch b = original_[i];
       if (i == 1 || b.count > 0 || area(i) < smallest) continue;
-      nodes_[i].first = static_cast<std::uint32_t>(nodes_.size()), nodes_[i].count = 0;
+      nodes_[i].first = static_cast<std::uint32_t>(nodes_.size());
+      nodes_[i].count = 0;
       addPair(i, b.first);
       for (std::uint32_t child : {b.first, b.first + 1}) add(tree[child], heights_[i] - 1);
     }
@@ -41,14 +44,16 @@ class Top {
     for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
       if (i == 1) continue;
       Branch& b = tree_[pairs_[i / 2] + i % 2];
-      if (inner(i))
-        b = nodes_[i], b.first = pairs_[b.first / 2];
-      else
+      if (inner(i)) {
+        b = nodes_[i];
+        b.first = pairs_[b.first / 2];
+      } else {
         b = original_[nodes_[i].first];
+      }
     }
   }
 
-  /// Of all inner boxes: what rays pay for.
+  /// The area of all inner boxes, which rays pay for.
   double innerArea() const {
     double sum = 0;
     for (std::uint32_t i = 0; i < nodes_.size(); ++i)
@@ -64,11 +69,15 @@ class Top {
 
   void add(const Branch& branch, int height) {
     Branch leaf = branch;
-    leaf.first = static_cast<std::uint32_t>(nodes_.size()), leaf.count = 1;
-    nodes_.push_back(leaf), original_.push_back(branch), heights_.push_back(height);
+    leaf.first = static_cast<std::uint32_t>(nodes_.size());
+    leaf.count = 1;
+    nodes_.push_back(leaf);
+    original_.push_back(branch);
+    heights_.push_back(height);
   }
   void addPair(std::uint32_t parent, std::uint32_t place) {
-    parents_.push_back(parent), pairs_.push_back(place);
+    parents_.push_back(parent);
+    pairs_.push_back(place);
   }
 
   void reinsert(std::uint32_t place) {
@@ -79,13 +88,17 @@ class Top {
     put(parent, nodes_[place ^ 1], heights_[place ^ 1]);  // the sibling takes their parent's place
     if (parent != 0) spared += fit(parents_[parent / 2]);
     const std::uint32_t sibling = bestSibling(boxOf(branch), height, spared, parent);
-    put(pair, nodes_[sibling], heights_[sibling]), put(pair + 1, branch, height);
-    nodes_[sibling].first = pair, nodes_[sibling].count = 0, parents_[pair / 2] = sibling;
+    put(pair, nodes_[sibling], heights_[sibling]);
+    put(pair + 1, branch, height);
+    nodes_[sibling].first = pair;
+    nodes_[sibling].count = 0;
+    parents_[pair / 2] = sibling;
     fit(sibling);
   }
 
   void put(std::uint32_t place, const Branch& branch, int height) {
-    nodes_[place] = branch, heights_[place] = height;
+    nodes_[place] = branch;
+    heights_[place] = height;
     if (branch.count == 0) parents_[branch.first / 2] = place;
   }
 
@@ -122,8 +135,10 @@ class Top {
       Bounds both = boxOf(nodes_[place]);
       both.extend(box);
       const float beside = grown + both.halfArea(), below = beside - area(place);
-      if (beside < most && depth + 1 + std::max(height, heights_[place]) <= BvhNode::kMostDepth)
-        most = beside, best = place;
+      if (beside < most && depth + 1 + std::max(height, heights_[place]) <= BvhNode::kMostDepth) {
+        most = beside;
+        best = place;
+      }
       if (inner(place) && below + own < most)
         for (std::uint32_t child = 0; child < 2; ++child)
           waiting_.push_back({below, nodes_[place].first + child, depth + 1});

@@ -99,7 +99,8 @@ struct Float8 {
   static Float8 load(const float* p) { return {_mm256_load_ps(p)}; }
   static Float8 all(float x) { return {_mm256_set1_ps(x)}; }
   void store(float* p) const {
-    _mm_store_ps(p, _mm256_castps256_ps128(v)), _mm_store_ps(p + 4, _mm256_extractf128_ps(v, 1));
+    _mm_store_ps(p, _mm256_castps256_ps128(v));
+    _mm_store_ps(p + 4, _mm256_extractf128_ps(v, 1));
   }
 };
 /// A lane of four in all eight.
@@ -157,7 +158,10 @@ struct Float8 {
   __m128 lo, hi;
   static Float8 load(const float* p) { return {_mm_load_ps(p), _mm_load_ps(p + 4)}; }
   static Float8 all(float x) { return {_mm_set1_ps(x), _mm_set1_ps(x)}; }
-  void store(float* p) const { _mm_store_ps(p, lo), _mm_store_ps(p + 4, hi); }
+  void store(float* p) const {
+    _mm_store_ps(p, lo);
+    _mm_store_ps(p + 4, hi);
+  }
 };
 template <int kLane>
 Float8 spread(Float4 a) {
@@ -181,7 +185,10 @@ struct Double4 {
     return {_mm_cvtps_pd(f), _mm_cvtps_pd(_mm_movehl_ps(f, f))};
   }
   static Double4 all(double x) { return {_mm_set1_pd(x), _mm_set1_pd(x)}; }
-  void store(double* p) const { _mm_store_pd(p, lo), _mm_store_pd(p + 2, hi); }
+  void store(double* p) const {
+    _mm_store_pd(p, lo);
+    _mm_store_pd(p + 2, hi);
+  }
 };
 inline Double4 operator+(Double4 a, Double4 b) { return {_mm_add_pd(a.lo, b.lo), _mm_add_pd(a.hi, b.hi)}; }
 inline Double4 operator-(Double4 a, Double4 b) { return {_mm_sub_pd(a.lo, b.lo), _mm_sub_pd(a.hi, b.hi)}; }

@@ -152,7 +152,10 @@ void visitCrossings(const Traced& traced, const Approach& approach, const Ray& r
       // One number more than wanted, as t is rounded; nothing where a visit has ended the query.
       const auto last = [&] { return range.to < 0 ? -kInfinity : onward(range.to, 1) - start; };
       Real to = last();
-      const auto visitNear = [&](const Crossing& c) { visit(Crossing{start + c.t, c.part}), to = last(); };
+      const auto visitNear = [&](const Crossing& c) {
+        visit(Crossing{start + c.t, c.part});
+        to = last();
+      };
       return visitCrossings(formOf(traced), Approach::from(start, ray), Range{range.from - start, to},
                             VisitCrossing(visitNear));
     }

@@ -28,7 +28,9 @@ struct Bernstein {
   Bernstein halve() {
     Bernstein first;
     const Real middle = a + 0.5 * (b - a);
-    first.a = a, first.b = middle, a = middle;
+    first.a = a;
+    first.b = middle;
+    a = middle;
     for (std::size_t i = 0; i <= n; ++i) {
       first.at[i] = at[0];
       for (std::size_t k = 0; k + i < n; ++k) at[k] = 0.5 * (at[k] + at[k + 1]);
@@ -52,7 +54,8 @@ constexpr auto kInverseBinomials = [] {
 template <std::size_t n>
 Bernstein<n> bernstein(std::span<const Real> coefficients, Real a, Real b) {
   Bernstein<n> p;
-  p.a = a, p.b = b;
+  p.a = a;
+  p.b = b;
   std::copy_n(coefficients.begin(), n + 1, p.at);
   if (a != 0)  // around a
     for (std::size_t i = 0; i < n; ++i)
@@ -69,7 +72,10 @@ Bernstein<n> bernstein(std::span<const Real> coefficients, Real a, Real b) {
 Real sizeOf(std::span<const Real> coefficients, Real a, Real b) {
   const Real farthest = max(std::abs(a), std::abs(b));
   Real size = 0, power = 1;
-  for (const Real c : coefficients) size += std::abs(c) * power, power *= farthest;
+  for (const Real c : coefficients) {
+    size += std::abs(c) * power;
+    power *= farthest;
+  }
   return size;
 }
 
@@ -85,7 +91,8 @@ void isolate(std::span<const Real> coefficients, Real a, Real b, Found&& found) 
   for (int halvings = 0; count > 0;) {
     Bernstein<n>& p = parts[count - 1];
     if (p.signVariations() > 1 && count < parts.size() && halvings < kMostHalvings && p.exceeds(noise)) {
-      parts[count++] = p.halve(), ++halvings;
+      parts[count++] = p.halve();
+      ++halvings;
       continue;
     }
     const Real first = p.at[0], last = p.at[n];
@@ -107,12 +114,10 @@ Nodes rootsAmong(const Nodes& turns, std::span<const Real> coefficients) {
   const auto p = [&](Real t) { return evaluate(coefficients, t); };
   Nodes roots;
   roots.add(turns.at[0]);
-  bool negative = p(turns.at[0]).value < 0;
-  for (std::size_t i = 0; i + 1 < turns.count; ++i) {
-    const bool after = p(turns.at[i + 1]).value < 0;
-    if (negative != after) roots.add(rootBetween(p, turns.at[i], turns.at[i + 1], negative));
-    negative = after;
-  }
+  const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(p, a, b, negativeAtA); };
+  SignWalk walk{turns.at[0], p(turns.at[0]).value < 0};
+  for (std::size_t i = 1; i < turns.count; ++i)
+    walk.to(turns.at[i], p(turns.at[i]).value < 0, root, [&](Real t, bool) { roots.add(t); });
   roots.add(turns.at[turns.count - 1]);
   return roots;
 }
@@ -135,7 +140,10 @@ Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b) {
     const Real half = 0.5 * coefficients[1];
     const Roots2 roots = solveQuadratic(coefficients[2], half, coefficients[0],
                                         half * half - coefficients[2] * coefficients[0]);
-    if (roots.count && roots.t0 < roots.t1) addInside(roots.t0), addInside(roots.t1);
+    if (roots.count && roots.t0 < roots.t1) {
+      addInside(roots.t0);
+      addInside(roots.t1);
+    }
   } else if (n >= kLeastDegree) {
     withDegree(n, [&]<std::size_t kDegree>() {
       isolate<kDegree>(coefficients, a, b, [&](Real from, Real to, bool negative, Real guess) {

@@ -58,24 +58,31 @@ Real rootBetween(F&& f, Real a, Real b, bool negativeAtA) {
   return rootBetween(f, a, b, negativeAtA, a + 0.5 * (b - a));
 }
 
-/// Calls visit(root, negativeBefore) for each change of sign of f between neighbours of the ascending
-/// `nodes`, in order; f must be monotone, or at least change sign once at most, between neighbours. 0 counts
-/// as a node where it lies between: on which side of a surface a ray starts is decided at its very origin.
-template <class F, class Visit>
-void signChanges(std::span<const Real> nodes, F&& f, Visit&& visit) {
-  if (nodes.empty()) return;
-  Real a = nodes[0];
-  bool negative = f(a).value < 0;
-  const auto advance = [&](Real b) {
-    const bool negativeAtB = f(b).value < 0;
-    if (negative != negativeAtB) visit(rootBetween(f, a, b, negative), negative);
-    a = b, negative = negativeAtB;
-  };
-  for (const Real node : nodes.subspan(1)) {
-    if (a < 0 && node > 0) advance(0);
-    if (node > a) advance(node);
+/// A walk over ascending places of a line, between neighbours of which a function changes sign once at most.
+/// It finds each change: of a polynomial between its extrema, or of any function between places where it is
+/// known to rise or fall only.
+struct SignWalk {
+  Real at = 0;            ///< where the walk has come
+  bool negative = false;  ///< the function's sign there
+
+  /// Goes on to t, where the sign is known. If it is another, calls visit(root, negativeBefore);
+  /// root(a, b, negativeAtA) finds the place, unless the walk does not move.
+  template <class Root, class Visit>
+  void to(Real t, bool negativeAtT, Root&& root, Visit&& visit) {
+    if (negativeAtT != negative) visit(at < t ? root(at, t, negative) : t, negative);
+    at = t;
+    negative = negativeAtT;
   }
-}
+
+  /// Goes on to t by the signs of f, which returns a Jet. Where 0 lies between, it is looked at too: on which
+  /// side of a surface a ray starts is decided at its very origin.
+  template <class F, class Visit>
+  void to(Real t, F&& f, Visit&& visit) {
+    const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(f, a, b, negativeAtA); };
+    if (at < 0 && 0 < t) to(0, f(0).value < 0, root, visit);
+    to(t, f(t).value < 0, root, visit);
+  }
+};
 
 /// The polynomial with `coefficients`, that of t^0 first.
 inline Jet evaluate(std::span<const Real> coefficients, Real t) {
@@ -108,7 +115,7 @@ Nodes rootsWithEnds(std::span<const Real> coefficients, Real a, Real b);
 /// does. 2 if rounding hides it.
 int signVariations(std::span<const Real> coefficients, Real a, Real b);
 
-/// a, the places in (a, b) where the polynomial's derivative changes sign, and b: nodes for signChanges().
+/// a, the places in (a, b) where the polynomial's derivative changes sign, and b: places for a SignWalk.
 inline Nodes extremaWithEnds(std::span<const Real> coefficients, Real a, Real b) {
   Real derivative[kMostDegree];
   for (std::size_t i = 1; i < coefficients.size(); ++i)

@@ -5,18 +5,15 @@
 
 #include <span>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "scene/settings.h"
 
 namespace trace {
 
 struct Convention {
-  Like like;
   std::string_view name;
-  std::string_view help;                                              ///< whose rules these are
-  std::vector<std::pair<std::string_view, std::string_view>> values;  ///< (option, value), complete
+  std::string_view help;  ///< whose rules these are
+  Settings settings;      ///< the values of the group Conventions; the other options stay as they are
 };
 
 std::span<const Convention> conventions();

@@ -563,8 +563,9 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
     for (const Choice& choice : layer) {
       if (choice.option != "like") continue;
       apply(settings, choice);
-      for (const auto& [option, value] : convention(settings.like).values)
-        findOption(option).assign(settings, value);
+      const Settings& given = convention(settings.like).settings;
+      for (const Option& option : kTable)
+        if (option.group == "Conventions") option.assign(settings, option.get(given));
     }
     for (const Choice& choice : layer)
       if (choice.option != "like") apply(settings, choice);

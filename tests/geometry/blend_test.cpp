@@ -29,7 +29,7 @@ Affine move(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
 Operand at(const Shape& shape, const Affine& place = {}, std::uint32_t material = 0) {
   return {"", shape, place, material};
 }
-Blend blend(BlendOperation operation, Real radius, std::vector<Operand> objects) {
+Blend blend(CsgOperation operation, Real radius, std::vector<Operand> objects) {
   Blend b;
   b.operation = operation, b.radius = radius, b.objects = Operands(std::move(objects));
   return b;
@@ -42,7 +42,7 @@ std::vector<Operand> floorAndWall() {
 
 TEST(Blend, FilletIsAQuarterOfACircle) {
   Random random(1);
-  const Shape corner = blend(BlendOperation::unite, 0.5, floorAndWall());
+  const Shape corner = blend(CsgOperation::unite, 0.5, floorAndWall());
   const TracedShape shape = prepare(corner);
   for (int i = 0; i < 200; ++i) {
     // From the fillet's axis into the corner.
@@ -63,7 +63,7 @@ TEST(Blend, OfStretchedSolidsIsWhollyInItsBounds) {
   // says: where both are 1 - sqrt(1/2) away.
   const Affine stretched = Affine::scaling({4, 0.25, 0.25});
   const Shape twins =
-      blend(BlendOperation::unite, 1,
+      blend(CsgOperation::unite, 1,
             {at(Sphere{}, move(0, 0.2, 0) * stretched), at(Sphere{}, move(0, -0.2, 0) * stretched)});
   const Real away = 1 + (1 - std::sqrt(0.5)) / std::cbrt(0.25);
   const Real end = 4 * std::sqrt(away * away - 0.64);
@@ -73,12 +73,12 @@ TEST(Blend, OfStretchedSolidsIsWhollyInItsBounds) {
   EXPECT_NEAR(met[1].t, 10 + end, 1e-9);
   // What is cut to a fillet gets no larger.
   const auto cut =
-      blend(BlendOperation::intersect, 0.5, {at(Sphere{}), at(Cube{}, Affine::scaling({4, 4, 4}))});
+      blend(CsgOperation::intersect, 0.5, {at(Sphere{}), at(Cube{}, Affine::scaling({4, 4, 4}))});
   EXPECT_EQ(cut.prepared()->bounds(), (Box3{{-1, -1, -1}, {1, 1, 1}}));
 }
 
 TEST(Blend, LeadsFromOneMaterialToTheOther) {
-  const Blend corner = blend(BlendOperation::unite, 0.5, floorAndWall());
+  const Blend corner = blend(CsgOperation::unite, 0.5, floorAndWall());
   const auto traced = corner.prepared();
   const auto shareAt = [&](Real angle) {
     const Ray ray{{0.5, 0, 0.5}, {-std::cos(angle), 0, -std::sin(angle)}};
@@ -121,19 +121,19 @@ TEST(Blend, OfRadiusZeroIsCsg) {
       for (std::size_t k = 0; k < p.size(); ++k) EXPECT_NEAR(p[k].t, q[k].t, 1e-7);
     }
   };
-  compare(blend(BlendOperation::unite, 0, objects), Union{Operands(objects)});
-  compare(blend(BlendOperation::intersect, 0, {objects[0], objects[1]}),
+  compare(blend(CsgOperation::unite, 0, objects), Union{Operands(objects)});
+  compare(blend(CsgOperation::intersect, 0, {objects[0], objects[1]}),
           Intersection{Operands({objects[0], objects[1]})});
-  compare(blend(BlendOperation::subtract, 0, {objects[0], objects[1], objects[3]}),
+  compare(blend(CsgOperation::subtract, 0, {objects[0], objects[1], objects[3]}),
           Difference{Operands({objects[0], objects[1], objects[3]})});
 }
 
 TEST(Blend, TakesBlendsAndSolidsOfSolids) {
-  const Blend inner = blend(BlendOperation::unite, 0.1, {at(Sphere{}), at(Sphere{}, move(1, 0, 0))});
+  const Blend inner = blend(CsgOperation::unite, 0.1, {at(Sphere{}), at(Sphere{}, move(1, 0, 0))});
   const Difference cut{Operands({at(Cube{}), at(Sphere{}, move(0.5, 0.5, 0.5))})};
   const SphereSweep capsule{{{0, 0, 0, 0.2}, {0, 1, 0, 0.2}, {1, 1, 0, 0.2}}, Spline::linear};
   const Shape whole =
-      blend(BlendOperation::unite, 0.2, {at(inner), at(cut, move(0, 0, 1.2)), at(capsule, move(0, 1, 0))});
+      blend(CsgOperation::unite, 0.2, {at(inner), at(cut, move(0, 0, 1.2)), at(capsule, move(0, 1, 0))});
   EXPECT_GT(volume(whole, boundsOf(prepare(whole)), 60), 4 * kPi / 3 * 1.5);
 }
 
@@ -146,11 +146,11 @@ TEST(Blend, RefusesWhatHasNoDistanceOrNoEnd) {
     }
     return std::string();
   };
-  EXPECT_NE(refused(blend(BlendOperation::unite, 0.1, {at(Menger{}), at(Sphere{})})).find("menger"),
+  EXPECT_NE(refused(blend(CsgOperation::unite, 0.1, {at(Menger{}), at(Sphere{})})).find("menger"),
             std::string::npos);
-  EXPECT_NE(refused(blend(BlendOperation::unite, 0.1, {at(Sphere{}), at(Plane{})})).find("for ever"),
+  EXPECT_NE(refused(blend(CsgOperation::unite, 0.1, {at(Sphere{}), at(Plane{})})).find("for ever"),
             std::string::npos);
-  EXPECT_EQ(refused(blend(BlendOperation::subtract, 0.1, {at(Sphere{}), at(Plane{})})), "");
+  EXPECT_EQ(refused(blend(CsgOperation::subtract, 0.1, {at(Sphere{}), at(Plane{})})), "");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "support/random.h"
@@ -81,6 +82,45 @@ TEST(Roots, VariationsBoundTheNumberOfRoots) {
     const Nodes found = rootsWithEnds(p, -0.7, 0.9);
     ASSERT_LE(static_cast<int>(found.count) - 2, signVariations(p, -0.7, 0.9));
   }
+}
+
+/// The changes of sign that a walk over the nodes finds, as (place, negative before).
+std::vector<std::pair<Real, bool>> changes(const Coefficients& p, const std::vector<Real>& nodes) {
+  std::vector<std::pair<Real, bool>> found;
+  const auto f = [&](Real t) { return evaluate(p, t); };
+  SignWalk walk{nodes.front(), f(nodes.front()).value < 0};
+  for (const Real node : nodes)
+    if (walk.at < node) walk.to(node, f, [&](Real t, bool negative) { found.emplace_back(t, negative); });
+  return found;
+}
+
+TEST(SignWalk, FindsTheChangesBetweenExtremaInOrder) {
+  const Coefficients p{-6, 11, -6, 1};  // (t - 1) (t - 2) (t - 3)
+  const Nodes nodes = extremaWithEnds(p, -1, 5);
+  const auto found = changes(p, {nodes.at.begin(), nodes.at.begin() + nodes.count});
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(found[i].first, static_cast<Real>(i + 1), 1e-12);
+    EXPECT_EQ(found[i].second, i != 1);
+  }
+}
+
+TEST(SignWalk, LooksAt0WhereItLiesBetween) {
+  EXPECT_TRUE(changes({1, 0, 1}, {-2, 2}).empty());
+  // Both roots lie between the nodes, one on each side of 0.
+  EXPECT_EQ(changes({-1, 0, 4}, {-2, 2}).size(), 2u);
+  EXPECT_TRUE(changes({-1, 0, 4}, {0.0, 0.0}).empty());
+}
+
+TEST(SignWalk, AChangeWithoutAWayIsWhereItStands) {
+  SignWalk walk{2, false};
+  std::vector<Real> found;
+  const auto root = [](Real, Real, bool) { return kInfinity; };
+  walk.to(2, true, root, [&](Real t, bool) { found.push_back(t); });
+  walk.to(3, true, root, [&](Real t, bool) { found.push_back(t); });
+  EXPECT_EQ(found, std::vector<Real>{2});
+  EXPECT_EQ(walk.at, 3);
+  EXPECT_TRUE(walk.negative);
 }
 
 }  // namespace

@@ -88,23 +88,22 @@ TEST(Options, UnknownNamesGetAHint) {
   }
 }
 
-TEST(Conventions, EachGivesAValueToEveryOptionOfTheGroup) {
-  std::set<std::string_view> group;
-  for (const Option& option : options())
-    if (option.group == "Conventions" && option.name != "like") group.insert(option.name);
+TEST(Conventions, EachGivesAValueToEveryOptionOfTheGroupAndToNoOther) {
   const auto likes = findOption("like").choices;
   ASSERT_EQ(conventions().size(), likes.size());
   for (size_t i = 0; i < likes.size(); ++i) {
     const Convention& row = conventions()[i];
     EXPECT_EQ(row.name, likes[i]);
-    EXPECT_EQ(static_cast<size_t>(row.like), i);
-    std::set<std::string_view> given;
-    Settings settings;
-    for (const auto& [option, value] : row.values) {
-      EXPECT_TRUE(given.insert(option).second) << option;
-      EXPECT_NO_THROW(findOption(option).assign(settings, value));
-    }
-    EXPECT_EQ(given, group) << row.name;
+    EXPECT_EQ(static_cast<size_t>(row.settings.like), i);
+    std::vector<Choice> others;  // other values than its own, for all options
+    for (const Option& option : options())
+      for (const std::string& value : someValues(option))
+        if (value != option.get(row.settings)) others.push_back({std::string(option.name), value, {}});
+    const Settings before = resolve({others});
+    const Settings after = resolve({others, std::vector<Choice>{{"like", std::string(row.name), {}}}});
+    for (const Option& option : options())
+      EXPECT_EQ(option.get(after), option.get(option.group == "Conventions" ? row.settings : before))
+          << row.name << " " << option.name;
   }
 }
 

@@ -42,7 +42,9 @@ Vec3 faceNormal(const MeshData& mesh, std::uint32_t index) {
 Box3 bounds(const MeshData& mesh, std::uint32_t index) {
   const Corners v = corners(mesh, index);
   Box3 box;
-  box.extend(v.a), box.extend(v.b), box.extend(v.c);
+  box.extend(v.a);
+  box.extend(v.b);
+  box.extend(v.c);
   return box;
 }
 
@@ -59,7 +61,10 @@ MeshData withGeneratedNormals(const MeshData& mesh, bool unit) {
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vec3 n = faceNormal(mesh, i);
     if (n == Vec3{}) continue;
-    for (std::uint32_t point : mesh.triangles[i]) sums[point] += normalize(n), ++counts[point];
+    for (std::uint32_t point : mesh.triangles[i]) {
+      sums[point] += normalize(n);
+      ++counts[point];
+    }
   }
   MeshData result = mesh;
   result.generateNormals = false;

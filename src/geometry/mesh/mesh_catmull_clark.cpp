@@ -71,8 +71,12 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
     middles.push_back(sum / static_cast<Real>(polygon.size()));
     for (std::size_t c = 0; c < polygon.size(); ++c) {
       const Index number = edges.number(edgeOf(polygon[c], polygon[(c + 1) % polygon.size()]));
-      if (number == uses.size()) uses.push_back(0), beside.emplace_back();
-      ++uses[number], beside[number] += middles.back();
+      if (number == uses.size()) {
+        uses.push_back(0);
+        beside.emplace_back();
+      }
+      ++uses[number];
+      beside[number] += middles.back();
       edgesOf.push_back(number);
     }
   }
@@ -85,11 +89,15 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
   std::vector<int> faces(points), valence(points), borders(points);
   std::vector<PointCreases> creasesAt(points);
   for (std::size_t i = 0; i < polygons.size(); ++i)
-    for (const Index corner : polygons[i]) around[corner] += middles[i], ++faces[corner];
+    for (const Index corner : polygons[i]) {
+      around[corner] += middles[i];
+      ++faces[corner];
+    }
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Edge e = edges.keys()[i];
     for (const auto& [p, other] : {Edge{e.a, e.b}, Edge{e.b, e.a}}) {
-      across[p] += (at(p) + at(other)) * 0.5, ++valence[p];
+      across[p] += (at(p) + at(other)) * 0.5;
+      ++valence[p];
       creasesAt[p].add(at(other), sharp.sharpness[i]);
       if (uses[i] != 2) ++borders[p];
     }
@@ -117,7 +125,10 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
     if (!mesh.materials.empty()) mesh.materials.push_back(mesh.materials[polygons[i][0]]);
     if (mesh.uvs.empty()) continue;
     Vec2 sum;
-    for (const Index corner : polygons[i]) sum.x += mesh.uvs[corner].x, sum.y += mesh.uvs[corner].y;
+    for (const Index corner : polygons[i]) {
+      sum.x += mesh.uvs[corner].x;
+      sum.y += mesh.uvs[corner].y;
+    }
     const Real n = static_cast<Real>(polygons[i].size());
     mesh.uvs.push_back({sum.x / n, sum.y / n});
   }
@@ -150,7 +161,8 @@ MeshData subdividedByCatmullClark(const MeshData& mesh, int levels, const std::v
     work.reached(level);
     divide(result, polygons, left);
   }
-  result.triangles.clear(), result.polygons.clear();
+  result.triangles.clear();
+  result.polygons.clear();
   for (const Polygon& polygon : polygons) appendPolygon(result, polygon);
   return result;
 }

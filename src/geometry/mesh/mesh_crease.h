@@ -28,7 +28,11 @@ struct PointCreases {
   Vec3 along;          ///< the sum of their other ends
 
   void add(const Vec3& other, Real s) {
-    if (s > 0) ++count, sharpness += s, along += other;
+    if (s > 0) {
+      ++count;
+      sharpness += s;
+      along += other;
+    }
   }
   /// Where the point goes, from where it goes on a smooth surface: with two along their curve, with more it
   /// is a corner and stays; one alone ends there.
@@ -53,8 +57,10 @@ struct SharpEdges {
       const auto middle = firstMiddle + static_cast<std::uint32_t>(i);
       if (uses[i] != 2)
         sharpness[i] = kInfinity;
-      else if (const Real left = sharpness[i] - 1; left > 0)
-        finer.push_back({e.a, middle, left}), finer.push_back({middle, e.b, left});
+      else if (const Real left = sharpness[i] - 1; left > 0) {
+        finer.push_back({e.a, middle, left});
+        finer.push_back({middle, e.b, left});
+      }
     }
   }
 

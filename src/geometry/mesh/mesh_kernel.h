@@ -69,7 +69,10 @@ class BlockTest {
     const Double4 t = tAlong / along;
     hits.met &= lessEqual(t, Double4::all(tMost)) & less(zero, t) & less(zero, timesSign(along, along));
     hits.sure = less(Double4::all(slack_), least);
-    t.store(hits.t), along.store(hits.along), w1.store(hits.w1), minusW2.store(hits.minusW2);
+    t.store(hits.t);
+    along.store(hits.along);
+    w1.store(hits.w1);
+    minusW2.store(hits.minusW2);
     return hits;
   }
 
@@ -104,7 +107,11 @@ inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned
   const double along = hits.along[lane], b1 = hits.w1[lane] / along, b2 = -hits.minusW2[lane] / along;
   met.triangle = q.mesh.triangles[4 * block + lane];
   TriangleHit& hit = met.hit;
-  hit.t = hits.t[lane], hit.b[0] = 1 - b1 - b2, hit.b[1] = b1, hit.b[2] = b2, hit.front = along < 0;
+  hit.t = hits.t[lane];
+  hit.b[0] = 1 - b1 - b2;
+  hit.b[1] = b1;
+  hit.b[2] = b2;
+  hit.front = along < 0;
 }
 
 /// Whether the lane's hit counts.

@@ -61,7 +61,8 @@ void cutEars(MeshData& mesh, std::span<const std::uint32_t> polygon, const Vec3&
   for (std::size_t tries = 0; corners.size() > 3 && tries < corners.size();) {
     i %= corners.size();
     if (!isEar(mesh, corners, i, normal)) {
-      ++i, ++tries;
+      ++i;
+      ++tries;
       continue;
     }
     const std::size_t n = corners.size(), tip = (i + 1) % n;

@@ -111,8 +111,12 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
     middles.emplace_back();
     for (Index c = 0; c < 3; ++c) {
       const Index number = edges.number(edgeOf(t[c], t[(c + 1) % 3]));
-      if (number == uses.size()) uses.push_back(0), opposite.emplace_back();
-      ++uses[number], opposite[number] += Vec3(mesh.points[t[(c + 2) % 3]]);
+      if (number == uses.size()) {
+        uses.push_back(0);
+        opposite.emplace_back();
+      }
+      ++uses[number];
+      opposite[number] += Vec3(mesh.points[t[(c + 2) % 3]]);
       middles.back()[c] = points + number;
     }
   }
@@ -126,9 +130,16 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const Edge e = edges.keys()[i];
     const Vec3 a(mesh.points[e.a]), b(mesh.points[e.b]);
-    around[e.a] += b, around[e.b] += a, ++valence[e.a], ++valence[e.b];
-    at[e.a].add(b, sharp.sharpness[i]), at[e.b].add(a, sharp.sharpness[i]);
-    if (uses[i] != 2) ++borders[e.a], ++borders[e.b];
+    around[e.a] += b;
+    around[e.b] += a;
+    ++valence[e.a];
+    ++valence[e.b];
+    at[e.a].add(b, sharp.sharpness[i]);
+    at[e.b].add(a, sharp.sharpness[i]);
+    if (uses[i] != 2) {
+      ++borders[e.a];
+      ++borders[e.b];
+    }
   }
   for (Index i = 0; i < points; ++i) {
     const Vec3 p(mesh.points[i]);

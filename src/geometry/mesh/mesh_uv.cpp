@@ -32,13 +32,17 @@ Vec2 around(const Vec3& p, const Box3& box, bool sphere) {
 void join(std::array<Vec2, 3>& uv) {
   Real least = kInfinity, most = -kInfinity;
   for (const Vec2& c : uv)
-    if (!std::isnan(c.x)) least = std::min(least, c.x), most = std::max(most, c.x);
+    if (!std::isnan(c.x)) {
+      least = std::min(least, c.x);
+      most = std::max(most, c.x);
+    }
   Real sum = 0;
   int known = 0;
   for (Vec2& c : uv) {
     if (std::isnan(c.x)) continue;
     if (most - least > 0.5 && c.x < 0.5) c.x += 1;
-    sum += c.x, ++known;
+    sum += c.x;
+    ++known;
   }
   for (Vec2& c : uv)
     if (std::isnan(c.x)) c.x = known > 0 ? sum / known : 0.5;

@@ -107,15 +107,19 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     if (n == Vec3{}) continue;
     BoxedItem& item = parts.emplace_back();
     Bounds box = boxOf(a);
-    box.extend(boxOf(b)), box.extend(boxOf(c));
+    box.extend(boxOf(b));
+    box.extend(boxOf(c));
     all.extend(box);
-    box.low.store(item.low), box.high.store(item.high), item.item = i;
+    box.low.store(item.low);
+    box.high.store(item.high);
+    item.item = i;
     // What a triangle, which fills its box at best by half, leaves empty is what cutting can spare. A float
     // holds the side of a square as large for any size of mesh.
     const Real area = halfArea(box3(box));
     item.note =
         static_cast<float>(std::sqrt(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)))));
-    sum += area, sumOfSquares += area * area;
+    sum += area;
+    sumOfSquares += area * area;
   }
   // How uneven the sizes are: 1 if all boxes are alike.
   const std::size_t wholes = parts.size();
@@ -130,7 +134,8 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     const Grid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
     const Real empty = Real{parts[i].note} * parts[i].note;
     const float gain = cut.axis < 0 ? 0 : std::cbrt(static_cast<float>(empty * share * (1 << cut.bit)));
-    parts[i].note = gain, allGains += gain;
+    parts[i].note = gain;
+    allGains += gain;
   }
   if (!(allGains > 0)) return parts;
   const Real cuts = kMostParts * count * 1.5 / allGains;  // for a gain of 1
@@ -140,7 +145,8 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     const std::uint32_t triangle = parts[i].item;
     const Corners v = corners(mesh, triangle);
     split({{v.a, v.b, v.c}, 3}, box3(boxOf(parts[i])), times, grid, triangle, parts);
-    parts[i] = parts.back(), parts.pop_back();
+    parts[i] = parts.back();
+    parts.pop_back();
   }
   return parts;
 }

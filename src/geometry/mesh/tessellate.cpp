@@ -125,8 +125,10 @@ class Grid {
   Vec3 place(std::size_t cell) const {
     Vec3 middle;
     int count = 0;
-    for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next)
-      middle += samples_[s].point, ++count;
+    for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next) {
+      middle += samples_[s].point;
+      ++count;
+    }
     middle = middle / count;
     Affine normal;  // of the normal equations, for the way from the middle
     for (int i = 0; i < 3; ++i) normal.row[i] = normal.row[i] * (kPull * count);
@@ -163,7 +165,10 @@ class Grid {
 };
 
 Box3 cutOff(Box3 box, const Box3& within) {
-  if (!isFinite(box.size())) box.low = max(box.low, within.low), box.high = min(box.high, within.high);
+  if (!isFinite(box.size())) {
+    box.low = max(box.low, within.low);
+    box.high = min(box.high, within.high);
+  }
   return box;
 }
 

@@ -73,13 +73,17 @@ class Builder {
         [&](int) {
           return std::pair{n.x, n.z};
         });
-    if (f.capped) disc(f.r0, bottom, false), disc(f.r1, bottom + f.h, true);
+    if (f.capped) {
+      disc(f.r0, bottom, false);
+      disc(f.r1, bottom + f.h, true);
+    }
   }
 
  private:
   std::uint32_t next() const { return static_cast<std::uint32_t>(mesh_.points.size()); }
   void point(const Vec3& p, const Vec3& normal) {
-    mesh_.points.push_back(Vec3f(p)), mesh_.normals.push_back(Vec3f(normal));
+    mesh_.points.push_back(Vec3f(p));
+    mesh_.normals.push_back(Vec3f(normal));
   }
   /// At a pole or an apex a triangle has no area.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -105,7 +109,9 @@ void add(Builder& builder, const Cube&, int) {
   for (int axis = 0; axis < 3; ++axis)
     for (Real side : {-1.0, 1.0}) {
       Vec3 n, u, v;
-      n[axis] = side, u[(axis + 1) % 3] = 0.5, v[(axis + 2) % 3] = 0.5 * side;
+      n[axis] = side;
+      u[(axis + 1) % 3] = 0.5;
+      v[(axis + 2) % 3] = 0.5 * side;
       const Vec3 c = n * 0.5;
       builder.quad({c - u - v, c + u - v, c + u + v, c - u + v}, n);
     }
@@ -130,7 +136,10 @@ MeshData joined(const std::vector<SurfaceCorner>& corners, bool solid) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3f p(corners[i + k].point), n(corners[i + k].normal);
       triangle[k] = numbers.number({p.x, p.y, p.z, n.x, n.y, n.z});
-      if (triangle[k] == mesh.points.size()) mesh.points.push_back(p), mesh.normals.push_back(n);
+      if (triangle[k] == mesh.points.size()) {
+        mesh.points.push_back(p);
+        mesh.normals.push_back(n);
+      }
       normal += corners[i + k].normal;
     }
     mesh.triangles.push_back(triangle);

@@ -71,7 +71,8 @@ struct TriangleRay {
     z = 2 - (most > sizeZ) * (1 + (sizeX > sizeY));
     static constexpr int kNext[2][3] = {{1, 2, 0}, {2, 0, 1}};
     const int backward = d[z] < 0;  // keeps the winding
-    x = kNext[backward][z], y = kNext[1 - backward][z];
+    x = kNext[backward][z];
+    y = kNext[1 - backward][z];
     const Real inverse = 1 / d[z];
     shearX = d[x] * inverse;
     shearY = d[y] * inverse;

@@ -5,6 +5,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/small_list.h"
+#include "math/perpendicular.h"
 
 namespace trace {
 
@@ -53,7 +54,8 @@ Spot<T> evaluate(const std::array<T, 16>& p, Real u, Real v) {
   std::array<T, 4> rows, slopes;
   for (std::size_t j = 0; j < 4; ++j) {
     const auto [at, slope] = cubicAt(p[4 * j], p[4 * j + 1], p[4 * j + 2], p[4 * j + 3], u);
-    rows[j] = at, slopes[j] = slope;
+    rows[j] = at;
+    slopes[j] = slope;
   }
   const auto [at, byV] = cubicAt(rows[0], rows[1], rows[2], rows[3], v);
   return {at, cubicAt(slopes[0], slopes[1], slopes[2], slopes[3], v)[0], byV};
@@ -67,7 +69,10 @@ struct Piece {
 
 struct Bounds {
   Real low = kInfinity, high = -kInfinity;
-  void add(Real x) { low = min(low, x), high = max(high, x); }
+  void add(Real x) {
+    low = min(low, x);
+    high = max(high, x);
+  }
   bool contains(Real x) const { return low <= x && x <= high; }
 };
 
@@ -76,7 +81,7 @@ bool mayBeZero(const std::array<Real, 16>& d, Real room) {
   return *low <= room && *high >= -room;
 }
 
-/// Of the derivative in u (step 1) or v (step 4), in the piece's own coordinates from 0 to 1.
+/// The bounds of the derivative in u (step 1) or v (step 4), in the piece's own coordinates from 0 to 1.
 Bounds slopeBounds(const std::array<Real, 16>& d, std::size_t step) {
   Bounds bounds;
   for (std::size_t i = 0; i < 16; ++i)
@@ -113,8 +118,13 @@ Roots rootsOf(const Piece& piece) {
 void halve(Real& p0, Real& p1, Real& p2, Real& p3, Real& q0, Real& q1, Real& q2, Real& q3) {
   const Real ab = 0.5 * (p0 + p1), bc = 0.5 * (p1 + p2), cd = 0.5 * (p2 + p3);
   const Real abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
-  q3 = p3, q2 = cd, q1 = bcd, q0 = middle;
-  p1 = ab, p2 = abc, p3 = middle;
+  q3 = p3;
+  q2 = cd;
+  q1 = bcd;
+  q0 = middle;
+  p1 = ab;
+  p2 = abc;
+  p3 = middle;
 }
 
 Piece splitOff(Piece& piece, bool inU) {
@@ -144,7 +154,9 @@ Root polished(const std::array<Real, 16>& a, const std::array<Real, 16>& b, Root
     const Real du = (f.at * g.byV - g.at * f.byV) / det, dv = (g.at * f.byU - f.at * g.byU) / det;
     const Real step = max(std::abs(du), std::abs(dv));
     if (!(step < last)) break;
-    r.u -= du, r.v -= dv, last = step;
+    r.u -= du;
+    r.v -= dv;
+    last = step;
     if (step == 0) break;
   }
   return r;
@@ -154,14 +166,15 @@ Root polished(const std::array<Real, 16>& a, const std::array<Real, 16>& b, Root
 
 void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
   const Vec3 along = normalize(ray.direction);
-  const Vec3 aside = normalize(cross(along, std::abs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 aside = perpendicularTo(along);
   const Vec3 third = cross(along, aside);
   tree_.query(ray, [&](std::uint32_t number) {
     const Patch& patch = patches_[number];
     Piece whole{{}, {}, 0, 1, 0, 1};
     for (std::size_t i = 0; i < 16; ++i) {
       const Vec3 p = patch[i] - ray.origin;
-      whole.a[i] = dot(p, aside), whole.b[i] = dot(p, third);
+      whole.a[i] = dot(p, aside);
+      whole.b[i] = dot(p, third);
     }
     // More than rounding has moved the distances: patches that share an edge leave no gap there.
     const Real room = error_ + gammaError(16) * length(ray.origin);
@@ -171,7 +184,8 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
     std::array<Piece, kMostDepth + 2> stack;
     std::array<int, kMostDepth + 2> depths;
     std::size_t count = 0, looked = 0;
-    stack[count] = whole, depths[count++] = 0;
+    stack[count] = whole;
+    depths[count++] = 0;
     SmallList<Root, 8> roots;
     while (count > 0 && ++looked < kMostPieces) {
       checkBudget();
@@ -193,8 +207,10 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
       }
       if (depth == kMostDepth) continue;  // where the ray only touches
       const Piece other = splitOff(piece, depth % 2 == 0);
-      stack[count] = other, depths[count++] = depth + 1;
-      stack[count] = piece, depths[count++] = depth + 1;
+      stack[count] = other;
+      depths[count++] = depth + 1;
+      stack[count] = piece;
+      depths[count++] = depth + 1;
     }
     const std::span<Root> all = roots.all();
     for (std::size_t i = 0; i < all.size(); ++i) {

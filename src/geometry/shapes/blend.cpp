@@ -16,6 +16,7 @@
 #include "geometry/shapes/sphere_sweep.h"
 #include "geometry/shapes/torus.h"
 #include "geometry/solve/interval_search.h"
+#include "math/perpendicular.h"
 
 namespace trace {
 
@@ -43,7 +44,7 @@ PlacedForm frustum(Real bottom, Real top, Real low, Real height) {
 PlacedForm capsule(const Vec3& a, const Vec3& b, Real radius) {
   const Real l = length(b - a);
   const Vec3 z = l > 0 ? (b - a) / l : Vec3{0, 0, 1};
-  const Vec3 x = normalize(cross(z, std::abs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), y = cross(z, x);
+  const Vec3 x = perpendicularTo(z), y = cross(z, x);
   Affine place;
   for (int i = 0; i < 3; ++i) place.row[i] = {x[i], y[i], z[i]};
   place.offset = a;
@@ -93,12 +94,12 @@ Forms formsOf(const Shape& shape) {
   return forms;
 }
 
-/// What a length of the part is in the whole, on the average of all directions.
+/// By how much lengths of the part grow in the whole, on the average of all directions.
 Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
 
 /// How near one of two values must be where what they become is as near as `near`; see smoothLesser().
-Real nearestOf(BlendOperation operation, Real radius, Real near) {
-  if (operation != BlendOperation::unite) return near;
+Real nearestOf(CsgOperation operation, Real radius, Real near) {
+  if (operation != CsgOperation::unite) return near;
   return max(near, radius - (radius - near) * std::sqrt(0.5));
 }
 
@@ -116,14 +117,16 @@ TracedBlend::TracedBlend(const Blend& shape) {
 Box3 TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm, Real near) {
   if (!invertible(wholeFromForm))
     throw Error(Fault::scene, "an object of a blend is squeezed flat by its transform");
-  form.formFromWhole = inverse(wholeFromForm), form.scale = scaleOf(wholeFromForm);
+  form.formFromWhole = inverse(wholeFromForm);
+  form.scale = scaleOf(wholeFromForm);
   steps_.push_back({true, forms_.size(), {}, 0});
-  forms_.push_back(form), materials_.push_back(material);
+  forms_.push_back(form);
+  materials_.push_back(material);
   const Box3 box = form.within(near);
   return box.unbounded() ? box : wholeFromForm * box;
 }
 
-Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<Operand>& operands,
+Box3 TracedBlend::add(CsgOperation operation, Real radius, const std::vector<Operand>& operands,
                       const Affine& wholeFromPart, Real near) {
   const Real fillet = radius * scaleOf(wholeFromPart);
   std::vector<Real> nears(operands.size(), near);  // of each operand; they are taken in one by one
@@ -135,10 +138,12 @@ Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<O
     if (i > 0) steps_.push_back({false, 0, operation, fillet});
     if (i == 0)
       box = own;
-    else if (operation == BlendOperation::unite)
+    else if (operation == CsgOperation::unite)
       box.extend(own);
-    else if (operation == BlendOperation::intersect)
-      box.low = max(box.low, own.low), box.high = min(box.high, own.high);
+    else if (operation == CsgOperation::intersect) {
+      box.low = max(box.low, own.low);
+      box.high = min(box.high, own.high);
+    }
   }
   return box;
 }
@@ -146,13 +151,13 @@ Box3 TracedBlend::add(BlendOperation operation, Real radius, const std::vector<O
 Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Real near) {
   const Affine wholeFromShape = wholeFromOutside * operand.wholeFromOperand;
   const Shape& shape = operand.shape;
-  const auto nested = [&](BlendOperation operation, Real radius) {
+  const auto nested = [&](CsgOperation operation, Real radius) {
     return add(operation, radius, shape.operands().list(), wholeFromShape, near);
   };
   if (const auto* blend = shape.as<Blend>()) return nested(blend->operation, std::abs(blend->radius));
-  if (shape.is<Union>()) return nested(BlendOperation::unite, 0);
-  if (shape.is<Intersection>()) return nested(BlendOperation::intersect, 0);
-  if (shape.is<Difference>()) return nested(BlendOperation::subtract, 0);
+  if (shape.is<Union>()) return nested(CsgOperation::unite, 0);
+  if (shape.is<Intersection>()) return nested(CsgOperation::intersect, 0);
+  if (shape.is<Difference>()) return nested(CsgOperation::subtract, 0);
 
   const Forms forms = formsOf(shape);
   if (forms.empty())
@@ -164,7 +169,7 @@ Box3 TracedBlend::add(const Operand& operand, const Affine& wholeFromOutside, Re
   Box3 box;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     box.extend(add(forms[i].form, operand.material, wholeFromShape * forms[i].shapeFromForm, near));
-    if (i > 0) steps_.push_back({false, 0, BlendOperation::unite, 0});
+    if (i > 0) steps_.push_back({false, 0, CsgOperation::unite, 0});
   }
   return box;
 }
@@ -201,11 +206,11 @@ Along<Interval> united(const Along<Interval>& a, const Along<Interval>& b, Real 
 }
 
 template <class T>
-T combined(BlendOperation operation, const T& a, const T& b, Real r) {
+T combined(CsgOperation operation, const T& a, const T& b, Real r) {
   switch (operation) {
-    case BlendOperation::unite: return united(a, b, r);
-    case BlendOperation::intersect: return -united(-a, -b, r);
-    case BlendOperation::subtract: return -united(-a, b, r);
+    case CsgOperation::unite: return united(a, b, r);
+    case CsgOperation::intersect: return -united(-a, -b, r);
+    case CsgOperation::subtract: return -united(-a, b, r);
   }
   return a;
 }
@@ -241,7 +246,7 @@ class TracedBlend::Line {
       return blend_.forms_[i].template along<T>(line.origin, line.direction, t);
     });
   }
-  /// Of the line's origin.
+  /// The distance of the line's origin, and the solids it is from.
   Named named() {
     return evaluate<Named>([&](std::size_t i) {
       return Named{blend_.forms_[i].template along<Real>(lines_.all()[i].origin, {}, 0.0).value, i, i, 0};
@@ -315,7 +320,8 @@ SurfacePoint TracedBlend::surface(const Ray& ray, const Crossing& crossing) cons
   for (int step = 0; step < 2; ++step) {  // back to the surface
     const Vec3 next = p - g * (Line(*this, p, {}).at(0.0).value / dot(g, g));
     if (!(length(next - p) < 1e-6 * size)) break;
-    p = next, g = gradientAt(p);
+    p = next;
+    g = gradientAt(p);
   }
   const Real l = length(g);
   const Vec3 n = l > 0 && std::isfinite(l) ? g / l : normalize(-ray.direction);

@@ -1,12 +1,11 @@
 // Solids that flow together: union, intersection and difference with a fillet along the edge where they meet.
-// Of two walls at a right angle the fillet is a quarter of a circle.
+// The fillet of two walls at a right angle is a quarter of a circle.
 //
 // Where both signed distances a and b are below the radius r the distance of the union is r - |(r - a, r -
 // b)|, else the lesser of them (the round union of Mercury's hg_sdf, 2015); the others follow by signs. It is
 // found by interval arithmetic, as isosurface.h finds a formula: nothing is missed.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -20,11 +19,6 @@
 
 namespace trace {
 
-enum class BlendOperation { unite, intersect, subtract };
-constexpr std::array<std::string_view, 3> names(BlendOperation) {
-  return {"union", "intersection", "difference"};
-}
-
 class TracedBlend;
 
 struct Blend {
@@ -33,7 +27,7 @@ struct Blend {
       "solids joined by a fillet: a smooth union, intersection or difference";
 
   Operands objects;
-  BlendOperation operation = BlendOperation::unite;
+  CsgOperation operation = CsgOperation::unite;
   Real radius = 0.2;
 
   static constexpr auto fields() {
@@ -69,7 +63,7 @@ class TracedBlend {
   struct Step {
     bool leaf = true;
     std::size_t index = 0;  ///< of forms_
-    BlendOperation operation = BlendOperation::unite;
+    CsgOperation operation = CsgOperation::unite;
     Real radius = 0;
   };
   std::int64_t count() const { return static_cast<std::int64_t>(forms_.size()); }
@@ -77,7 +71,7 @@ class TracedBlend {
   /// Each adds the steps of a shape in its place, and returns a box that holds where its value is at most
   /// `near`, from 0.
   Box3 add(const Operand& operand, const Affine& wholeFromOutside, Real near);
-  Box3 add(BlendOperation operation, Real radius, const std::vector<Operand>& operands,
+  Box3 add(CsgOperation operation, Real radius, const std::vector<Operand>& operands,
            const Affine& wholeFromPart, Real near);
   Box3 add(DistanceForm form, std::uint32_t material, const Affine& wholeFromForm, Real near);
   class Line;

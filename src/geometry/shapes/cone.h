@@ -36,7 +36,8 @@ struct Frustum {
     const Vec3 &o = ray.origin, &d = ray.direction;
     Crossing in{-kInfinity, bottom}, out{kInfinity, top};  // between the two planes
     if (d.z != 0) {
-      in.t = (0 - o.z) / d.z, out.t = (h - o.z) / d.z;
+      in.t = (0 - o.z) / d.z;
+      out.t = (h - o.z) / d.z;
       if (d.z < 0) std::swap(in, out);
     } else if (o.z < 0 || o.z > h) {
       return;
@@ -80,7 +81,10 @@ struct Frustum {
     } else {
       p.z = std::clamp(p.z, 0.0, h);
       const Real r = radius(p.z), was = std::hypot(p.x, p.y);
-      if (was > 0) p.x *= r / was, p.y *= r / was;
+      if (was > 0) {
+        p.x *= r / was;
+        p.y *= r / was;
+      }
       n = was > 0 ? normalize({p.x / was, p.y / was, -slope()}) : Vec3{0, 0, r1 < r0 ? 1.0 : -1.0};
       if (r > 0 && was > 0) n = normalize({p.x / r, p.y / r, -slope()});
     }

@@ -112,7 +112,8 @@ bool TracedCopies::meetSeed(const Ray& ray, Stretch& stretch) const {
       const Vec3 nearest = o - d * (b / a);
       const Roots2 roots = solveQuadratic(a, b, dot(o, o) - 0.25, a * (0.25 - dot(nearest, nearest)));
       if (!roots.count) return false;
-      in.t = roots.t0, out.t = roots.t1;
+      in.t = roots.t0;
+      out.t = roots.t1;
     }
   }
   stretch = {in, out};
@@ -125,7 +126,8 @@ void TracedCopies::descend(const Ray& ray, int level, std::int64_t leaf, const R
   if (level == 0) {
     Stretch stretch;
     if (!meetSeed(ray, stretch)) return;
-    stretch.in.part += leaf * kFaces, stretch.out.part += leaf * kFaces;
+    stretch.in.part += leaf * kFaces;
+    stretch.out.part += leaf * kFaces;
     found.add(stretch);
     return;
   }
@@ -151,7 +153,8 @@ void TracedCopies::crossings(const Ray& ray, const Range& range, VisitCrossing v
     std::size_t next = i + 1;
     for (; next < all.size() && all[next].in.t <= out.t; ++next)
       if (all[next].out.t > out.t) out = all[next].out;
-    visit(all[i].in), visit(out);
+    visit(all[i].in);
+    visit(out);
     i = next;
   }
 }
@@ -163,7 +166,8 @@ SurfacePoint TracedCopies::surface(const Ray& ray, const Crossing& crossing) con
   Affine outFromIn, inFromOut;
   for (int level = 0; level < levels_; ++level, leaf /= count) {
     const auto i = static_cast<std::size_t>(leaf % count);
-    outFromIn = maps_[i] * outFromIn, inFromOut = inFromOut * back_[i];
+    outFromIn = maps_[i] * outFromIn;
+    inFromOut = inFromOut * back_[i];
   }
   Vec3 p = inFromOut * ray.at(crossing.t), n;
   const auto face = static_cast<int>(crossing.part % kFaces);
@@ -178,7 +182,10 @@ SurfacePoint TracedCopies::surface(const Ray& ray, const Crossing& crossing) con
       n = normalize(outward);
       break;
     }
-    case Seed::ball: n = normalize(p), p = n * 0.5;
+    case Seed::ball: {
+      n = normalize(p);
+      p = n * 0.5;
+    }
   }
   const Real e = gammaError(16);
   SurfacePoint s = Placement(outFromIn, inFromOut).outOf({p, {e, e, e}, n, n, {}});

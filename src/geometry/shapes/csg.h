@@ -2,6 +2,7 @@
 // meet of them is csg_tree.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,12 @@ class Operands {
  private:
   std::shared_ptr<const std::vector<Operand>> list_;
 };
+
+/// What is made of solids.
+enum class CsgOperation { unite, intersect, subtract };
+constexpr std::array<std::string_view, 3> names(CsgOperation) {
+  return {"union", "intersection", "difference"};
+}
 
 struct Union {
   static constexpr std::string_view kKeyword = "union";

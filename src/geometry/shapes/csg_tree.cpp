@@ -32,21 +32,20 @@ void checkPlace(const Operand& operand) {
 /// What follows for the whole from its operands, one after the other.
 class Whole {
  public:
-  explicit Whole(CsgOperation operation) : operation_(operation) {}
+  explicit Whole(CsgRule rule) : rule_(rule) {}
 
   /// The bounds are those in the whole.
   void add(const ShapeFacts& operand) {
-    const bool mayBeOpen = operation_ == CsgOperation::clip && count_ == 0;
+    const bool mayBeOpen = !rule_.solid && count_ == 0;
     if (!operand.solid && !mayBeOpen)
       throw Error(Fault::scene, "an object of a solid is open: it encloses nothing",
                   "an open object can only be the first in a clip { }");
     if (count_ == 0)
       bounds_ = operand.bounds;
-    else if (operation_ == CsgOperation::unite)
+    else if (rule_.operation == CsgOperation::unite)
       bounds_.extend(operand.bounds);
-    else if (operation_ != CsgOperation::subtract)
-      bounds_.low = max(bounds_.low, operand.bounds.low),
-      bounds_.high = min(bounds_.high, operand.bounds.high);
+    else if (rule_.operation == CsgOperation::intersect)
+      bounds_ = {max(bounds_.low, operand.bounds.low), min(bounds_.high, operand.bounds.high)};
     mostParts_ = std::max(mostParts_, operand.partCount);
     ++count_;
   }
@@ -57,17 +56,20 @@ class Whole {
     if (mostParts_ > kMostParts / count)
       throw Error(Fault::scene, "solids are nested too deeply in unions, intersections or differences",
                   "put more solids into one union in place of unions in unions");
-    return {operation_ != CsgOperation::clip, bounds_, mostParts_ * count};
+    return {rule_.solid, bounds_, mostParts_ * count};
   }
 
  private:
-  CsgOperation operation_;
+  CsgRule rule_;
   Box3 bounds_{};
   std::int64_t count_ = 0, mostParts_ = 1;
 };
 
-ShapeFacts factsOf(CsgOperation operation, const Operands& operands) {
-  Whole whole(operation);
+constexpr CsgRule kUnion{CsgOperation::unite}, kIntersection{CsgOperation::intersect},
+    kDifference{CsgOperation::subtract}, kClip{CsgOperation::intersect, false};
+
+ShapeFacts factsOf(CsgRule rule, const Operands& operands) {
+  Whole whole(rule);
   for (const Operand& operand : operands.list()) {
     checkPlace(operand);
     ShapeFacts facts = check(operand.shape);
@@ -77,29 +79,28 @@ ShapeFacts factsOf(CsgOperation operation, const Operands& operands) {
   return whole.facts();
 }
 
-std::shared_ptr<const CsgTree> treeOf(CsgOperation operation, const Operands& operands,
-                                      const MeshTrees& made) {
-  return std::make_shared<const CsgTree>(operation, operands.list(), made);
+std::shared_ptr<const CsgTree> treeOf(CsgRule rule, const Operands& operands, const MeshTrees& made) {
+  return std::make_shared<const CsgTree>(rule, operands.list(), made);
 }
 
 }  // namespace
 
 std::shared_ptr<const CsgTree> Union::prepared(const MeshTrees& made) const {
-  return treeOf(CsgOperation::unite, objects, made);
+  return treeOf(kUnion, objects, made);
 }
-ShapeFacts Union::checked() const { return factsOf(CsgOperation::unite, objects); }
+ShapeFacts Union::checked() const { return factsOf(kUnion, objects); }
 std::shared_ptr<const CsgTree> Intersection::prepared(const MeshTrees& made) const {
-  return treeOf(CsgOperation::intersect, objects, made);
+  return treeOf(kIntersection, objects, made);
 }
-ShapeFacts Intersection::checked() const { return factsOf(CsgOperation::intersect, objects); }
+ShapeFacts Intersection::checked() const { return factsOf(kIntersection, objects); }
 std::shared_ptr<const CsgTree> Difference::prepared(const MeshTrees& made) const {
-  return treeOf(CsgOperation::subtract, objects, made);
+  return treeOf(kDifference, objects, made);
 }
-ShapeFacts Difference::checked() const { return factsOf(CsgOperation::subtract, objects); }
+ShapeFacts Difference::checked() const { return factsOf(kDifference, objects); }
 std::shared_ptr<const CsgTree> Clip::prepared(const MeshTrees& made) const {
-  return treeOf(CsgOperation::clip, objects, made);
+  return treeOf(kClip, objects, made);
 }
-ShapeFacts Clip::checked() const { return factsOf(CsgOperation::clip, objects); }
+ShapeFacts Clip::checked() const { return factsOf(kClip, objects); }
 
 // --- crossings ----------------------------------------------------------------------------------------
 
@@ -116,10 +117,12 @@ struct CsgTree::Event {
   }
 };
 
-/// How many of the operands the line is inside of, and whether that is inside of the whole.
+/// How many of the operands the line is inside of, and whether that is inside of the whole. Of a clip the
+/// first operand counts as everything: the others decide where its surface is kept.
 class CsgTree::State {
  public:
-  State(CsgOperation operation, std::size_t operands) : operation_(operation), operands_(operands) {}
+  State(CsgRule rule, std::size_t operands)
+      : operation_(rule.operation), operands_(operands), first_(rule.solid ? 0 : 1) {}
 
   void apply(const Event& event) {
     const std::size_t change = event.entering ? 1 : std::size_t(-1);
@@ -130,20 +133,18 @@ class CsgTree::State {
       case CsgOperation::unite: return first_ + others_ > 0;
       case CsgOperation::intersect: return first_ + others_ == operands_;
       case CsgOperation::subtract: return first_ > 0 && others_ == 0;
-      case CsgOperation::clip: return others_ + 1 == operands_;  // of what clips
     }
     return false;
   }
 
  private:
   CsgOperation operation_;
-  std::size_t operands_, first_ = 0, others_ = 0;
+  std::size_t operands_, first_, others_ = 0;
 };
 
-CsgTree::CsgTree(CsgOperation operation, const std::vector<Operand>& operands, const MeshTrees& made)
-    : operation_(operation) {
+CsgTree::CsgTree(CsgRule rule, const std::vector<Operand>& operands, const MeshTrees& made) : rule_(rule) {
   std::vector<Box3> boxes;
-  Whole whole(operation);
+  Whole whole(rule);
   for (const Operand& operand : operands) {
     checkPlace(operand);
     operands_.emplace_back(operand.shape, operand.wholeFromOperand, made);
@@ -190,8 +191,8 @@ void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
   gather(ray, list);
   const std::span<Event> events = list.all();
   std::sort(events.begin(), events.end());
-  State state(operation_, operands_.size());
-  const bool clips = operation_ == CsgOperation::clip;
+  State state(rule_, operands_.size());
+  const bool clips = !rule_.solid;
   for (std::size_t i = 0; i < events.size();) {
     std::size_t end = i + 1;
     while (end < events.size() && coincide(ray, events[end - 1], events[end])) ++end;
@@ -205,7 +206,7 @@ void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
         if (events[k].operand == 0 && before && after) shown = &events[k];
     } else if (before != after) {
       for (std::size_t k = i; k < end; ++k) {
-        const bool cutOut = operation_ == CsgOperation::subtract && events[k].operand > 0;
+        const bool cutOut = rule_.operation == CsgOperation::subtract && events[k].operand > 0;
         if ((events[k].entering != cutOut) == after && (!shown || events[k].operand < shown->operand))
           shown = &events[k];
       }
@@ -225,8 +226,11 @@ SurfacePoint CsgTree::surface(const Ray& ray, const Crossing& crossing) const {
   SurfacePoint s = operandSurface(ray, crossing);
   const bool first = crossing.part % static_cast<std::int64_t>(operands_.size()) == 0;
   const bool away =
-      solid() ? operation_ == CsgOperation::subtract && !first : dot(s.normal, ray.direction) > 0;
-  if (away) s.normal = -s.normal, s.shading = -s.shading;
+      solid() ? rule_.operation == CsgOperation::subtract && !first : dot(s.normal, ray.direction) > 0;
+  if (away) {
+    s.normal = -s.normal;
+    s.shading = -s.shading;
+  }
   return s;
 }
 

@@ -30,26 +30,30 @@ struct Operand {
   bool operator==(const Operand&) const = default;
 };
 
-enum class CsgOperation { unite, intersect, subtract, clip };
+/// How operands make a whole. A clip is an intersection of which only the first operand's surface stays.
+struct CsgRule {
+  CsgOperation operation;
+  bool solid = true;  ///< no clip
+};
 
 class CsgTree {
  public:
   /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of
   /// solids are nested too deeply for their parts to be numbered. Of operands that are meshes it takes over
   /// the hierarchies that are `made`.
-  CsgTree(CsgOperation operation, const std::vector<Operand>& operands, const MeshTrees& made = {});
+  CsgTree(CsgRule rule, const std::vector<Operand>& operands, const MeshTrees& made = {});
 
-  bool solid() const { return operation_ != CsgOperation::clip; }
+  bool solid() const { return rule_.solid; }
   Box3 bounds() const { return bounds_; }
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
 
   std::int64_t partCount() const { return partCount_; }
-  /// Of the operand, however deep, that the part belongs to.
+  /// The material of the operand, however deep, that the part belongs to.
   MaterialMix material(std::int64_t part, std::uint32_t own) const;
-  /// Of all operands, however deep.
+  /// Adds the materials of all operands, however deep.
   void addMaterials(std::vector<std::uint32_t>& materials) const;
-  /// Those of its operands that are meshes, however deep.
+  /// Adds the trees of the operands that are meshes, however deep.
   void addMeshTrees(MeshTrees& trees) const;
 
  private:
@@ -60,7 +64,7 @@ class CsgTree {
   bool coincide(const Ray& ray, const Event& a, const Event& b) const;
   SurfacePoint operandSurface(const Ray& ray, const Crossing& crossing) const;
 
-  CsgOperation operation_;
+  CsgRule rule_;
   std::vector<Placed> operands_;
   std::vector<std::uint32_t> materials_;
   Box3 bounds_;

@@ -23,7 +23,10 @@ struct Cube {
   template <class Visit>
   void crossings(const Ray& ray, Visit&& visit) const {
     const auto [in, out] = crossingsOf(bounds(), ray);
-    if (in.t <= out.t) visit(in), visit(out);
+    if (in.t <= out.t) {
+      visit(in);
+      visit(out);
+    }
   }
 
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {

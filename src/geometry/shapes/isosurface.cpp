@@ -43,7 +43,8 @@ SurfacePoint TracedIsosurface::surface(const Ray& ray, const Crossing& crossing)
     for (int step = 0; step < 2; ++step) {  // back to the surface
       const Vec3 next = p - g * (formula_.at(p) / dot(g, g));
       if (!(length(next - p) < 1e-6 * length(size))) break;
-      p = next, g = formula_.gradientAt(p);
+      p = next;
+      g = formula_.gradientAt(p);
     }
     const Real l = length(g);
     n = l > 0 && std::isfinite(l) ? g / l : normalize(-ray.direction);

@@ -114,7 +114,8 @@ void TracedJulia::findLimits() {
   const Real c = size(shape_.constant);
   // With q = c at the first step, |c| > 2.57 takes the second beyond 4.
   const Real widest = shape_.iterations == 1 ? kEscaped : 2.57;
-  set_.constant = named(shape_.constant), set_.share = shape_.mandelbrot ? 1 : 0;
+  set_.constant = named(shape_.constant);
+  set_.share = shape_.mandelbrot ? 1 : 0;
   set_.mostConstant = shape_.mandelbrot ? widest + 2 * c : c;
   const int n = set_.iterations = shape_.iterations;
   constexpr Real kRounding = 1 + gammaError(64);
@@ -295,7 +296,8 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   std::array<Number, 3> by = axes_;
   if (shape_.mandelbrot) by = {};
   Real off = gammaError(8) * (length(p) + size(shift_));  // how far rounding has moved q
-  // Of the powers the last number tells how the surface lies; else that which passes the limit most.
+  // In the sets of powers the last number tells how the surface lies, in others that which passes the limit
+  // most.
   Real most = length(p) - kReach, error = off;
   Vec3 gradient = p;
   for (int i = 0; i < shape_.iterations; ++i) {
@@ -310,7 +312,8 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
     q = q + c;
     const Real excess = escape(q) - kEscaped;
     if (power() || excess > most) {
-      most = excess, error = off;
+      most = excess;
+      error = off;
       gradient = {escapeSlope(q, by[0]), escapeSlope(q, by[1]), escapeSlope(q, by[2])};
     }
     if (!(excess <= 0)) break;

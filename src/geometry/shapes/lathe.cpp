@@ -46,7 +46,11 @@ void TracedLathe::add(const Cubic<2>& curve, std::array<Real, 2> from, std::arra
     std::array<Real, 2> next = to;
     if (i + 2 < nodes.count) next = {curve.at(0, u1), curve.at(1, u1)};
     Arc arc{curve, u0, u1, std::abs(from[0]), from[1], std::abs(next[0]), next[1], 0, 0};
-    if (arc.z0 > arc.z1) std::swap(arc.u0, arc.u1), std::swap(arc.r0, arc.r1), std::swap(arc.z0, arc.z1);
+    if (arc.z0 > arc.z1) {
+      std::swap(arc.u0, arc.u1);
+      std::swap(arc.r0, arc.r1);
+      std::swap(arc.z0, arc.z1);
+    }
     const auto& r = curve.c[0];  // between its Bezier ordinates
     const auto [least, most] = std::minmax(
         {from[0], next[0], r[0], r[0] + r[1] / 3, r[0] + (2 * r[1] + r[2]) / 3, r[0] + r[1] + r[2] + r[3]});
@@ -99,10 +103,19 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     bottomFirst = d.z > 0;
     const Real a = ((bottomFirst ? arc.z0 : arc.z1) - o.z) / d.z,
                b = ((bottomFirst ? arc.z1 : arc.z0) - o.z) / d.z;
-    if (a >= begin) begin = a, beginIsEnd = true;
-    if (b <= end) end = b, endIsEnd = true;
+    if (a >= begin) {
+      begin = a;
+      beginIsEnd = true;
+    }
+    if (b <= end) {
+      end = b;
+      endIsEnd = true;
+    }
   }
-  if (begin < range.from) begin = range.from, beginIsEnd = false;
+  if (begin < range.from) {
+    begin = range.from;
+    beginIsEnd = false;
+  }
   if (!(begin <= end && begin < range.to)) return;
   const Real dd = d.x * d.x + d.y * d.y;
   const Real closest = dd > 0 ? std::clamp(-(o.x * d.x + o.y * d.y) / dd, begin, end) : begin;
@@ -164,21 +177,17 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
     const Real radius = bottom ? arc.r0 : arc.r1;
     return square(t) < radius * radius;
   };
-  bool inside = insideAtEnd(begin, beginIsEnd, bottomFirst);
-  Real last = begin;
-  const auto root = [&](Real a, Real b) {
+  const auto root = [&](Real a, Real b, bool insideAtA) {
     Real guess = a;
     for (std::size_t i = 0; i < guessCount; ++i)
       if (a < guesses[i] && guesses[i] < b) guess = guesses[i];
-    return rootNear(distance, a, b, inside, guess);
+    return rootNear(distance, a, b, insideAtA, guess);
   };
-  const auto advance = [&](Real t, bool after) {
-    if (after != inside) visit({last < t ? root(last, t) : t, number});
-    inside = after, last = t;
-  };
-  for (std::size_t i = 0; i < count && last < range.to; ++i)
-    if (last < nodes[i] && nodes[i] < end) advance(nodes[i], distance(nodes[i]).value < 0);
-  if (last < range.to) advance(end, insideAtEnd(end, endIsEnd, !bottomFirst));
+  const auto crossing = [&](Real t, bool) { visit({t, number}); };
+  SignWalk walk{begin, insideAtEnd(begin, beginIsEnd, bottomFirst)};
+  for (std::size_t i = 0; i < count && walk.at < range.to; ++i)
+    if (walk.at < nodes[i] && nodes[i] < end) walk.to(nodes[i], distance(nodes[i]).value < 0, root, crossing);
+  if (walk.at < range.to) walk.to(end, insideAtEnd(end, endIsEnd, !bottomFirst), root, crossing);
 }
 
 SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) const {
@@ -189,7 +198,8 @@ SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) cons
   Real u = 0, rise, grow;
   const Real low = min(arc.u0, arc.u1), high = max(arc.u0, arc.u1);
   if (arc.flat()) {
-    rise = 0, grow = (arc.r1 - arc.r0) * (arc.u0 < arc.u1 ? 1 : -1);
+    rise = 0;
+    grow = (arc.r1 - arc.r0) * (arc.u0 < arc.u1 ? 1 : -1);
     u = arc.r1 != arc.r0 ? std::clamp((rho - arc.r0) / (arc.r1 - arc.r0), 0.0, 1.0) : 0;
     p.z = arc.z0;
   } else {
@@ -204,7 +214,8 @@ SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) cons
     }
     const Real r = std::abs(arc.curve.at(0, u));
     p = around * r + Vec3{0, 0, arc.curve.at(1, u)};
-    rise = arc.curve.slope(1, u), grow = sign * arc.curve.slope(0, u);
+    rise = arc.curve.slope(1, u);
+    grow = sign * arc.curve.slope(0, u);
   }
   Vec3 n = normalize(around * rise - Vec3{0, 0, grow}) * outward_;
   if (!isFinite(n)) n = around;

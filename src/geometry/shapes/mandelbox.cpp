@@ -25,7 +25,7 @@ class MandelboxStep {
   Real stretch(const Vec3& w, Real r) const;
 
  private:
-  /// Of the square of the distance from the middle: how the ball scales it.
+  /// How the ball scales a point, by the square of its distance from the middle.
   Real ballScale(Real square) const;
 
   Mandelbox shape_;
@@ -58,7 +58,10 @@ Vec3 MandelboxStep::value(const Vec3& w) const {
 Affine MandelboxStep::step(const Vec3& w) const {
   Vec3 v = w, sign{1, 1, 1};
   for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(w[axis]) > 1) v[axis] = std::copysign(2, w[axis]) - w[axis], sign[axis] = -1;
+    if (std::abs(w[axis]) > 1) {
+      v[axis] = std::copysign(2, w[axis]) - w[axis];
+      sign[axis] = -1;
+    }
   const Real square = dot(v, v), k = ballScale(square) * shape_.scale;
   const bool mirrored = square < 1 && square >= shape_.minRadius * shape_.minRadius;
   Affine f = Affine::scaling({k, k, k});

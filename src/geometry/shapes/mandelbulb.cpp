@@ -48,7 +48,8 @@ class MandelbulbStep {
 };
 
 MandelbulbStep::MandelbulbStep(const Mandelbulb& shape) : shape_(shape) {
-  shape_.power = std::clamp(shape.power, 2, 16), shape_.iterations = std::clamp(shape.iterations, 1, 30);
+  shape_.power = std::clamp(shape.power, 2, 16);
+  shape_.iterations = std::clamp(shape.iterations, 1, 30);
   // From here on |w^p + c| >= |w| (|w|^(p-1) - 1) > |w|.
   radius_ = max(std::pow(2.0, 1.0 / (shape_.power - 1)), shape.julia ? length(shape.constant) : 0);
 }

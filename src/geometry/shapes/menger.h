@@ -48,7 +48,10 @@ struct Menger {
     }
     if (!(in.t <= out.t)) return;
     walk.cell({0, 0, 0}, n, in, out, visit);
-    if (walk.open) visit(walk.from), visit(walk.to);
+    if (walk.open) {
+      visit(walk.from);
+      visit(walk.to);
+    }
   }
 
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {
@@ -97,8 +100,13 @@ struct Menger {
           to = facing(out, false);
           return;
         }
-        if (open) visit(from), visit(to);
-        from = facing(in, true), to = facing(out, false), open = true;
+        if (open) {
+          visit(from);
+          visit(to);
+        }
+        from = facing(in, true);
+        to = facing(out, false);
+        open = true;
         return;
       }
       const int third = size / 3;

@@ -73,15 +73,18 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
       const Vec3 near = v - w * (vw / ww);
       const Roots2 roots = solveQuadratic(ww, vw, vv - r2, ww * (r2 - dot(near, near)));
       if (!roots.count) return;
-      piece.begin = max(begin, origin + roots.t0), piece.end = min(end, origin + roots.t1);
+      piece.begin = max(begin, origin + roots.t0);
+      piece.end = min(end, origin + roots.t1);
     } else if (vv >= r2) {
       return;
     }
     piece.speed = ww / r2;
-    piece.begin = max(piece.begin, first), piece.end = min(piece.end, span.to);
+    piece.begin = max(piece.begin, first);
+    piece.end = min(piece.end, span.to);
     if (!(piece.begin < piece.end)) return;
     pieces.add(piece);
-    ends.add(piece.begin), ends.add(piece.end);
+    ends.add(piece.begin);
+    ends.add(piece.end);
   };
   tree_.query(ray, [&](std::uint32_t number) {
     const Component& c = components_[number];
@@ -116,7 +119,8 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
     }
     if (most <= threshold_) {  // the sum cannot reach it
       if (inside) visit(Crossing{begin, 0});
-      inside = false, known = true;
+      inside = false;
+      known = true;
       continue;
     }
     Real quartic[5] = {threshold_, 0, 0, 0, 0};  // the sum around the middle
@@ -125,8 +129,11 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
       const Vec3 v = piece->offset(there);
       const Real k = piece->component->strength, r2 = piece->component->radius * piece->component->radius;
       const Real a = piece->speed, b = dot(v, d) / r2, c = 1 - dot(v, v) / r2;
-      quartic[0] -= k * c * c, quartic[1] += 4 * k * c * b, quartic[2] += k * (2 * c * a - 4 * b * b);
-      quartic[3] -= 4 * k * a * b, quartic[4] -= k * a * a;
+      quartic[0] -= k * c * c;
+      quartic[1] += 4 * k * c * b;
+      quartic[2] += k * (2 * c * a - 4 * b * b);
+      quartic[3] -= 4 * k * a * b;
+      quartic[4] -= k * a * a;
     }
     const auto sum = [&](Real t) {
       Jet total{threshold_, 0};
@@ -142,17 +149,23 @@ void TracedMetaballs::crossings(const Ray& ray, const Range& range, VisitCrossin
       return total;
     };
     const auto isInside = [&](Real t) { return sum(t).value < 0; };
-    if (!known) inside = begin > span.from && isInside(begin), known = true;
+    if (!known) {
+      inside = begin > span.from && isInside(begin);
+      known = true;
+    }
     // The polynomial tells where to look; the signs are those of the sum itself.
     const Nodes roots = rootsWithEnds(quartic, begin - middle, end - middle);
-    Real last = begin;
+    SignWalk walk{begin, inside};
     for (std::size_t n = 1; n == 1 || n + 1 < roots.count; ++n) {
       const bool toEnd = n + 2 >= roots.count;
-      const Real node = toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), last, end);
-      const bool after = isInside(node);
-      if (after != inside) visit(Crossing{rootNear(sum, last, node, inside, middle + roots.at[n]), 0});
-      inside = after, last = node;
+      const Real node =
+          toEnd ? end : std::clamp(middle + 0.5 * (roots.at[n] + roots.at[n + 1]), walk.at, end);
+      const auto root = [&](Real a, Real b, bool insideAtA) {
+        return rootNear(sum, a, b, insideAtA, middle + roots.at[n]);
+      };
+      walk.to(node, isInside(node), root, [&](Real t, bool) { visit(Crossing{t, 0}); });
     }
+    inside = walk.negative;
   }
   if (inside && i + 1 == count) visit(Crossing{at[i], 0});
 }
@@ -162,7 +175,8 @@ SurfacePoint TracedMetaballs::surface(const Ray& ray, const Crossing& crossing) 
   Real error = 0;
   const auto sum = [&](const Vec3& at) {
     Real value = threshold_;
-    gradient = {}, error = threshold_ * gammaError(4);
+    gradient = {};
+    error = threshold_ * gammaError(4);
     const Ray line{at, ray.direction};
     tree_.query(line, [&](std::uint32_t number) {
       const Component& c = components_[number];
@@ -181,7 +195,8 @@ SurfacePoint TracedMetaballs::surface(const Ray& ray, const Crossing& crossing) 
     const Real square = dot(gradient, gradient);
     const Vec3 next = p - gradient * (value / square);
     if (!(length(next - p) < 1e-6 * length(bounds_.size()))) break;
-    p = next, value = sum(p);
+    p = next;
+    value = sum(p);
   }
   const Real l = length(gradient);
   const Vec3 n = l > 0 ? gradient / l : Vec3{0, 0, 1};

@@ -32,7 +32,10 @@ class OrbitTrap {
     const Real distance = trap_ == Trap::axis    ? across
                           : trap_ == Trap::plane ? std::abs(along)
                                                  : std::sqrt(along * along + across * across);
-    if (distance < least_) least_ = distance, when_ = count_;
+    if (distance < least_) {
+      least_ = distance;
+      when_ = count_;
+    }
     ++count_;
   }
   /// u: the least distance, from 0 to 1; v: when that was, from the first visit to the last.

@@ -28,9 +28,11 @@ struct Plane {
     const Real height = ray.origin.z, d = ray.direction.z;
     const Real t = -height / d;
     if (d != 0 && isFinite(ray.at(t))) {
-      visit(Crossing{t, 0}), visit(Crossing{d < 0 ? kInfinity : -kInfinity, 0});
+      visit(Crossing{t, 0});
+      visit(Crossing{d < 0 ? kInfinity : -kInfinity, 0});
     } else if (height < 0) {  // parallel, as far as numbers go
-      visit(Crossing{-kInfinity, 0}), visit(Crossing{kInfinity, 0});
+      visit(Crossing{-kInfinity, 0});
+      visit(Crossing{kInfinity, 0});
     }
   }
 

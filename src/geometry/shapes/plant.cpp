@@ -69,7 +69,8 @@ struct Turtle {
   static void turn(Vec3& a, Vec3& b, Real angle) {
     const Real c = std::cos(angle), s = std::sin(angle);
     const Vec3 turned = a * c + b * s;
-    b = normalize(b * c - a * s), a = normalize(turned);
+    b = normalize(b * c - a * s);
+    a = normalize(turned);
   }
 };
 
@@ -88,7 +89,8 @@ std::vector<Branch> walk(const Plant& plant, const std::string& text, Chance& ch
     switch (symbol) {
       case 'F':
       case 'G':
-        turtle.place += turtle.ahead, turtle.radius *= plant.taper;
+        turtle.place += turtle.ahead;
+        turtle.radius *= plant.taper;
         branches.push_back({{{before.place.x, before.place.y, before.place.z, before.radius},
                              {turtle.place.x, turtle.place.y, turtle.place.z, turtle.radius}}});
         if (branches.size() > Plant::kMostBranches)
@@ -109,7 +111,10 @@ std::vector<Branch> walk(const Plant& plant, const std::string& text, Chance& ch
         turtle.radius *= plant.narrow;
         break;
       case ']':
-        if (!waiting.empty()) turtle = waiting.back(), waiting.pop_back();
+        if (!waiting.empty()) {
+          turtle = waiting.back();
+          waiting.pop_back();
+        }
         break;
       default: break;  // a symbol that only grows
     }

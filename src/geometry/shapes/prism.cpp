@@ -43,7 +43,8 @@ TracedPrism::TracedPrism(const Prism& shape) : height_(std::abs(shape.height)) {
   const Real top = std::abs(shape.taper);
   bounds_ = base_;
   bounds_.extend(Box3{base_.low * top, base_.high * top});
-  bounds_.low.z = 0, bounds_.high.z = height_;
+  bounds_.low.z = 0;
+  bounds_.high.z = height_;
   turn_ = std::isfinite(shape.twist) ? shape.twist * (kPi / 180) / height_ : 0;
   if (turn_ != 0) {
     const Vec3 far = max(abs(base_.low), abs(base_.high));
@@ -88,7 +89,8 @@ void TracedPrism::addLoop(Spline spline, const Prism::Outline& points) {
     };
     const auto wide = hull(x), deep = hull(y);
     base_.extend(Box3{{wide.first, deep.first, 0}, {wide.second, deep.second, 0}});
-    arcs_.back().low = {wide.first, deep.first}, arcs_.back().high = {wide.second, deep.second};
+    arcs_.back().low = {wide.first, deep.first};
+    arcs_.back().high = {wide.second, deep.second};
   }
 }
 
@@ -104,18 +106,18 @@ void TracedPrism::meetPlane(const Vec3& normal, Visit&& visit) const {
     std::array<Real, 4> cubic{};
     for (std::size_t k = 0; k < 4; ++k) cubic[k] = normal.x * x[k] + normal.y * y[k];
     cubic[0] += normal.z;
-    bool negative = side(arc.from);
-    const bool atEnd = side(arc.to);
+    const bool atStart = side(arc.from), atEnd = side(arc.to);
     if (cubic[2] == 0 && cubic[3] == 0) {
-      if (negative != atEnd) visit(i, std::clamp(-cubic[0] / cubic[1], 0.0, 1.0));
+      if (atStart != atEnd) visit(i, std::clamp(-cubic[0] / cubic[1], 0.0, 1.0));
       continue;
     }
     const Nodes nodes = extremaWithEnds(cubic, 0, 1);
     const auto value = [&](Real u) { return evaluate(cubic, u); };
+    const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(value, a, b, negativeAtA); };
+    SignWalk walk{0, atStart};
     for (std::size_t n = 1; n < nodes.count; ++n) {
-      const bool after = n + 1 == nodes.count ? atEnd : value(nodes.at[n]).value < 0;
-      if (after != negative) visit(i, rootBetween(value, nodes.at[n - 1], nodes.at[n], negative));
-      negative = after;
+      const bool negative = n + 1 == nodes.count ? atEnd : value(nodes.at[n]).value < 0;
+      walk.to(nodes.at[n], negative, root, [&](Real u, bool) { visit(i, u); });
     }
   }
 }
@@ -145,10 +147,14 @@ TracedPrism::Nearest TracedPrism::nearest(const std::array<Real, 2>& p, Real car
     Real least = kInfinity, where = 0;
     const auto consider = [&](Real u) {
       const Real dx = curve.at(0, u) - p[0], dy = curve.at(1, u) - p[1], square = dx * dx + dy * dy;
-      if (square < least) least = square, where = u;
+      if (square < least) {
+        least = square;
+        where = u;
+      }
     };
     const auto &x = curve.c[0], &y = curve.c[1];
-    consider(0), consider(1);
+    consider(0);
+    consider(1);
     if (x[2] == 0 && x[3] == 0 && y[2] == 0 && y[3] == 0) {
       const Real u = ((p[0] - x[0]) * x[1] + (p[1] - y[0]) * y[1]) / (x[1] * x[1] + y[1] * y[1]);
       if (0 < u && u < 1) consider(u);
@@ -263,7 +269,8 @@ void TracedPrism::crossings(const Ray& ray, const Range& range, VisitCrossing vi
   const Vec3 &o = ray.origin, &d = ray.direction;
   Crossing in{-kInfinity, kBottom}, out{kInfinity, kTop};
   if (d.z != 0) {
-    in.t = -o.z / d.z, out.t = (height_ - o.z) / d.z;
+    in.t = -o.z / d.z;
+    out.t = (height_ - o.z) / d.z;
     if (d.z < 0) std::swap(in, out);
   } else if (o.z < 0 || o.z > height_) {
     return;
@@ -275,12 +282,17 @@ void TracedPrism::crossings(const Ray& ray, const Range& range, VisitCrossing vi
   const Vec3 normal = cross(a, b);
   const auto within = [&](const Crossing& from, const Crossing& to) {
     const Crossing first = from.t > in.t ? from : in, last = to.t < out.t ? to : out;
-    if (first.t <= last.t) visit(first), visit(last);
+    if (first.t <= last.t) {
+      visit(first);
+      visit(last);
+    }
   };
   if (normal == Vec3{}) {  // towards the tip, or straight up: always the same place of the outline
     const Real middle = 0.5 * (in.t + out.t), scale = a.z + b.z * middle;
-    if (scale > 0 && inside({(a.x + b.x * middle) / scale, (a.y + b.y * middle) / scale}))
-      visit(in), visit(out);
+    if (scale > 0 && inside({(a.x + b.x * middle) / scale, (a.y + b.y * middle) / scale})) {
+      visit(in);
+      visit(out);
+    }
     return;
   }
   SmallList<Crossing, 16> list;

@@ -83,7 +83,10 @@ struct RoundedBox {
   template <class Visit>
   void flat(const Ray& ray, Visit& visit) const {
     const Span span = spanIn(bounds(), ray);
-    if (!span.empty()) visit(Crossing{span.from, 0}), visit(Crossing{span.to, 1});
+    if (!span.empty()) {
+      visit(Crossing{span.from, 0});
+      visit(Crossing{span.to, 1});
+    }
   }
 };
 

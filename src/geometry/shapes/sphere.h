@@ -28,7 +28,10 @@ struct Sphere {
     // (Haines et al., Ray Tracing Gems, chapter 7).
     const Vec3 nearest = o - d * (b / a);
     const Roots2 roots = solveQuadratic(a, b, dot(o, o) - 1, a * (1 - dot(nearest, nearest)));
-    if (roots.count) visit(Crossing{roots.t0, 0}), visit(Crossing{roots.t1, 0});
+    if (roots.count) {
+      visit(Crossing{roots.t0, 0});
+      visit(Crossing{roots.t1, 0});
+    }
   }
 
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {

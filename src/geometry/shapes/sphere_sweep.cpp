@@ -56,7 +56,8 @@ TracedSweep::TracedSweep(const std::vector<Cubic<4>>& curves) {
     const Real r = max(std::abs(radius.from), std::abs(radius.to));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Span reach = hull(curve.c[axis]);
-      box.low[static_cast<int>(axis)] = reach.from - r, box.high[static_cast<int>(axis)] = reach.to + r;
+      box.low[static_cast<int>(axis)] = reach.from - r;
+      box.high[static_cast<int>(axis)] = reach.to + r;
     }
     arcs_.push_back({curve, {}});
     const Vec3 along = arcs_.back().slope(0);
@@ -99,7 +100,9 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
       const Vec3 v = i == 0 ? c - o : c;
       b[i] = dot(v, along);
       const Vec3 side = v - along * b[i];
-      w[0][i] = side.x, w[1][i] = side.y, w[2][i] = side.z;
+      w[0][i] = side.x;
+      w[1][i] = side.y;
+      w[2][i] = side.z;
     }
     const auto& r = arc.curve.c[3];
     std::array<Real, 7> D = r * r;
@@ -173,7 +176,8 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
     std::size_t next = i + 1;
     for (; next < all.size() && all[next].in.t <= out.t; ++next)
       if (all[next].out.t > out.t) out = all[next].out;
-    visit({all[i].in.t / speed, all[i].in.part}), visit({out.t / speed, out.part});
+    visit({all[i].in.t / speed, all[i].in.part});
+    visit({out.t / speed, out.part});
     i = next;
   }
 }

@@ -22,17 +22,19 @@ Real norm2(Real a, Real b, Real p, Real& byA, Real& byB) {
   }
   if (p == 2) {
     const Real l = std::sqrt(a * a + b * b);
-    byA = a / l, byB = b / l;
+    byA = a / l;
+    byB = b / l;
     return l;
   }
   // With w = (least / most)^p the norm is most (1 + w)^(1/p), and its slopes are powers of the same.
   const Real least = min(a, b), w = std::pow(least / most, p), root = std::pow(1 + w, 1 / p);
   const Real byMost = root / (1 + w), byLeast = least > 0 ? w * (most / least) * byMost : 0;
-  byA = a < b ? byLeast : byMost, byB = a < b ? byMost : byLeast;
+  byA = a < b ? byLeast : byMost;
+  byB = a < b ? byMost : byLeast;
   return most * root;
 }
 
-/// Of which the superellipsoid is the unit ball.
+/// The norm whose unit ball is the superellipsoid.
 Real norm(const Superellipsoid& shape, const Vec3& p, Vec3& slopes) {
   const Vec3 q = abs(p);
   Real byX, byY, byRho, byZ;

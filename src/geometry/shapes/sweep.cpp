@@ -179,8 +179,13 @@ Path::Path(const Sweep& shape, std::vector<PathArc> arcs) : arcs_(std::move(arcs
     const auto across = [&](const Vec3& v) {
       return v - before * (dot(v, middle) / max(dot(before, middle), kSharpest));
     };
-    if (dot(before, after) < 1 - 1e-9) a.x = across(a.x), a.y = across(a.y);
-    b.center = a.center, b.x = a.x, b.y = a.y;
+    if (dot(before, after) < 1 - 1e-9) {
+      a.x = across(a.x);
+      a.y = across(a.y);
+    }
+    b.center = a.center;
+    b.x = a.x;
+    b.y = a.y;
   };
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
     if (stations[i].arc != stations[i + 1].arc)
@@ -232,7 +237,8 @@ TracedProfileSweep::TracedProfileSweep(const Sweep& shape) {
   });
   if (profile.arcs.empty() || arcs.empty()) return;
   const Path path(shape, std::move(arcs));
-  across_ = profile.arcs.size(), along_ = path.pieces.size();
+  across_ = profile.arcs.size();
+  along_ = path.pieces.size();
   constexpr std::size_t kMostPatches = 1'000'000;
   if (along_ > kMostPatches / across_)
     throw Error(Fault::scene, "a sweep of " + std::to_string(across_ * along_) + " patches is too large",
@@ -263,7 +269,8 @@ TracedProfileSweep::TracedProfileSweep(const Sweep& shape) {
   solid_ = shape.closed && (ends || path.closed);
   outward_ = areaOf(profile) > 0 ? -1 : 1;  // x, y and the path are a left hand
   Prism section;
-  section.outline = shape.profile, section.spline = shape.profileSpline;
+  section.outline = shape.profile;
+  section.spline = shape.profileSpline;
   section_ = section.prepared();
   profileBox_ = section_->bounds();
 }
@@ -339,7 +346,8 @@ void TracedProfileSweep::crossings(const Ray& ray, VisitCrossing visit) const {
     const int before = depth;
     depth += event.entering ? 1 : -1;
     if (in && (counts ? depth == 0 : !event.entering)) {
-      visit(*in), visit(turnedIf(event.entering, event.crossing));
+      visit(*in);
+      visit(turnedIf(event.entering, event.crossing));
       in.reset();
     } else if (!in && (counts ? before == 0 : event.entering)) {
       in = turnedIf(!event.entering, event.crossing);

@@ -36,17 +36,10 @@ void Torus::crossings(const Ray& ray, const Range& range, VisitCrossing visit) c
     const Real rhoSlope = rho > 0 ? (p.x * d.x + p.y * d.y) / rho : 0;
     return Jet{out * out + p.z * p.z - r * r, 2 * (out * rhoSlope + p.z * d.z)};
   };
-  Real last = span.from;
-  bool inside = distance(last).value < 0;
-  const auto advance = [&](Real t) {
-    const bool after = distance(t).value < 0;
-    if (after != inside) visit(Crossing{rootBetween(distance, last, t, inside), 0});
-    last = t, inside = after;
-  };
-  for (std::size_t i = 1; i < nodes.count && last < range.to; ++i) {
+  SignWalk walk{span.from, distance(span.from).value < 0};
+  for (std::size_t i = 1; i < nodes.count && walk.at < range.to; ++i) {
     const Real node = i + 1 == nodes.count ? span.to : nodes.at[i] + middle;
-    if (last < 0 && 0 < node) advance(0);
-    if (last < node) advance(node);
+    if (walk.at < node) walk.to(node, distance, [&](Real t, bool) { visit(Crossing{t, 0}); });
   }
 }
 

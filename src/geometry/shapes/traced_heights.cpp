@@ -67,7 +67,8 @@ ShapeFacts Terrain::checked() const {
 
 namespace {
 
-/// Of what each polynomial of Bezier form lies between: c holds the coefficients of 1, u, u^2, u^3.
+/// The ordinates of the Bezier form, between which the polynomial lies: c holds the coefficients of 1, u,
+/// u^2, u^3.
 std::array<Real, 4> ordinates(const std::array<Real, 4>& c) {
   return {c[0], c[0] + c[1] / 3, c[0] + (2 * c[1] + c[2]) / 3, c[0] + c[1] + c[2] + c[3]};
 }
@@ -127,13 +128,16 @@ Real TracedHeights::heightBeyond(int column, int row) const {
 
 TracedHeights::Patch TracedHeights::patch(int column, int row) const {
   Patch p;
-  p.x0 = planeX(column), p.y0 = planeY(row);
-  p.scaleX = 0.5 * (grid_.columns - 1), p.scaleY = 0.5 * (grid_.rows - 1);
+  p.x0 = planeX(column);
+  p.y0 = planeY(row);
+  p.scaleX = 0.5 * (grid_.columns - 1);
+  p.scaleY = 0.5 * (grid_.rows - 1);
   if (!smooth_) {
     const Real a = grid_.at(column, row), b = grid_.at(column + 1, row), c = grid_.at(column, row + 1),
                d = grid_.at(column + 1, row + 1);
     p.terms = 2;
-    p.c[0] = {a, b - a, 0, 0}, p.c[1] = {c - a, d - c - (b - a), 0, 0};
+    p.c[0] = {a, b - a, 0, 0};
+    p.c[1] = {c - a, d - c - (b - a), 0, 0};
     return p;
   }
   p.terms = 4;
@@ -159,8 +163,10 @@ TracedHeights::Reach TracedHeights::reachOf(int column, int row) const {
   for (auto& powers : p.c) powers = ordinates(powers);
   Real least = kInfinity, most = -kInfinity;
   for (std::size_t i = 0; i < 4; ++i)
-    for (const Real z : ordinates({p.c[0][i], p.c[1][i], p.c[2][i], p.c[3][i]}))
-      least = min(least, z), most = max(most, z);
+    for (const Real z : ordinates({p.c[0][i], p.c[1][i], p.c[2][i], p.c[3][i]})) {
+      least = min(least, z);
+      most = max(most, z);
+    }
   constexpr float kEndless = std::numeric_limits<float>::infinity();
   return {std::nextafter(static_cast<float>(least), -kEndless),
           std::nextafter(static_cast<float>(most), kEndless)};
@@ -180,7 +186,8 @@ Real TracedHeights::Patch::at(Real x, Real y, Real& slopeX, Real& slopeY) const 
     z = z * v + (k[0] + u * (k[1] + u * (k[2] + u * k[3])));
     byU = byU * v + (k[1] + u * (2 * k[2] + u * 3 * k[3]));
   }
-  slopeX = byU * scaleX, slopeY = byV * scaleY;
+  slopeX = byU * scaleX;
+  slopeY = byV * scaleY;
   return z;
 }
 
@@ -216,15 +223,10 @@ struct TracedHeights::Walk {
     const Patch patch = field.patch(column, row);
     const std::int64_t part = kSurface + std::int64_t{row} * (field.grid_.columns - 1) + column;
     const auto f = [&](Real t) { return field.above(patch, ray, t); };
-    Real last = a;
-    const auto advance = [&](Real t) {
-      const bool after = f(t).value < 0;
-      if (after != inside) become(after, last < t ? rootBetween(f, last, t, inside) : t, part, visit);
-      last = t;
-    };
+    const auto crossing = [&](Real t, bool) { visit(Crossing{t, part}); };
+    SignWalk walk{a, inside};
     const auto node = [&](Real t) {
-      if (last < 0 && 0 < t && t <= b) advance(0);
-      if (last < t && t < b) advance(t);
+      if (walk.at < t && t < b) walk.to(t, f, crossing);
     };
     if (patch.terms == 2) {  // the slope changes linearly
       const Real slope = f(a).slope,
@@ -234,8 +236,8 @@ struct TracedHeights::Walk {
       const Nodes nodes = turns(patch, a, b);
       for (std::size_t i = 1; i + 1 < nodes.count; ++i) node(a + nodes.at[i]);
     }
-    if (last < 0 && 0 < b) advance(0);
-    advance(b);
+    walk.to(b, f, crossing);
+    inside = walk.negative;
   }
 
   /// Where z minus the height may turn, counted from a.
@@ -254,7 +256,8 @@ struct TracedHeights::Walk {
       for (std::size_t k = 0; k < 4; ++k) sum[k] += line[k];
     }
     for (Real& k : sum) k = -k;
-    sum[0] += p.z, sum[1] += ray.direction.z;
+    sum[0] += p.z;
+    sum[1] += ray.direction.z;
     return extremaWithEnds(sum, 0, b - a);
   }
 
@@ -321,7 +324,8 @@ SurfacePoint TracedHeights::surface(const Ray& ray, const Crossing& crossing) co
   Vec3 p = ray.at(crossing.t), n;
   const Real side = max(error_, std::abs(box_.low.z) * gammaError(8));
   Vec3 error{side, side, side};
-  p.x = std::clamp(p.x, -1.0, 1.0), p.y = std::clamp(p.y, -1.0, 1.0);
+  p.x = std::clamp(p.x, -1.0, 1.0);
+  p.y = std::clamp(p.y, -1.0, 1.0);
   if (crossing.part < kSurface) {
     const int axis = static_cast<int>(crossing.part / 2);
     const bool high = crossing.part % 2 != 0;

@@ -95,7 +95,8 @@ struct ClippedQuadric {
         if (!(square > 0)) break;
         const Vec3 next = p - g * (value(p) / (2 * square));
         if (!isFinite(next) || length(next - p) > length(extent.size()) * 1e-3) break;
-        p = next, g = halfGradient(p);
+        p = next;
+        g = halfGradient(p);
       }
       for (int i = 0; i < 3; ++i) p[i] = std::clamp(p[i], clip.low[i], clip.high[i]);
       const Real l = length(g), e = valueError(p);

@@ -82,7 +82,8 @@ class EscapeSearch {
     Jet most{dot(w, w) - limit, 2 * dot(w, d)};
     for (int i = 0; i < step_.iterations(); ++i) {  // to the last: only so it is continuous
       const Affine f = step_.step(w);
-      w = f.offset + c, d = linear(f, d) + along * step_.shareOfPlace();
+      w = f.offset + c;
+      d = linear(f, d) + along * step_.shareOfPlace();
       const Real value = dot(w, w) - limit;
       if (!(value < kHuge)) return {kHuge, 0};
       if (value > most.value) most = {value, 2 * dot(w, d)};
@@ -111,7 +112,7 @@ class EscapeSearch {
     }
   }
 
-  /// Of the excess; `off` is how far rounding has moved it.
+  /// The gradient of the excess; `off` is how far rounding has moved it.
   Vec3 gradientAt(const Vec3& p, Real& off) const {
     const Vec3 c = step_.constant(p);
     const Real unit = step_.unit(), share = unit * step_.shareOfPlace();
@@ -122,7 +123,8 @@ class EscapeSearch {
     for (int i = 0;; ++i) {
       const Real square = dot(w, w);
       if (square >= most) {
-        most = square, off = 4 * (length(w) * moved + square * gammaError(8));
+        most = square;
+        off = 4 * (length(w) * moved + square * gammaError(8));
         gradient = transposed(by, w) * 2;
       }
       if (i == step_.iterations() || !(square < kHuge) ||

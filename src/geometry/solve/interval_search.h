@@ -29,11 +29,13 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
   std::size_t count = 0;
   const Real first = max(span.from, range.from);
   if (!(first < span.to)) return;
-  if (first < 0 && 0 < span.to)
-    stack[count++] = {0, span.to, 0}, stack[count++] = {first, 0, 0};
-  else
+  if (first < 0 && 0 < span.to) {
+    stack[count++] = {0, span.to, 0};
+    stack[count++] = {first, 0, 0};
+  } else {
     stack[count++] = {first, span.to, 0};
-  bool before = at(first).value < 0;
+  }
+  SignWalk walk{first, at(first).value < 0};
   int steps = 0;
   while (count > 0) {
     checkBudget();
@@ -54,8 +56,8 @@ void intervalCrossings(const Span& span, const Range& range, Bounds&& bounds, At
         blurred || s.depth == kMostDepth || !(s.a < middle && middle < s.b) || ++steps > kMostSteps;
     if (none || monotone || least) {
       const bool after = none ? value.high < 0 : at(s.b).value < 0;
-      if (before != after) visit(none ? s.a : rootBetween(at, s.a, s.b, before), before);
-      before = after;
+      const auto root = [&](Real a, Real b, bool before) { return none ? a : rootBetween(at, a, b, before); };
+      walk.to(s.b, after, root, visit);
       continue;
     }
     stack[count++] = {middle, s.b, s.depth + 1};

@@ -27,32 +27,34 @@ template <class Look, class At, class Visit>
 void stretchCrossings(const Span& span, const Range& range, Real least, Look&& look, At&& at, Visit&& visit) {
   constexpr int kMostLooks = 20000;
   constexpr Real kFromOutside = 1.0 / 32, kFromWithin = 1.0 / 2048;  // the first half, of the whole
-  Real t = max(span.from, range.from);
-  if (!(t < span.to)) return;
-  bool inside = t > span.from && at(t).value < 0;
+  const Real first = max(span.from, range.from);
+  if (!(first < span.to)) return;
+  SignWalk walk{first, first > span.from && at(first).value < 0};
   // Within the span a ray mostly starts on the surface, near which only short stretches are known.
-  Real half = (span.to - t) * (t > span.from ? kFromWithin : kFromOutside);
-  for (int looks = 0; t < span.to && t < range.to; ++looks) {
+  Real half = (span.to - first) * (first > span.from ? kFromWithin : kFromOutside);
+  for (int looks = 0; walk.at < span.to && walk.at < range.to; ++looks) {
     checkBudget();
     // On which side a ray starts is decided at its origin.
-    const Real end = t < 0 && span.to > 0 ? 0 : span.to;
+    const Real begin = walk.at;
+    const Real end = begin < 0 && span.to > 0 ? 0 : span.to;
     const bool last = looks >= kMostLooks;
-    const Real most = last ? (end - t) / 2 : (end - t) / 8;
+    const Real most = last ? (end - begin) / 2 : (end - begin) / 8;
     const bool whole = !(half < most);
     half = max(min(half, most), least);
-    const FourStretches known = last ? FourStretches{} : look(t, half);
+    const FourStretches known = last ? FourStretches{} : look(begin, half);
     const bool shortest = last || half == least;
-    const Real begin = t;
     int passed = 0;
-    for (; passed < 4 && t < end && t < range.to; ++passed) {
+    for (; passed < 4 && walk.at < end && walk.at < range.to; ++passed) {
       const unsigned bit = 1u << passed;
       const bool keeps = known.keeps & bit;
       if (!keeps && !(known.monotone & bit) && !shortest) break;
       const Real to = last || (whole && passed == 3) ? end : min(begin + 2 * half * (passed + 1), end);
-      const Real next = max(to, onward(t, 1));
+      const Real next = max(to, onward(walk.at, 1));
       const bool after = next < span.to && (keeps ? (known.inside & bit) != 0 : at(next).value < 0);
-      if (after != inside) visit(keeps ? t : rootBetween(at, t, next, inside), inside);
-      t = next, inside = after;
+      const auto root = [&](Real a, Real b, bool before) {
+        return keeps ? a : rootBetween(at, a, b, before);
+      };
+      walk.to(next, after, root, visit);
     }
     half *= passed == 4 ? 2 : 0.25;
   }
