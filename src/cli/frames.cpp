@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/remaining_time.h"
+#include "base/budget.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"
@@ -107,9 +108,16 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       session.build();
     } catch (const Error& error) {
       if (done == 0) throw;  // then nothing is written, which is what the last line says
-      console.error(error);
+      const Budget* budget = budgetOfThread.budget;
       code = static_cast<int>(error.fault());
-      stopped = "broke off: ";
+      if (error.fault() == Fault::limit && budget && budget->timeIsOver()) {
+        RenderResult late;
+        late.end = End::timeLimit;
+        stopped = whyStopped(late);
+      } else {
+        console.error(error);
+        stopped = "broke off: ";
+      }
       break;
     }
     if (done == 0) console.warnings(session.messages().all());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace trace::cli {
 namespace {
@@ -24,11 +25,18 @@ Progress makeProgress(ProgressStyle style, const Console& console) {
 std::string pictureText(const Session& session, double fraction) {
   const Size size = session.size();
   std::string text = std::to_string(size.width) + "x" + std::to_string(size.height);
-  if (fraction < 1) text += ", " + std::to_string(static_cast<int>(std::floor(100 * fraction))) + " % done";
-  return text;
+  if (fraction == 1) return text;
+  const int samples = samplesOf(session.settings());
+  if (const auto taken = std::floor(fraction * samples); samples > 1 && taken >= 1)
+    text += ", about " + std::to_string(static_cast<int>(taken)) + " of " + std::to_string(samples) +
+            " samples a pixel";
+  return text + ", " + std::to_string(static_cast<int>(std::floor(100 * fraction))) + " % done";
 }
 
-std::string keptText(const std::string& path) { return path + " is kept as it is"; }
+std::string keptText(const std::string& path) {
+  const bool there = std::filesystem::exists(path);  // if not, a pass beside it is
+  return (there ? path : "what lies beside " + path) + " is kept as it is";
+}
 
 Watch::Watch(Session& session, Signals& signals, const Console& console, Progress& progress,
              PictureFiles& files, const Part& part)

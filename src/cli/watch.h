@@ -51,7 +51,7 @@ class Watch {
 /// What is said of a file that a fragment would have replaced.
 std::string keptText(const std::string& path);
 
-/// "400x300" or, of a part, "400x300, 37 % done".
+/// "400x300" or, of a part, "400x300, 37 % done" or "400x300, about 5 of 16 samples a pixel, 37 % done".
 std::string pictureText(const Session& session, double fraction);
 
 }  // namespace trace::cli

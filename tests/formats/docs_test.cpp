@@ -7,6 +7,7 @@
 #include "formats/format.h"
 #include "geometry/field_value.h"
 #include "scene/conventions.h"
+#include "scene/options.h"
 #include "scene/scene.h"
 #include "support/paths.h"
 
@@ -42,11 +43,10 @@ TEST(Docs, NameEveryNodeAndField) {
 
 TEST(Docs, TableOfConventionsIsThatOfTheProgram) {
   const std::string text = page("conventions.md");
-  for (const auto& [option, value] : conventions().front().values) {
-    std::string row = "| `--" + std::string(option) + "` |";
-    for (const Convention& convention : conventions())
-      for (const auto& [other, given] : convention.values)
-        if (other == option) row += " " + std::string(given) + " |";
+  for (const Option& option : options()) {
+    if (option.group != "Conventions" || option.name == "like") continue;
+    std::string row = "| `--" + std::string(option.name) + "` |";
+    for (const Convention& convention : conventions()) row += " " + option.get(convention.settings) + " |";
     EXPECT_NE(text.find(row), std::string::npos) << row;
   }
 }
