@@ -21,8 +21,10 @@ namespace {
 constexpr int kSettle = 3;  // frames until a change shows everywhere
 
 int whole(const std::string& word) {
+  constexpr double kMost = 1e9;
   const auto number = parseNumber(word);
-  if (!number || number->length != word.size() || number->value != static_cast<int>(number->value))
+  if (!number || number->length != word.size() || !(std::abs(number->value) <= kMost) ||
+      number->value != std::floor(number->value))
     throw Error(Fault::usage, "expected a whole number, found \"" + word + "\"");
   return static_cast<int>(number->value);
 }
