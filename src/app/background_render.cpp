@@ -196,7 +196,8 @@ void BackgroundRender::coarsePasses(Session& session) {
     const Settings settings = reduced(session.settings(), size, factor);
     Film film = makeFilm(settings, settings.width, settings.height);
     coarseJob_.done = 0, coarseJob_.total = 0;
-    if (trace::render(session.world(), session.integrator(), settings, film, coarseJob_).end != End::finished) return;
+    if (trace::render(session.world(), session.integrator(), settings, film, coarseJob_).end != End::finished)
+      return;
     Picture picture = enlarged(film.picture(), size);
     const std::lock_guard lock(mutex_);
     coarse_ = std::move(picture);

@@ -111,8 +111,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
   };
 
   row("Ray", "");
-  row("kind", std::string(name(node.kind)) + ", depth " +
-                  std::to_string(node.depth));
+  row("kind", std::string(name(node.kind)) + ", depth " + std::to_string(node.depth));
   row("origin", text(node.ray.origin));
   row("direction", text(node.ray.direction));
   if (const Term* term = termOf(tree, index); term && term->light)
@@ -134,7 +133,8 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     const Vec2 uv = hit.surface.uv;
     row("uv", text(uv.x) + "  " + text(uv.y));
     row("side", hit.leaving ? "from inside: leaving" : "from outside: entering");
-    row("index of refraction", text(node.indices.before) + " before, " + text(node.indices.behind) + " behind");
+    row("index of refraction",
+        text(node.indices.before) + " before, " + text(node.indices.behind) + " behind");
   }
   if (!node.terms.empty()) row("Shading", "");
   for (const Term& term : node.terms) {

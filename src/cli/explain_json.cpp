@@ -85,11 +85,16 @@ class Writer {
   Json hit(const RayNode& node) const {
     const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    return {{"object", object(h.object, node.materials)}, {"part", h.part},
-            {"point", toJson(h.surface.point)},      {"error", toJson(h.surface.error)},
-            {"normal", toJson(h.surface.normal)},    {"shading", toJson(h.surface.shading)},
-            {"uv", Json::list({uv.x, uv.y})},        {"leaving", h.leaving},
-            {"indexBefore", node.indices.before},          {"indexBehind", node.indices.behind},
+    return {{"object", object(h.object, node.materials)},
+            {"part", h.part},
+            {"point", toJson(h.surface.point)},
+            {"error", toJson(h.surface.error)},
+            {"normal", toJson(h.surface.normal)},
+            {"shading", toJson(h.surface.shading)},
+            {"uv", Json::list({uv.x, uv.y})},
+            {"leaving", h.leaving},
+            {"indexBefore", node.indices.before},
+            {"indexBehind", node.indices.behind},
             {"material", match(*node.bsdf, [](const auto& model) { return fieldsOf(model); })}};
   }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "image/codec.h"
 #include "program.h"
@@ -27,11 +28,15 @@ class Stop : public ProgramTest {
     return {"panes.ray", "out.png", "-w", "8", "-r", "60", "--progress=json"};
   }
 
-  /// The first tile is white, the last one black.
+  /// Pixels that have samples are white, as the first one is, the others black; the file says that it is a
+  /// part.
   void expectPart() const {
     const Picture picture = readPicture(path("out.png"));
     EXPECT_EQ(picture.at(0, 0), Color(1));
-    EXPECT_EQ(picture.at(picture.width - 1, picture.height - 1), Color(0));
+    for (const Color& color : picture.pixels) ASSERT_TRUE(color == Color(1) || color == Color(0));
+    bool saysSo = false;
+    for (const auto& [key, text] : readMetadata(path("out.png"))) saysSo |= key == "Incomplete";
+    EXPECT_TRUE(saysSo);
   }
 
   /// Waits until some tiles are done; false after a minute.
@@ -105,6 +110,14 @@ TEST_F(Stop, TimeLimitKeepsThePart) {
   expectPart();
 }
 
+TEST_F(Stop, APartOfSeveralSamplesIsTheWholePictureAndSaysHowMany) {
+  Program program(folder(), {"white.ray", "out.png", "-w", "40", "--spp", "65536", "--time-limit", "2"});
+  EXPECT_EQ(program.wait(), 5);
+  EXPECT_TRUE(contains(program.lastLine(), "wrote out.png (40x32, about ")) << program.err();
+  EXPECT_TRUE(contains(program.lastLine(), " of 65536 samples a pixel, ")) << program.err();
+  for (const Color& color : readPicture(path("out.png")).pixels) EXPECT_EQ(color, Color(1));
+}
+
 TEST_F(Stop, PictureIsSavedElsewhereIfItsPlaceIsGone) {
   std::filesystem::create_directory(path("there"));
   std::filesystem::create_directory(path("temporary"));
@@ -174,9 +187,13 @@ TEST_F(Stop, NothingIsLeftOfWhatWasBeingWritten) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20 * round));
     program.kill(SIGTERM);
     program.wait();
+    // A process that dies between naming a file and putting it in its place leaves it to the next that writes
+    // there.
+    Program(folder(), {"white.ray", "next.png", "-w", "8"}).wait();
+    const std::set<std::string> known{"white.ray", ".stdout", ".stderr", "out.exr", "next.png"};
     for (const auto& entry : std::filesystem::directory_iterator(folder())) {
       const std::string name = entry.path().filename().string();
-      EXPECT_TRUE(name == "white.ray" || name == ".stdout" || name == ".stderr" || name == "out.exr") << name;
+      EXPECT_TRUE(known.contains(name)) << name;
       if (name == "out.exr") {
         EXPECT_EQ(readPicture(path(name)).width, 1000);
       }
