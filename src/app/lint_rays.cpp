@@ -8,6 +8,7 @@
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "image/tone.h"
+#include "math/perpendicular.h"
 #include "render/pixel.h"
 
 namespace trace {
@@ -265,9 +266,7 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
 
 bool shinesOnSomething(const World& world, const SpotLight& light) {
   constexpr int kRays = 200;
-  const Vec3 axis = normalize(light.direction),
-             other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 right = normalize(cross(axis, other)), up = cross(right, axis);
+  const Vec3 axis = normalize(light.direction), right = perpendicularTo(axis), up = cross(right, axis);
   const Real least = std::cos(light.angle * kPi / 180);
   Statistics uncounted;
   for (int i = 0; i < kRays; ++i) {  // spread over the cone as over a sphere

@@ -1,3 +1,4 @@
+// THE table of options. One file, for a row makes everything of an option, and all rows are read together.
 #include "scene/options.h"
 
 #include <array>

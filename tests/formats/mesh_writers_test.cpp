@@ -70,6 +70,17 @@ TEST(MeshWriters, OtherShapesBecomeTrianglesUnlessTheyHaveNoEnd) {
   EXPECT_THROW(writePly(scene("SBT-raytracer 1.0 plane { }"), "out.ply", {}, messages), Error);
 }
 
+TEST(MeshWriters, ObjKeepsObjectsWithoutNamesApart) {
+  const std::string triangle = "points = ((0,0,0), (1,0,0), (0,1,0)); faces = ((0, 1, 2));";
+  const Scene from = scene("SBT-raytracer 1.0\nmesh { name = lid; " + triangle + " }\nmesh { " + triangle +
+                           " }\nmesh { " + triangle + " }\n");
+  Messages messages;
+  const std::string bytes = writeObj(from, "out.obj", {}, messages).front().bytes;
+  EXPECT_NE(bytes.find("\no lid\n"), std::string::npos);
+  EXPECT_NE(bytes.find("\no object_2\n"), std::string::npos);
+  EXPECT_NE(bytes.find("\no object_3\n"), std::string::npos);
+}
+
 TEST(MeshWriters, ObjKeepsObjectsAndMaterials) {
   Messages messages;
   const Scene from = readScene(test::sourceFolder() + "/tests/corpus/obj/rooms.obj", messages);

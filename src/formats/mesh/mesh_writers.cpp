@@ -244,10 +244,15 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
   for (const auto& [index, name] : names) materials.material(name, phongOf(scene.materials.at(index)));
 
   objects.line("mtllib", onOneLine(fs::path(materialFile).filename().string()));
-  std::size_t colored = 0, triangles = 0;
+  std::size_t colored = 0, triangles = 0, number = 0;
+  bool named = false;  // a name holds until the next one
   for (const WorldMesh& part : meshes) {
+    ++number;
     triangles += part.mesh.triangles.size();
-    if (const std::string name = objName(part.name); !name.empty()) objects.line("o", name);
+    std::string name = objName(part.name);
+    if (name.empty() && named) name = "object_" + std::to_string(number);
+    if (!name.empty()) objects.line("o", name);
+    named = !name.empty();
     objects.line("usemtl", names.at(part.material));
     objects.mesh(part.mesh);
     colored += !part.mesh.materials.empty();
