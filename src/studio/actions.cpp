@@ -245,7 +245,7 @@ void drawHelp(Studio& studio) {
     line("wheel", "Zoom", "in the picture at the cursor; in the 3D view");
     line("drag", "Move", "the picture with the right or middle button");
     line("Ctrl+click", "Type a number", "on any slider; Enter takes it, Esc does not");
-    line("Tab, arrows", "Go to a control", "Enter or Space uses it, Esc goes back");
+    line("Tab, arrows", "Go to a control", "Enter or Space uses it, Esc leaves a field");
     ImGui::EndTable();
   }
   ImGui::EndPopup();

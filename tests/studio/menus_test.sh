@@ -74,12 +74,12 @@ doubleClickAndType 4x5
 xdotool key Return
 next
 [[ "$(line logged)" == 'fov: expected 0 to 180, found "4x5"; not taken' ]] || fail "the log says: $(line logged)"
-is edited no "it is not taken"
+is undo width "it is not taken"
 goTo field fov number 0
 doubleClickAndType 4e1
 xdotool key Return
 next
-is edited no "4e1 is the 40 of before"
+is undo width "4e1 is the 40 of before"
 
 # A chosen object stands whole in the list; undo of its deletion chooses it again.
 skipTo 31
