@@ -95,6 +95,19 @@ Settled<std::string> typeNumber(const char* label, ImGuiID id) {
   return settle(id, now, changed, typing);
 }
 
+/// The format, with fewer digits if the number would not fit into the field.
+std::string fitting(const std::string& format, double value, float width) {
+  const std::size_t digits = format.find("%.");
+  if (digits == std::string::npos || format.substr(digits + 3, 1) != "g") return format;
+  std::string shorter = format;
+  for (char& count = shorter[digits + 2]; count > '1'; --count) {
+    char text[64];
+    std::snprintf(text, sizeof text, shorter.c_str(), value);
+    if (ImGui::CalcTextSize(text).x <= width) break;
+  }
+  return shorter;
+}
+
 bool edit(const char* label, double& value, const NumberLook& look, bool whole) {
   const ImGuiID id = ImGui::GetID(label);
   const auto take = [&](const std::optional<double>& now) {
@@ -108,12 +121,17 @@ bool edit(const char* label, double& value, const NumberLook& look, bool whole) 
   if (ImGui::TempInputIsActive(id)) return takeTyped(typeNumber(label, id));
   // Dear ImGui takes no infinite bounds.
   const double least = std::max(look.least, -1e300), most = std::min(look.most, 1e300);
-  const ImGuiSliderFlags flags = look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+  const std::string format =
+      fitting(look.format, value, ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2);
+  const ImGuiSliderFlags flags = (look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
+                                 (format == look.format ? 0 : ImGuiSliderFlags_NoRoundToFormat);
   double shown = value;
   const bool changed = look.speed > 0 ? ImGui::DragScalar(label, ImGuiDataType_Double, &shown, look.speed,
-                                                          &least, &most, look.format.c_str(), flags)
+                                                          &least, &most, format.c_str(), flags)
                                       : ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least,
-                                                            &most, look.format.c_str(), flags);
+                                                            &most, format.c_str(), flags);
+  if (format != look.format && ImGui::IsItemHovered() && !ImGui::IsItemActive())
+    ImGui::SetTooltip("%s", toText(value).c_str());
   const Settled<std::string> typed = settle(id, std::string(), false, ImGui::TempInputIsActive(id));
   if (typed.typed) return takeTyped(typed);
   return changed && take(shown);
