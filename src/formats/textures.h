@@ -1,6 +1,5 @@
-// The pictures that a file names for its materials. Trace does not render them yet: a material keeps the
-// names of those that give one of its fields (Material::maps), and one warning for each file tells which they
-// are.
+// The pictures that a scene names: loaded for the textures that are rendered, and told for those that are
+// not.
 //
 // All readers share this, so that no texture vanishes without a word and a file of a hundred has one warning.
 #pragma once
@@ -12,20 +11,30 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/scene.h"
 
 namespace trace {
 
-class Textures {
+/// Reads the pictures of the scene's textures, each file once, and notes them in Scene::inputs. One that is
+/// missing or broken is a warning, and a checker in its place. Throws Error(Fault::limit) where memory lacks.
+void loadTextures(Scene& scene, Messages& messages);
+
+/// Pictures that a scene names and nobody will see.
+class UnusedTextures {
  public:
-  /// Notes a texture by its name as the file gives it. The first one gives the warning its place.
+  /// Notes one by its name as the file gives it. The first one gives the warning its place.
   void note(std::string_view name, const Place& place);
   bool empty() const { return names_.empty(); }
 
   /// Warns if there was one. `instead` says what is seen in their place.
   void report(Messages& messages, std::string_view instead = "the material's own colour") const;
 
+  /// Warns if there was one that cannot be read, for what reason the first.
+  void reportUnread(Messages& messages, std::string_view reason) const;
+
  private:
-  std::string warning() const;
+  /// `the textures "a", "b" and 3 more`.
+  std::string list() const;
 
   Place place_;
   std::vector<std::string> names_;  ///< each once

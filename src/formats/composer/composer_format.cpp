@@ -175,7 +175,7 @@ class Reader {
     phong.shininess = m.shininess;
     phong.index = extras.ior.value_or(kGlass);
     Material material{"", phong, {}};
-    if (extras.texture) material.maps.push_back({"diffuse", *extras.texture});
+    if (extras.texture) setTexture(material.textures, "diffuse", pictureTexture(*extras.texture));
     scene_.materials.push_back(std::move(material));
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
@@ -187,9 +187,10 @@ class Reader {
     const auto first = static_cast<std::uint32_t>(scene_.materials.size());
     for (const cf::Material& m : object.materials) checkRanges(m, object.place);
     for (const cf::Material& m : object.materials) add(m, extras);
-    for (const auto& picture : {extras.texture, extras.bump})
-      if (picture) textures_.note(*picture, object.place);
-    if (extras.bump) scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
+    if (extras.bump) {
+      textures_.note(*extras.bump, object.place);
+      scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
+    }
     if (object.materials.empty()) add(cf::Material{}, extras);
     if (object.sphere)
       add(object, Sphere{}, sphere(*object.sphere), first);
@@ -275,7 +276,7 @@ class Reader {
   MeshRepairs repairs_;
   bool hasMeshes_ = false;
   WarningsByKind warnings_;
-  Textures textures_;
+  UnusedTextures textures_;
   Scene scene_;
 };
 

@@ -82,11 +82,11 @@ std::string_view pictureOf(LineWords words) {
   return words.rest();
 }
 
-class Checker {
+class MtlCheck {
  public:
   /// `lines` are the text with continued lines made one.
-  Checker(const std::string& file, std::string_view text, std::string_view lines, Textures& textures,
-          WarningsByKind& warnings)
+  MtlCheck(const std::string& file, std::string_view text, std::string_view lines, UnusedTextures& textures,
+           WarningsByKind& warnings)
       : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
 
   void line(std::string_view line) {
@@ -166,24 +166,27 @@ class Checker {
   void map(std::string_view key, LineWords words) {
     const std::string_view picture = pictureOf(words);
     if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
+    static constexpr std::array<std::string_view, 5> kRendered{"map_Ka", "map_Kd", "map_Ks", "map_Ke",
+                                                               "map_Ns"};
+    if (std::find(kRendered.begin(), kRendered.end(), key) != kRendered.end()) return;
     textures_.note(picture, textures_.empty() ? place(key) : Place());
   }
 
   const std::string& file_;
   std::string_view text_, lines_;
   std::string plain_;
-  Textures& textures_;
+  UnusedTextures& textures_;
   WarningsByKind& warnings_;
   bool inMaterial_ = false;
 };
 
 }  // namespace
 
-std::string checkedMtl(const std::string& file, std::string_view text, Textures& textures,
+std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
                        WarningsByKind& warnings) {
   std::string room;
   const std::string_view lines = joinedLines(text, room);
-  Checker checker(file, text, lines, textures, warnings);
+  MtlCheck checker(file, text, lines, textures, warnings);
   forEachLine(lines, [&](std::string_view line) { checker.line(line); });
   return checker.plain();
 }
