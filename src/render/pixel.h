@@ -25,8 +25,11 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    const Ray ray = tracer_.world().camera().ray(sampler.film());
-    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
+    const CameraFrame& frame = tracer_.world().camera();
+    const auto [place, weight] = sampler.film();
+    const Ray ray =
+        frame.lens.radius > 0 ? frame.ray(place, sampler.branch(Sampler::kLens).next2()) : frame.ray(place);
+    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera), weight};
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }

@@ -139,6 +139,13 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
+void World::focusOnMiddle() {
+  const Ray ray = camera_.ray({0.5, 0.5});
+  Statistics uncounted;
+  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
+  camera_.lens.focus = found ? found->t : kInfinity;
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -163,7 +170,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes);
+  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
   world.background_ = scene.background;
 
   const bool bruteForce = settings.accel == Accel::none;
@@ -231,6 +238,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
+  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
   return world;
 }
 

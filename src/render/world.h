@@ -98,9 +98,7 @@ class World {
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const {
-    return whitted(*bsdfAt(ray, found)).transmissive;
-  }
+  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -117,9 +115,13 @@ class World {
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Rules& rules() const { return rules_; }
-  /// What arrives at a point of the light of that number, if nothing is in the way.
-  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from) const {
-    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_); });
+  /// What arrives at a point of the light of that number, if nothing is in the way: from the place of the
+  /// light that `u` chooses, two numbers from 0 up to 1.
+  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from, const Vec2& u = kCenter) const {
+    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_, u); });
+  }
+  bool lightHasSize(std::size_t light) const {
+    return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   /// What a camera ray sees that meets nothing.
@@ -181,6 +183,9 @@ class World {
   void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
 
+  /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
+  void focusOnMiddle();
+
   struct Forms;  ///< complete in world_queries.cpp
   /// Takes the forms out of the shapes of all objects, to lie side by side.
   void collectForms();
@@ -194,7 +199,7 @@ class World {
 
   /// A material of the scene.
   struct Surface {
-    Bsdf bsdf;  ///< without its textures
+    Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
@@ -202,9 +207,8 @@ class World {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }
   bool textured(const MaterialMix& materials) const {
-    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
-      return m != MaterialMix::kClear && surfaces_[m].textured;
-    });
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
   PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));

@@ -13,10 +13,14 @@ struct Path {
   Color medium{1};  ///< what passes through a unit of length of what the ray runs in
 };
 
-Color follow(Tracer& tracer, const Ray& ray, const Path& path);
+/// Branches of a place's numbers: its lights by their number, and the rays that go on.
+constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
+
+Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sampler);
 
 /// The radiance along the ray, which is the one cast last and met `hit`.
-Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path) {
+Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                    const Sampler& sampler) {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
@@ -36,14 +40,23 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient, world.ambient());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto arriving = world.illuminate(i, surface.point);
-    if (!arriving) continue;
-    const Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
-    const Color scattered = arriving->scattered(parts);
-    const Color passed =
-        isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
-    sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
-    if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
+    const auto light = [&](const Vec2& place, Real share) {
+      const auto arriving = world.illuminate(i, surface.point, place);
+      if (!arriving) return;
+      const Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
+      const Color scattered = arriving->scattered(parts) * share;
+      const Color passed =
+          isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
+      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
+      if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
+    };
+    if (!world.lightHasSize(i)) {
+      light(kCenter, 1);
+      continue;
+    }
+    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
+    const int rays = settings.lightSamples;
+    for (int n = 0; n < rays; ++n) light(numbers.next2(), 1.0 / rays);
   }
 
   const auto worthwhile = [&](const Path& next) {
@@ -65,7 +78,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
     if (worthwhile(next))
       sum.add(Term::Kind::reflection, mirror,
-              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next));
+              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, sampler.branch(kMirrored)));
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
@@ -74,7 +87,8 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
                     perCrossing || hit->leaving ? Color(1) : material.transmissive};
     if (worthwhile(next)) {
       if (const auto direction = refracted(ray.direction, normal, indices.before / indices.behind))
-        sum.add(Term::Kind::refraction, filter, follow(tracer, hit->leave(*direction), next));
+        sum.add(Term::Kind::refraction, filter,
+                follow(tracer, hit->leave(*direction), next, sampler.branch(kRefracted)));
       else
         sum.stop(TotalInternalReflection{});
     }
@@ -82,15 +96,15 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   return sum.radiance(path.medium == Color(1) ? Color(1) : pow(path.medium, hit->t));  // Beer's law
 }
 
-Color follow(Tracer& tracer, const Ray& ray, const Path& path) {
+Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sampler) {
   const std::optional<Hit> hit = tracer.cast(ray, path.kind);
-  return radianceAlong(tracer, ray, hit, path);
+  return radianceAlong(tracer, ray, hit, path, sampler);
 }
 
 }  // namespace
 
-Color Whitted::radiance(Tracer& tracer, Sampler, const CameraRay& camera) const {
-  return radianceAlong(tracer, camera.ray, camera.hit, {});
+Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
+  return radianceAlong(tracer, camera.ray, camera.hit, {}, sampler);
 }
 
 }  // namespace trace
