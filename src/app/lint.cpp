@@ -229,7 +229,7 @@ void depthTooLow(const LintScene& s, Findings& findings) {
 
 /// Nothing but black, and nothing said of it.
 bool isBare(const Material& material) {
-  return material.name.empty() && material.maps.empty() && material.model == MaterialModel();
+  return material.name.empty() && material.textures.empty() && material.model == MaterialModel();
 }
 
 /// Whether the shape, or a part of it, would be of that material and it is bare.

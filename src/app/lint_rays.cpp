@@ -193,7 +193,7 @@ class Surveyor {
   bool refracts(const Ray& ray, const Filter& filter) const {
     for (const Found& found : allCrossings(world_, ray, filter.t * (1 + gammaError(8))))
       if (found.object == filter.object && found.part == filter.part)
-        return std::abs(whitted(*world_.bsdfAt(found)).index - 1) > 0.01;  // air's is near 1, too
+        return std::abs(whitted(*world_.bsdfAt(ray, found)).index - 1) > 0.01;  // air's is near 1, too
     return false;
   }
 

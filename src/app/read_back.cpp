@@ -33,7 +33,7 @@ Scene withoutNames(Scene scene) {
   }
   for (Material& material : scene.materials) {
     material.name.clear();
-    for (FieldMap& map : material.maps) map.file.clear();
+    changePixels(material, [](Pixels& pixels) { pixels.file.clear(); });
   }
   return scene;
 }

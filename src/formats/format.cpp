@@ -19,6 +19,7 @@
 #include "formats/mesh/off_format.h"
 #include "formats/mesh/ply_format.h"
 #include "formats/mesh/stl_format.h"
+#include "formats/textures.h"
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_writer.h"
@@ -190,10 +191,9 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
   const auto named = [&](std::string_view name) {
     if (!name.starts_with("data:")) inputs.noteNamed(besideFile(file, std::string(name)));
   };
-  for (const Material& material : scene.materials)
-    for (const FieldMap& map : material.maps) named(map.file);
   for (const Unrendered& node : scene.unrendered) forEachQuoted(node.text, named);
   scene.inputs = std::move(inputs);
+  loadTextures(scene, messages);
   return scene;
 }
 

@@ -18,8 +18,8 @@ bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 Material colored(const Material& base, const Color& color) {
   Material material = base;
   match(material.model, [&](auto& model) { model.diffuse = model.ambient = color; });
-  std::erase_if(material.maps,
-                [](const FieldMap& map) { return map.field == "diffuse" || map.field == "ambient"; });
+  std::erase_if(material.textures,
+                [](const FieldTexture& t) { return t.field == "diffuse" || t.field == "ambient"; });
   return material;
 }
 

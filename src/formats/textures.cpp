@@ -1,20 +1,108 @@
 #include "formats/textures.h"
 
 #include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "base/budget.h"
+#include "base/file.h"
+#include "base/parallel.h"
 
 namespace trace {
 namespace {
+
+/// A picture file of the scene, and what came of reading it.
+struct Loaded {
+  Place place;  ///< where the scene names it first
+  std::string bytes;
+  std::shared_ptr<const MipMap> map;
+  std::exception_ptr failure;
+};
+
+/// What nobody takes for the surface that was meant.
+std::shared_ptr<const MipMap> missingPicture() {
+  static const auto kMissing = [] {
+    Picture checker(8, 8);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) checker.at(x, y) = (x + y) % 2 ? Color(0) : Color(1, 0, 1);
+    return std::make_shared<const MipMap>(std::move(checker));
+  }();
+  return kMissing;
+}
+
+/// Beside the scene, or where else one may look.
+std::string pathOf(const Scene& scene, const std::string& name) {
+  const std::string beside = besideFile(scene.file, name);
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? beside : findFile(scene.file, name);
+}
+
+void load(const std::string& path, Loaded& loaded) {
+  try {
+    loaded.bytes = readBeside("", path);
+    loaded.map = MipMap::decode(loaded.bytes, path);
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    loaded.failure = std::current_exception();
+  }
+}
 
 constexpr std::size_t kMostNamed = 3, kLongName = 80;
 
 }  // namespace
 
-void Textures::note(std::string_view name, const Place& place) {
+void loadTextures(Scene& scene, Messages& messages) {
+  std::map<std::string, Loaded> byPath;
+  std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
+  for (Material& material : scene.materials)
+    changePixels(material, [&](Pixels& pixels) {
+      if (pixels.map || pixels.file.empty()) return;
+      const auto [found, fresh] = byPath.try_emplace(pathOf(scene, pixels.file));
+      if (!fresh) return;
+      found->second.place = pixels.place;
+      files.push_back(&*found);
+    });
+  if (files.empty()) return;
+  const Work work("reading the textures", std::ssize(files));
+  Job job;
+  parallelChunks(std::ssize(files), 0, job, [&](std::int64_t i, int) {
+    auto& [path, loaded] = *files[static_cast<std::size_t>(i)];
+    load(path, loaded);
+  });
+
+  for (auto* file : files) {
+    auto& [path, loaded] = *file;
+    if (loaded.bytes.empty())
+      scene.inputs.noteNamed(path);
+    else
+      scene.inputs.noteRead(path, loaded.bytes);
+    std::string().swap(loaded.bytes);
+    if (!loaded.failure) continue;
+    loaded.map = missingPicture();
+    try {
+      std::rethrow_exception(loaded.failure);
+    } catch (const Error& error) {
+      const Place place = loaded.place.file.empty() ? Place{.file = scene.file} : loaded.place;
+      messages.warn(place, "a texture cannot be read: " + error.messages().front().what,
+                    "a checker of magenta and black shows in its place");
+    }
+  }
+  for (Material& material : scene.materials)
+    changePixels(material, [&](Pixels& pixels) {
+      if (pixels.map || pixels.file.empty()) return;
+      pixels.map = byPath.at(pathOf(scene, pixels.file)).map;
+    });
+}
+
+void UnusedTextures::note(std::string_view name, const Place& place) {
   if (names_.empty()) place_ = place;
   if (known_.emplace(name).second) names_.emplace_back(name.substr(0, kLongName));
 }
 
-std::string Textures::warning() const {
+std::string UnusedTextures::warning() const {
   const std::size_t count = names_.size();
   const std::size_t named = count <= kMostNamed + 1 ? count : kMostNamed;
   std::string list;
@@ -27,7 +115,7 @@ std::string Textures::warning() const {
                     : "the textures " + list + " are not rendered yet";
 }
 
-void Textures::report(Messages& messages, std::string_view instead) const {
+void UnusedTextures::report(Messages& messages, std::string_view instead) const {
   if (!names_.empty()) messages.warn(place_, warning(), std::string(instead) + " shows instead");
 }
 

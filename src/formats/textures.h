@@ -1,6 +1,4 @@
-// The pictures that a file names for its materials. Trace does not render them yet: a material keeps the
-// names of those that give one of its fields (Material::maps), and one warning for each file tells which they
-// are.
+// The pictures that a scene names: loaded for the textures that are rendered, and told for those that are not.
 //
 // All readers share this, so that no texture vanishes without a word and a file of a hundred has one warning.
 #pragma once
@@ -12,12 +10,18 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/scene.h"
 
 namespace trace {
 
-class Textures {
+/// Reads the pictures of the scene's textures, each file once, and notes them in Scene::inputs. One that is
+/// missing or broken is a warning, and a checker in its place. Throws Error(Fault::limit) where memory lacks.
+void loadTextures(Scene& scene, Messages& messages);
+
+/// Pictures that Trace does not render.
+class UnusedTextures {
  public:
-  /// Notes a texture by its name as the file gives it. The first one gives the warning its place.
+  /// Notes one by its name as the file gives it. The first one gives the warning its place.
   void note(std::string_view name, const Place& place);
   bool empty() const { return names_.empty(); }
 

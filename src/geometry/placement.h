@@ -16,6 +16,7 @@ class Placement {
 
   bool moved() const { return moved_; }  ///< the transform is not the identity
   const Affine& outFromIn() const { return outFromIn_; }
+  const Affine& inFromOut() const { return inFromOut_; }
 
   Ray into(const Ray& ray) const { return {inFromOut_ * ray.origin, linear(inFromOut_, ray.direction)}; }
 

@@ -157,7 +157,7 @@ Texel MipMap::bilinear(const Level& level, const Vec2& place, const Lookup& look
   const int i = static_cast<int>(left), j = static_cast<int>(top);
   const bool decodes = lookup.srgb && &level == &base_;
   return lookedUp(level, decodes ? &linear() : nullptr, lookup, [&](const auto& texels) {
-    if (lookup.filter == Filter::nearest)
+    if (lookup.filter == TexelFilter::nearest)
       return texels.at(static_cast<int>(std::floor(x + 0.5)), static_cast<int>(std::floor(y + 0.5)));
     return mixed(t, mixed(s, texels.at(i, j), texels.at(i + 1, j)),
                  mixed(s, texels.at(i, j + 1), texels.at(i + 1, j + 1)));
@@ -217,7 +217,7 @@ Texel MipMap::at(const Vec2& uv, const Lookup& lookup) const {
   const Vec2 at{place(uv.x, width(), lookup.u), place(1 - uv.y, height(), lookup.v)};
   const auto inTexels = [&](const Vec2& d) { return Vec2{d.x * width(), -d.y * height()}; };
   Ellipse ellipse(inTexels(lookup.uvX), inTexels(lookup.uvY));
-  const bool ewa = lookup.filter == Filter::ewa, wide = ewa || lookup.filter == Filter::trilinear;
+  const bool ewa = lookup.filter == TexelFilter::ewa, wide = ewa || lookup.filter == TexelFilter::trilinear;
   if (!wide || !(ellipse.longest > 0)) return bilinear(base_, at, lookup);
 
   if (ewa) ellipse.widen(kMostAnisotropy);

@@ -32,13 +32,13 @@ namespace trace {
 enum class Wrap { repeat, clamp, mirror, black };
 constexpr std::array<std::string_view, 4> names(Wrap) { return {"repeat", "clamp", "mirror", "black"}; }
 
-enum class Filter {
+enum class TexelFilter {
   nearest,    ///< the texel at the place
   bilinear,   ///< between the four texels around it
   trilinear,  ///< between two levels of the pyramid, by the longer side of the footprint
   ewa,        ///< by the footprint as an ellipse (Greene and Heckbert, IEEE CG&A 6(6), 1986)
 };
-constexpr std::array<std::string_view, 4> names(Filter) {
+constexpr std::array<std::string_view, 4> names(TexelFilter) {
   return {"nearest", "bilinear", "trilinear", "ewa"};
 }
 
@@ -50,7 +50,7 @@ struct Texel {
 /// How a picture is looked up.
 struct Lookup {
   Wrap u = Wrap::repeat, v = Wrap::repeat;
-  Filter filter = Filter::bilinear;
+  TexelFilter filter = TexelFilter::bilinear;
   /// The outermost texels have their centres at 0 and 1, rather than their edges.
   bool centersAtEnds = false;
   bool srgb = false;  ///< the file's colours are sRGB, and are made linear

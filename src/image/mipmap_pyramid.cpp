@@ -182,7 +182,7 @@ const MipMap::Pyramid& MipMap::pyramid(bool srgb) const {
 
 void MipMap::prepare(const Lookup& lookup) const {
   if (lookup.srgb) linear();
-  if (lookup.filter == Filter::trilinear || lookup.filter == Filter::ewa) pyramid(lookup.srgb);
+  if (lookup.filter == TexelFilter::trilinear || lookup.filter == TexelFilter::ewa) pyramid(lookup.srgb);
 }
 
 int MipMap::levels() const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "geometry/materials.h"
 #include "geometry/ray.h"
@@ -34,18 +35,19 @@ struct Hit {
   bool convex;    ///< the object is
 };
 
-/// The Bsdf of a place, which may be mixed for it. Lives no longer than the World.
+/// The Bsdf of a place, which may be made for it. Lives no longer than the World.
 class PlaceBsdf {
  public:
-  PlaceBsdf(const World& world, const MaterialMix& materials);
+  explicit PlaceBsdf(const Bsdf& only) : only_(&only) {}
+  explicit PlaceBsdf(Bsdf&& own) : own_(std::move(own)) {}
   PlaceBsdf(const PlaceBsdf&) = delete;
   PlaceBsdf& operator=(const PlaceBsdf&) = delete;
 
-  const Bsdf& operator*() const { return mixed_ ? *mixed_ : *only_; }
+  const Bsdf& operator*() const { return own_ ? *own_ : *only_; }
 
  private:
   const Bsdf* only_ = nullptr;
-  std::optional<Bsdf> mixed_;
+  std::optional<Bsdf> own_;
 };
 
 }  // namespace trace

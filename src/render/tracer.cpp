@@ -86,7 +86,7 @@ Color Tracer::passed(const Ray& ray, Real distance) {
   Color color(1);
   Real last = 0;
   for (const Found& found : crossed_) {
-    const Color filter = world_.filter(found);
+    const Color filter = world_.filter(ray, found);
     if (isBlack(filter)) return Color(0);
     Color factor(1);
     if (settings_.glass == Glass::perCrossing)
@@ -117,7 +117,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
     const bool opaque = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black ||
-                        isBlack(world_.filter(found));
+                        isBlack(world_.filter(ray, found));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

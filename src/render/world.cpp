@@ -29,11 +29,20 @@ MaterialMix World::materialMix(const Found& found) const {
   return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
-PlaceBsdf::PlaceBsdf(const World& world, const MaterialMix& m) {
-  if (m.count == 1)
-    only_ = &world.bsdf(m.material[0]);
-  else
-    mixed_ = mix(world.bsdf(m.material[0]), world.bsdf(m.material[1]), world.bsdf(m.material[2]), m.weight);
+Bsdf World::mixedAt(std::uint32_t object, const MaterialMix& m, const SurfacePoint& surface) const {
+  const bool hasTextures = textured(m);
+  const TexturePlace at = hasTextures ? place(object, surface) : TexturePlace();
+  const auto part = [&](std::uint32_t material) {
+    const Material* textured = material == MaterialMix::kClear ? nullptr : surfaces_[material].textured.get();
+    return textured ? bsdfOf(*textured, at, rules_) : bsdf(material);
+  };
+  if (m.count == 1) return part(m.material[0]);
+  return mix(part(m.material[0]), part(m.material[1]), part(m.material[2]), m.weight);
+}
+
+PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
+  const MaterialMix materials = materialMix(found);
+  return shade(found.object, materials, textured(materials) ? surface(ray, found) : SurfacePoint());
 }
 
 std::size_t World::triangleCount() const {
@@ -135,7 +144,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const World::Earlier earlier(before, scene, settings);
   world.rules_ = rulesOf(settings);
   for (const Material& material : scene.materials)
-    world.bsdfs_.push_back(bsdfOf(material.model, world.rules_));
+    world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
+                               material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
@@ -170,7 +180,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (!flat)
       instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
     instance.material = object.material;
-    if (object.material >= world.bsdfs_.size())
+    if (object.material >= world.surfaces_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
     if (settings.omit.has(static_cast<ShapeKind>(instance.kind))) {
       boxes.emplace_back();  // keeps the numbering of objects; what is empty is never met
@@ -204,7 +214,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       instance.shape.addMaterials(materials);
     }
     instance.opaque = std::none_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
-      return m == MaterialMix::kClear || whitted(world.bsdfs_.at(m)).transmits();
+      return m == MaterialMix::kClear || whitted(world.surfaces_.at(m).bsdf).transmits();
     });
     if (!flat) {
       if (box.unbounded())

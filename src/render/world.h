@@ -5,6 +5,7 @@
 // shape and light structs; names and files stay behind.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -86,14 +87,17 @@ class World {
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
-  /// Of one of the scene's materials, or of MaterialMix::kClear.
-  const Bsdf& bsdf(std::uint32_t material) const {
-    return material == MaterialMix::kClear ? clear() : bsdfs_[material];
+  /// Where textures are asked for the place on an object.
+  TexturePlace place(std::uint32_t object, const SurfacePoint& surface) const {
+    return {.point = objects_[object].placement.inFromOut() * surface.point, .uv = surface.uv};
   }
-  PlaceBsdf shade(const Hit& hit) const { return {*this, hit.materials}; }
-  PlaceBsdf bsdfAt(const Found& found) const { return {*this, materialMix(found)}; }
+  PlaceBsdf shade(const Hit& hit) const { return shade(hit.object, hit.materials, hit.surface); }
+  /// `ray` is the ray that found the place.
+  PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// What of it the rays of a light pass through.
-  Color filter(const Found& found) const { return whitted(*bsdfAt(found)).transmissive; }
+  Color filter(const Ray& ray, const Found& found) const {
+    return whitted(*bsdfAt(ray, found)).transmissive;
+  }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -185,7 +189,28 @@ class World {
                                        ///< hierarchy can hold; where there is no tree, all
   static const Bsdf& clear();          ///< what is seen through as if it were not there
 
-  std::vector<Bsdf> bsdfs_;  ///< of the scene's materials
+  /// A material of the scene.
+  struct Surface {
+    Bsdf bsdf;  ///< without its textures
+    std::shared_ptr<const Material> textured;  ///< null if it has none
+  };
+  /// Of one of the scene's materials, or of MaterialMix::kClear.
+  const Bsdf& bsdf(std::uint32_t material) const {
+    return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
+  }
+  bool textured(const MaterialMix& materials) const {
+    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
+      return m != MaterialMix::kClear && surfaces_[m].textured;
+    });
+  }
+  PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
+    if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
+    return PlaceBsdf(mixedAt(object, materials, surface));
+  }
+  [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, const MaterialMix& materials,
+                                 const SurfacePoint& surface) const;
+
+  std::vector<Surface> surfaces_;  ///< of the scene's materials
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

@@ -17,6 +17,14 @@ inline Bsdf bsdfOf(const MaterialModel& model, const Rules& rules) {
   return match(model, [&](const auto& said) -> Bsdf { return said.at(rules); });
 }
 
+/// Of a place on the material, with its textures.
+inline Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& rules) {
+  return match(material.model, [&](auto said) -> Bsdf {
+    applyTextures(said, material.textures, place);
+    return said.at(rules);
+  });
+}
+
 inline const WhittedTerms& whitted(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) -> const WhittedTerms& { return model; });
 }

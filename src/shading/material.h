@@ -7,24 +7,24 @@
 
 #include "base/match.h"
 #include "shading/materials/phong.h"
+#include "shading/texture.h"
 
 namespace trace {
 
 using MaterialModel = std::variant<Phong>;
 
-/// `map("file")` in place of a constant: the picture that gives a field its value.
-struct FieldMap {
-  std::string field;  ///< keyword of the material's field
-  std::string file;   ///< as written in the scene
-  bool operator==(const FieldMap&) const = default;
-};
-
 struct Material {
   std::string name;
   MaterialModel model;
-  std::vector<FieldMap> maps;
+  std::vector<FieldTexture> textures{};  ///< of its model's fields
   bool operator==(const Material&) const = default;
 };
+
+/// Changes every picture of the material's textures: change(Pixels&).
+template <class Change>
+void changePixels(Material& material, const Change& change) {
+  for (FieldTexture& t : material.textures) t.texture = withPixels(t.texture, change);
+}
 
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.

@@ -170,8 +170,8 @@ void editMaterial(Studio& studio) {
     });
   });
   endFields();
-  for (const FieldMap& map : material.maps)
-    ImGui::TextDisabled("%s is a map: %s", map.field.c_str(), map.file.c_str());
+  for (const FieldTexture& t : material.textures)
+    ImGui::TextDisabled("%s is scaled by a texture: %s", t.field.c_str(), summary(t.texture).c_str());
 }
 
 /// Of what a scene has once.

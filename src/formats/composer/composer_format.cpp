@@ -175,7 +175,7 @@ class Reader {
     phong.shininess = m.shininess;
     phong.index = extras.ior.value_or(kGlass);
     Material material{"", phong, {}};
-    if (extras.texture) material.maps.push_back({"diffuse", *extras.texture});
+    if (extras.texture) material.textures.push_back({"diffuse", pictureTexture(*extras.texture)});
     scene_.materials.push_back(std::move(material));
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
@@ -275,7 +275,7 @@ class Reader {
   MeshRepairs repairs_;
   bool hasMeshes_ = false;
   WarningsByKind warnings_;
-  Textures textures_;
+  UnusedTextures textures_;
   Scene scene_;
 };
 

@@ -82,8 +82,8 @@ class Writer {
   cf::Material material(std::uint32_t index, std::string& name) {
     const Phong p = phongOf(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
-    for (const FieldMap& map : scene_.materials[index].maps)
-      if (map.field == "diffuse") say(name, "texture=" + map.file);
+    if (const Texture* texture = textureOf(scene_.materials[index].textures, "diffuse"))
+      if (const auto* image = std::get_if<ImageMap>(&(*texture)->model)) say(name, "texture=" + image->file.file);
     Color ambientLight;
     for (const LightSource& source : scene_.lights)
       if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambientLight += light->color;

@@ -67,7 +67,7 @@ Scene Reader::readPart(const std::string& path, const std::string& name) {
     });
   }
   for (Material& material : part.materials)  // pictures lie beside that file, and are named from this one
-    for (FieldMap& map : material.maps) map.file = besideFile(name, map.file);
+    changePixels(material, [&](Pixels& pixels) { pixels.file = besideFile(name, pixels.file); });
   return part;
 }
 

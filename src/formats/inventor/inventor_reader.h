@@ -223,7 +223,7 @@ class Reader {
   std::map<std::shared_ptr<const Paint>, std::vector<std::uint32_t>> numbers_;
   std::set<std::string, std::less<>> told_, files_;
   std::set<const Node*> checked_;
-  Textures textures_;
+  UnusedTextures textures_;
   std::size_t spent_ = 0;
   int depth_ = 0;
 };

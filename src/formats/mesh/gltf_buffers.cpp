@@ -15,9 +15,9 @@ bool isDigit(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
 }
 
-class Checker {
+class BufferCheck {
  public:
-  Checker(const Place& place, std::size_t number)
+  BufferCheck(const Place& place, std::size_t number)
       : place_(place), path_("buffers[" + std::to_string(number) + "]"), first_(number == 0) {}
 
   void check(const json& buffer) const {
@@ -83,7 +83,7 @@ void checkGltfBuffers(const json& root, const Place& place) {
   const auto buffers = root.find("buffers");
   if (buffers == root.end()) return;
   if (!buffers->is_array()) throw Error(Fault::scene, place, "buffers: expected a list");
-  for (std::size_t i = 0; i < buffers->size(); ++i) Checker(place, i).check((*buffers)[i]);
+  for (std::size_t i = 0; i < buffers->size(); ++i) BufferCheck(place, i).check((*buffers)[i]);
 }
 
 }  // namespace trace

@@ -61,9 +61,9 @@ struct Part {
   }
 };
 
-class Checker {
+class GltfCheck {
  public:
-  Checker(const json& root, const Place& place, Messages& messages)
+  GltfCheck(const json& root, const Place& place, Messages& messages)
       : root_{root, ""}, place_(place), messages_(messages) {}
 
   void check() {
@@ -408,7 +408,7 @@ class Checker {
 }  // namespace
 
 void checkGltf(const json& root, const Place& place, Messages& messages) {
-  Checker(root, place, messages).check();
+  GltfCheck(root, place, messages).check();
 }
 
 }  // namespace trace

@@ -508,7 +508,8 @@ class GltfReader {
 
   void addMap(Material& material, const char* field, int texture) {
     const tinygltf::Image* image = imageOf(texture);
-    if (image && !image->uri.empty()) material.maps.push_back({field, image->uri});
+    if (image && !image->uri.empty() && !image->uri.starts_with("data:"))
+      return material.textures.push_back({field, pictureTexture(image->uri, place_)});
     noteTexture(texture);
   }
 
@@ -536,7 +537,7 @@ class GltfReader {
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
-  Textures textures_;
+  UnusedTextures textures_;
   std::size_t lines_ = 0;     ///< primitives that are no triangles
   std::size_t leftOver_ = 0;  ///< corners that make no triangle
   std::size_t flat_ = 0;      ///< objects that their transform makes flat

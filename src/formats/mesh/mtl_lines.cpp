@@ -82,10 +82,10 @@ std::string_view pictureOf(LineWords words) {
   return words.rest();
 }
 
-class Checker {
+class MtlCheck {
  public:
   /// `lines` are the text with continued lines made one.
-  Checker(const std::string& file, std::string_view text, std::string_view lines, Textures& textures,
+  MtlCheck(const std::string& file, std::string_view text, std::string_view lines, UnusedTextures& textures,
           WarningsByKind& warnings)
       : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
 
@@ -172,18 +172,18 @@ class Checker {
   const std::string& file_;
   std::string_view text_, lines_;
   std::string plain_;
-  Textures& textures_;
+  UnusedTextures& textures_;
   WarningsByKind& warnings_;
   bool inMaterial_ = false;
 };
 
 }  // namespace
 
-std::string checkedMtl(const std::string& file, std::string_view text, Textures& textures,
+std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
                        WarningsByKind& warnings) {
   std::string room;
   const std::string_view lines = joinedLines(text, room);
-  Checker checker(file, text, lines, textures, warnings);
+  MtlCheck checker(file, text, lines, textures, warnings);
   forEachLine(lines, [&](std::string_view line) { checker.line(line); });
   return checker.plain();
 }

@@ -12,7 +12,7 @@ namespace trace {
 /// Notes all textures, and warns of lines that are not known, of what should be a number and is none, and of
 /// numbers out of their range. Returns the text as tinyobj can read it: continued lines are one, and a colour
 /// of one number has three. Linear in the text.
-std::string checkedMtl(const std::string& file, std::string_view text, Textures& textures,
+std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
                        WarningsByKind& warnings);
 
 }  // namespace trace

@@ -69,7 +69,7 @@ Material toMaterial(const tinyobj::material_t& mtl) {
                                                              {"emissive", mtl.emissive_texname},
                                                              {"shininess", mtl.specular_highlight_texname}};
   for (const auto& [field, picture] : maps)
-    if (!picture.empty()) material.maps.push_back({field, picture});
+    if (!picture.empty()) material.textures.push_back({field, pictureTexture(picture)});
   return material;
 }
 
@@ -294,7 +294,7 @@ class ObjReader : public tinyobj::MaterialReader {
   std::string_view bytes_;
   Messages& messages_;
   WarningsByKind warnings_;
-  Textures textures_;
+  UnusedTextures textures_;
   ObjNames names_;
   std::set<std::string> undefined_;
   bool materialsMissing_ = false;

@@ -59,9 +59,9 @@ bool isThere(std::int64_t number, std::int64_t count) {
   return number != 0 && number <= count && number >= -count;
 }
 
-class Checker {
+class ObjCheck {
  public:
-  Checker(const std::string& file, std::string_view bytes, std::string_view lines, WarningsByKind& warnings)
+  ObjCheck(const std::string& file, std::string_view bytes, std::string_view lines, WarningsByKind& warnings)
       : file_(file), bytes_(bytes), lines_(lines), warnings_(warnings) {}
 
   ObjNames check() {
@@ -162,7 +162,7 @@ class Checker {
 
 ObjNames checkObjLines(const std::string& file, std::string_view bytes, std::string_view lines,
                        WarningsByKind& warnings) {
-  return Checker(file, bytes, lines, warnings).check();
+  return ObjCheck(file, bytes, lines, warnings).check();
 }
 
 }  // namespace trace

@@ -184,7 +184,7 @@ class PlyReader {
   std::vector<Column> columns_;
   MeshData mesh_;
   Model model_;
-  Textures textures_;
+  UnusedTextures textures_;
   bool hasVertices_ = false, hasFaces_ = false;
 };
 

@@ -44,6 +44,14 @@ bool read(Findings& findings, std::string_view name, const Item& value, bool& to
   return true;
 }
 
+bool read(Findings& findings, std::string_view name, const Item& value, Pixels& to) {
+  if (!read(findings, name, value, to.file)) return false;
+  to.place = findings.syntax().shortPlace(value.offset());
+  return true;
+}
+
+std::string written(const Pixels& value, int digits) { return written(value.file, digits); }
+
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {
   Real n[3];
   if (!numbers(value, n, 3)) return findings.expected(value, name, "(x, y, z)"), false;

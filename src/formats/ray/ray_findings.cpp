@@ -108,12 +108,6 @@ void Findings::unknownField(std::string_view owner, const Item& field,
       warnings_.size() < kFullWarnings ? didYouMean(name, known) : std::string());
 }
 
-void Findings::texture(std::string_view file, const Item& node) {
-  const Place place = textures_.empty() ? syntax_.place(node.offset()) : syntax_.shortPlace(node.offset());
-  scene_.unrendered.push_back({"map", syntax_.shortPlace(node.offset()), std::string(node.source())});
-  textures_.note(file, place);
-}
-
 bool Findings::isUnknown(std::string_view owner, std::string_view field) const {
   return kinds_.contains("unknown field: " + std::string(owner) + "." + std::string(field)) ||
          kinds_.contains("not rendered: " + std::string(field));
@@ -141,7 +135,6 @@ void Findings::finish() {
   }
   warnings_.clear();
   kinds_.clear();
-  textures_.report(messages_, "white, or the second value of map(\"file\", (r, g, b)),");
 }
 
 std::optional<Item> blockOf(Findings& findings, const Item& call) {

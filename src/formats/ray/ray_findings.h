@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "formats/ray/ray_notes.h"
 #include "formats/ray/ray_syntax.h"
-#include "formats/textures.h"
 #include "scene/scene.h"
 
 namespace trace::rayfile {
@@ -45,9 +44,6 @@ class Findings {
                    std::span<const std::string_view> known);
   /// A field that `owner` does not have: not rendered if the format's relatives have it, else ignored.
   void unknownField(std::string_view owner, const Item& field, std::span<const std::string_view> known);
-
-  /// A picture in place of a field's value: kept as Unrendered, and told with all others of the file.
-  void texture(std::string_view file, const Item& node);
 
   /// Was a field of that name not known before?
   bool isUnknown(std::string_view owner, std::string_view field) const;
@@ -84,7 +80,6 @@ class Findings {
   std::size_t errors_ = 0;
   bool later_ = false;  ///< than 2001
   bool largeShininess_ = false;
-  Textures textures_;
 };
 
 /// Warns of the fields of a block that are given again.

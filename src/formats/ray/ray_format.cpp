@@ -84,6 +84,7 @@ class Reader {
   }
 
   void topLevelEntry(const Item& item) {
+    if (item.key() == kTexture) return materials_.textures().define(item.value());
     if (item.key() != Phong::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
     findings_.sureSignOf2005();
     materials_.current = materials_.read(item.value(), materials_.current);

@@ -21,8 +21,8 @@ std::size_t mixed(std::size_t hash, std::size_t more) {
 
 std::size_t hashOf(const Material& material, const Phong& phong) {
   std::size_t hash = std::hash<std::string>{}(material.name);
-  for (const FieldMap& map : material.maps)
-    hash = mixed(hash, std::hash<std::string>{}(map.field + map.file));
+  for (const FieldTexture& t : material.textures)
+    hash = mixed(hash, std::hash<std::string>{}(t.field + summary(t.texture)));
   const auto add = [&](double number) { hash = mixed(hash, std::hash<double>{}(number)); };
   forEachField<Phong>([&](const auto& f) {
     const auto& value = phong.*f.member;
@@ -32,41 +32,6 @@ std::size_t hashOf(const Material& material, const Phong& phong) {
       add(value);
   });
   return hash;
-}
-
-/// The keyword of the field and whether it is a colour, if Phong has such a field.
-std::optional<bool> isColor(std::string_view keyword) {
-  std::optional<bool> result;
-  forEachField<Phong>([&](const auto& f) {
-    if (f.keyword == keyword)
-      result = std::is_same_v<std::remove_cvref_t<decltype(Phong{}.*f.member)>, Color>;
-  });
-  return result;
-}
-
-void setWhite(Phong& phong, std::string_view keyword) {
-  forEachField<Phong>([&](const auto& f) {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(phong.*f.member)>, Color>)
-      if (f.keyword == keyword) phong.*f.member = Color(1);
-  });
-}
-
-/// Reads a value into the field of that keyword.
-void setField(Findings& findings, Phong& phong, std::string_view keyword, const Item& value) {
-  forEachField<Phong>([&](const auto& f) {
-    if (f.keyword == keyword) rayfile::read(findings, keyword, value, phong.*f.member);
-  });
-}
-
-/// The file of `map("file")` or `map("file", factor)`, or of a bare string where a number is expected.
-std::optional<std::string_view> fileOf(const Item& value) {
-  if (value.is(Kind::word))
-    return value.source().starts_with('"') ? std::optional(value.text()) : std::nullopt;
-  if (!value.is(Kind::call) || value.key() != "map") return {};
-  const Item tuple = value.value();
-  if (!tuple.is(Kind::tuple) || tuple.count() < 1 || tuple.count() > 2 || !(*tuple.begin()).is(Kind::word))
-    return {};
-  return (*tuple.begin()).text();
 }
 
 }  // namespace
@@ -143,42 +108,35 @@ void Materials::field(Block& block, const Item& field) {
     rayfile::read(findings_, key, field.value(), block.material.name);
     return;
   }
-  if (!isColor(key)) return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
-
   if (key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
     block.gaveReflective = false, block.phong.mirrorsSpecular = true;
     return;
   }
-  std::erase_if(block.material.maps, [&](const FieldMap& map) { return map.field == key; });
-  if (!picture(block, field)) {
-    assignField(findings_, block.phong, field);
-    checkRange(findings_, block.phong, field);
+  if (!pattern(block, field)) {
+    if (!textures_.assign(block.phong, block.material.textures, field))
+      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
     if (key == "index" && block.phong.index == 0)
       findings_.warn(field, "index of material: expected a number above 0, found 0",
                      "air has 1, water 1.33, glass 1.5");
-    if (key == "shininess") block.shininess = field;
+    if (key == "shininess" && field.value().is(Kind::number)) block.shininess = field;
   }
   if (key == "reflective") block.gaveReflective = true, block.phong.mirrorsSpecular = false;
   if (key == "specular" && !block.gaveReflective) block.phong.mirrorsSpecular = true;
 }
 
-/// Is the field given by a picture or a pattern? Until those are rendered, white shows where they go.
-bool Materials::picture(Block& block, const Item& field) {
+/// Is the field given by a pattern that Trace does not render? White shows where it goes.
+bool Materials::pattern(Block& block, const Item& field) {
   const Item value = field.value();
-  const auto file = fileOf(value);
-  const bool pattern = value.is(Kind::call) && value.key() != "map" && isRelative(value.key());
-  if (!file && !pattern) return false;
-  if (file) {
-    block.material.maps.push_back({std::string(field.key()), std::string(*file)});
-    findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(*file)));
-    findings_.texture(*file, value);
-  } else {
-    findings_.notRendered(value.key(), value, {});
-  }
-  if (isColor(field.key()).value_or(false)) setWhite(block.phong, field.key());
-  if (file && value.is(Kind::call) && value.value().count() == 2)
-    setField(findings_, block.phong, field.key(), *++value.value().begin());
-  return true;
+  if (!value.is(Kind::call) || textures_.isTexture(value) || !isRelative(value.key())) return false;
+  bool known = false;
+  forEachField<Phong>([&](const auto& f) {
+    if (f.keyword != field.key()) return;
+    known = true;
+    auto& constant = block.phong.*f.member;
+    if constexpr (requires { constant.r; }) constant = Color(1);
+  });
+  if (known) findings_.notRendered(value.key(), value, {});
+  return known;
 }
 
 /// Whoever describes all looks of a material but that it is glass seldom wants the glass of another.

@@ -11,13 +11,16 @@
 #include "formats/ray/ray_findings.h"
 #include "formats/ray/ray_notes.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/ray/ray_texture.h"
 #include "shading/material.h"
 
 namespace trace::rayfile {
 
 class Materials {
  public:
-  explicit Materials(Findings& findings) : findings_(findings) {}
+  explicit Materials(Findings& findings) : findings_(findings), textures_(findings) {}
+
+  TextureReader& textures() { return textures_; }
 
   /// What primitives without a material get, and material blocks start from.
   NotedMaterial current;
@@ -36,11 +39,12 @@ class Materials {
  private:
   struct Block;
   void field(Block& block, const Item& field);
-  bool picture(Block& block, const Item& field);
+  bool pattern(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);
 
   Findings& findings_;
+  TextureReader textures_;
   struct Named {
     NotedMaterial material;
     Place place;

@@ -84,7 +84,7 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
     Model& model = models_.emplace(path, readModel(path, bytes, messages)).first->second;
     inputs.note(model.inputs);
     for (Material& material : model.materials)  // pictures lie beside the mesh, and are named from the scene
-      for (FieldMap& map : material.maps) map.file = besideFile(name, map.file);
+      changePixels(material, [&](Pixels& pixels) { pixels.file = besideFile(name, pixels.file); });
     for (const Message& warning : messages.all())
       findings_.warn(field, placeText(warning.place) + ": " + warning.what, warning.hint);
     return &model;

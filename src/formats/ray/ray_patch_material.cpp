@@ -3,24 +3,20 @@
 #include <algorithm>
 #include <utility>
 
+#include "formats/ray/ray_texture.h"
+
 namespace trace::rayfile {
 namespace {
 
-const std::string* pictureOf(const Material& material, std::string_view field) {
-  for (const FieldMap& map : material.maps)
-    if (map.field == field) return &map.file;
-  return nullptr;
-}
-
-bool samePicture(const Material& a, const Material& b, std::string_view field) {
-  const std::string *x = pictureOf(a, field), *y = pictureOf(b, field);
+bool sameTexture(const Material& a, const Material& b, std::string_view field) {
+  const Texture *x = textureOf(a.textures, field), *y = textureOf(b.textures, field);
   return x && y ? *x == *y : x == y;
 }
 
 template <class Value>
 std::string valueText(const Material& material, std::string_view field, const Value& value) {
-  const std::string* picture = pictureOf(material, field);
-  return picture ? "map(" + written(*picture, 0) + ", " + written(value, 0) + ")" : written(value, 0);
+  const Texture* texture = textureOf(material.textures, field);
+  return texture ? textured(*texture, value, 0) : written(value, 0);
 }
 
 /// Follows, as the reader does, whether the mirror has the colour of the highlight.
@@ -127,13 +123,13 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
   for (const Item item : block)
     if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
   phong.mirrorsSpecular = mirror.specular;
-  std::erase_if(result.maps, [&](const FieldMap& map) { return !fieldOf(block, map.field); });
+  std::erase_if(result.textures, [&](const FieldTexture& t) { return !fieldOf(block, t.field); });
   forEachField<Phong>([&](const auto& f) {
     const std::optional<Item> given = fieldOf(block, f.keyword);
     if (given && !namesSpecular(given->value())) return;
     phong.*f.member = phongOf(from).*f.member;
-    if (const std::string* picture = pictureOf(from, f.keyword))
-      result.maps.push_back({std::string(f.keyword), *picture});
+    if (const Texture* texture = textureOf(from.textures, f.keyword))
+      result.textures.push_back({std::string(f.keyword), *texture});
   });
   result.model = phong;
   return result;
@@ -176,7 +172,7 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
   forEachField<Phong>([&](const auto& f) {
     if (given(f.keyword)) return;
     const auto value = phongOf(wanted).*f.member;
-    if (all || !(value == phongOf(from).*f.member) || !samePicture(from, wanted, f.keyword))
+    if (all || !(value == phongOf(from).*f.member) || !sameTexture(from, wanted, f.keyword))
       add(f.keyword, valueText(wanted, f.keyword, value));
   });
   if (mirror.specular != phongOf(wanted).mirrorsSpecular)

@@ -15,6 +15,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
@@ -185,10 +186,10 @@ class Writer {
   void modelFields(const Material& material, const Model& model) {
     forEachField<Model>([&](const auto& f) {
       const auto& value = model.*f.member;
-      const std::string* picture = pictureOf(material, f.keyword);
-      const bool differs = inWhole_ || picture || value != Model{}.*f.member;
-      if (picture)
-        item(f.keyword, "map(" + written(*picture, digits_) + ", " + written(value, digits_) + ")");
+      const Texture* texture = textureOf(material.textures, f.keyword);
+      const bool differs = inWhole_ || texture || value != Model{}.*f.member;
+      if (texture)
+        item(f.keyword, textured(*texture, value, digits_, &writtenTextures_));
       else if (differs || isSaidAnyway(material, model, f.keyword))
         item(f.keyword, written(value, digits_));
       if constexpr (requires { model.mirrorsSpecular; })
@@ -201,16 +202,10 @@ class Writer {
   static bool isSaidAnyway(const Material& material, const Model& model, std::string_view keyword) {
     if constexpr (requires { model.mirrorsSpecular; }) {
       if (keyword == "specular") return model.mirrorsSpecular;
-      const bool saidSpecular = !isBlack(model.specular) || pictureOf(material, "specular");
+      const bool saidSpecular = !isBlack(model.specular) || textureOf(material.textures, "specular");
       if (keyword == "reflective") return !model.mirrorsSpecular && saidSpecular;
     }
     return false;
-  }
-
-  static const std::string* pictureOf(const Material& material, std::string_view field) {
-    for (const FieldMap& map : material.maps)
-      if (map.field == field) return &map.file;
-    return nullptr;
   }
 
   // --- objects ---
@@ -310,6 +305,7 @@ class Writer {
       shared_;  ///< how many objects have a mesh; its number in the file
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
+  WrittenTextures writtenTextures_;
   std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
 };
 

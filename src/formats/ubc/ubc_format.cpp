@@ -68,7 +68,6 @@ class Reader {
       warnings_.warn({scene_.file, 0, 0, {}},
                      "PushMatrix without a PopMatrix after it: " + std::to_string(stack_.size() - 1));
     warnings_.report(messages_);
-    textures_.report(messages_);
     warnOfNothing(scene_, view_, viewPlace_, messages_);
     return std::move(scene_);
   }
@@ -256,9 +255,7 @@ class Reader {
   void texture(const Parameter& p, Material& material) {
     if (!p.text) tokens_.fail(p.key, "texture: expected the name of a picture in quotes");
     if (p.text->empty()) return;
-    material.maps.push_back({"diffuse", std::string(*p.text)});
-    scene_.inputs.noteNamed(findFile(scene_.file, material.maps.back().file));
-    textures_.note(*p.text, tokens_.place(p.key));
+    material.textures.push_back({"diffuse", pictureTexture(std::string(*p.text), tokens_.place(p.key))});
   }
 
   void ignored(const Parameter& p, std::string_view owner) {
@@ -432,7 +429,6 @@ class Reader {
   std::map<std::string, std::vector<Object>> files_;
   std::vector<std::string> told_;
   WarningsByKind warnings_;
-  Textures textures_;
 };
 
 bool isCommand(std::string_view word) {

@@ -1,0 +1,94 @@
+#include "shading/texture.h"
+
+#include <cmath>
+#include <utility>
+
+namespace trace {
+
+struct Texture::Data {
+  TextureNode node;
+  bool moved = false;
+  Affine patternFromObject;  ///< the identity where it is flat
+};
+
+namespace {
+
+Affine patternFromObject(const TexturePlacement& p) {
+  const auto turn = [&](const Vec3& axis, Real degrees) {
+    return Affine::rotation(axis, degrees * kPi / 180);
+  };
+  const Affine placed = Affine::translation(p.translate) * turn({0, 0, 1}, p.rotate.z) *
+                        turn({0, 1, 0}, p.rotate.y) * turn({1, 0, 0}, p.rotate.x) * Affine::scaling(p.scale);
+  return invertible(placed) ? inverse(placed) : Affine{};
+}
+
+TexturePlace moved(const TexturePlace& p, const Affine& m) {
+  const auto flat = [](const Vec3& v) { return Vec2{v.x, v.y}; };
+  const auto step = [&](const Vec2& v) { return flat(linear(m, Vec3{v.x, v.y, 0})); };
+  return {.point = m * p.point,
+          .uv = flat(m * Vec3{p.uv.x, p.uv.y, 0}),
+          .uvX = step(p.uvX),
+          .uvY = step(p.uvY),
+          .pointX = linear(m, p.pointX),
+          .pointY = linear(m, p.pointY)};
+}
+
+}  // namespace
+
+Texture::Texture(TextureNode node) {
+  auto data = std::make_shared<Data>(Data{std::move(node), false, {}});
+  data->moved = !(data->node.placement == TexturePlacement{});
+  if (data->moved) data->patternFromObject = patternFromObject(data->node.placement);
+  data_ = std::move(data);
+}
+
+const TextureNode& Texture::operator*() const { return data_->node; }
+
+bool Texture::operator==(const Texture& other) const {
+  return data_ == other.data_ || data_->node == other.data_->node;
+}
+
+Color Texture::at(const TexturePlace& place) const {
+  return data_->moved ? at(data_->node, moved(place, data_->patternFromObject)) : at(data_->node, place);
+}
+
+Color Texture::at(const TextureNode& node, const TexturePlace& place) {
+  return match(node.model, [&](const auto& model) {
+    if (node.inputs.empty()) return model.at(place);
+    auto own = model;
+    applyTextures(own, node.inputs, place);
+    return own.at(place);
+  });
+}
+
+std::string summary(const Texture& texture) {
+  if (!texture->name.empty()) return texture->name;
+  return match(texture->model, [](const auto& model) {
+    std::string kind(model.kKeyword);
+    if constexpr (requires { model.file; }) kind += " " + model.file.file;
+    return kind;
+  });
+}
+
+Texel ImageMap::texelAt(const TexturePlace& place) const {
+  if (!file.map) return {};
+  const auto& m = transform;
+  const Vec2 uv{m[0] * place.uv.x + m[1] * place.uv.y + m[2], m[3] * place.uv.x + m[4] * place.uv.y + m[5]};
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
+  const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };
+  return file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds, srgb, step(place.uvX), step(place.uvY)});
+}
+
+Color ImageMap::at(const TexturePlace& place) const {
+  const Texel texel = texelAt(place);
+  switch (channel) {
+    case Channel::color: break;
+    case Channel::red: return Color(texel.color.r);
+    case Channel::green: return Color(texel.color.g);
+    case Channel::blue: return Color(texel.color.b);
+    case Channel::alpha: return Color(texel.alpha);
+  }
+  return texel.color;
+}
+
+}  // namespace trace

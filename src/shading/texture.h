@@ -1,0 +1,119 @@
+// THE list of textures, and a texture as a scene keeps it: a value that changes over a surface.
+//
+// Each is one header in shading/textures/: a struct with kKeyword, kHelp, fields() and
+//   Color at(const TexturePlace&) const;
+// which gives a finite colour at a finite place.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/match.h"
+#include "math/transform.h"
+#include "shading/texture_place.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/image_map.h"
+
+namespace trace {
+
+using TextureModel = std::variant<ImageMap, Checker>;
+
+/// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
+/// and v is moved there, as if they were x and y.
+struct TexturePlacement {
+  Vec3 scale{1, 1, 1};
+  Vec3 rotate{}, translate{};
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"scale", &TexturePlacement::scale, "", -kNoLimit, kNoLimit, "makes the pattern larger"},
+        Field{"rotate", &TexturePlacement::rotate, "degrees", -kNoLimit, kNoLimit,
+              "turns it about x, then y, then z"},
+        Field{"translate", &TexturePlacement::translate, "", -kNoLimit, kNoLimit, "moves it"}};
+  }
+  bool operator==(const TexturePlacement&) const = default;
+};
+
+struct TextureNode;
+struct FieldTexture;
+
+/// Constant data that copies share.
+class Texture {
+ public:
+  Texture(TextureNode node);  // NOLINT(google-explicit-constructor): a node is a texture
+
+  const TextureNode& operator*() const;
+  const TextureNode* operator->() const { return &**this; }
+  Color at(const TexturePlace& place) const;
+
+  /// Two that share their data are equal at once.
+  bool operator==(const Texture& other) const;
+
+ private:
+  struct Data;
+  static Color at(const TextureNode& node, const TexturePlace& place);
+  std::shared_ptr<const Data> data_;
+};
+
+/// A texture in place of a constant: the field's own value scales it. Numbers take its luminance.
+struct FieldTexture {
+  std::string field;  ///< keyword of the material's or texture's field
+  Texture texture;
+  bool operator==(const FieldTexture&) const = default;
+};
+
+struct TextureNode {
+  std::string name{};
+  TextureModel model{};
+  TexturePlacement placement{};
+  std::vector<FieldTexture> inputs{};
+  bool operator==(const TextureNode&) const = default;
+};
+
+/// That of the field; null if it has none.
+inline const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field) {
+  for (const FieldTexture& t : textures)
+    if (t.field == field) return &t.texture;
+  return nullptr;
+}
+
+/// A picture on a field.
+inline Texture pictureTexture(std::string file, Place place = {}) {
+  return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
+}
+
+/// A few words for a person: its name, or what it is.
+std::string summary(const Texture& texture);
+
+/// What a number takes of a colour.
+constexpr Real luminance(const Color& c) { return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b; }
+
+/// Multiplies the fields that have textures by them.
+template <class Struct>
+void applyTextures(Struct& to, const std::vector<FieldTexture>& textures, const TexturePlace& place) {
+  for (const FieldTexture& t : textures)
+    forEachField<Struct>([&](const auto& f) {
+      auto& value = to.*f.member;
+      if constexpr (requires { value.r; }) {
+        if (f.keyword == t.field) value *= t.texture.at(place);
+      } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>) {
+        if (f.keyword == t.field) value *= luminance(t.texture.at(place));
+      }
+    });
+}
+
+/// The same texture with every picture in it, however deep, changed: change(Pixels&).
+template <class Change>
+Texture withPixels(const Texture& texture, const Change& change) {
+  TextureNode node = *texture;
+  match(node.model, [&](auto& model) {
+    if constexpr (requires { model.file; }) change(model.file);
+  });
+  for (FieldTexture& input : node.inputs) input.texture = withPixels(input.texture, change);
+  return node;
+}
+
+}  // namespace trace

@@ -1,0 +1,65 @@
+// A picture on a surface, by its texture coordinates.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/field.h"
+#include "image/mipmap.h"
+#include "shading/texture_place.h"
+
+namespace trace {
+
+/// The pixels of a file, behind a shared const handle; null until they are loaded (formats/textures.h).
+struct Pixels {
+  std::string file;                   ///< as the scene names it
+  std::shared_ptr<const MipMap> map;  ///< follows from the file
+  Place place;                        ///< where the scene names it
+  bool operator==(const Pixels& other) const { return file == other.file; }
+};
+
+/// What of a texel counts.
+enum class Channel { color, red, green, blue, alpha };
+constexpr std::array<std::string_view, 5> names(Channel) {
+  return {"color", "red", "green", "blue", "alpha"};
+}
+
+struct ImageMap {
+  static constexpr std::string_view kKeyword = "image";
+  static constexpr std::string_view kHelp = "a picture, by u and v: (0, 0) is its bottom left corner";
+
+  Pixels file;
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  TexelFilter filter = TexelFilter::bilinear;
+  bool centersAtEnds = false;
+  bool srgb = false;
+  Channel channel = Channel::color;
+  std::array<Real, 6> transform{1, 0, 0, 0, 1, 0};
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"file", &ImageMap::file, "", -kNoLimit, kNoLimit, "the picture"},
+        Field{"wrap_u", &ImageMap::wrapU, "", -kNoLimit, kNoLimit, "what lies beyond its sides"},
+        Field{"wrap_v", &ImageMap::wrapV, "", -kNoLimit, kNoLimit, "what lies above and below it"},
+        Field{"filter", &ImageMap::filter, "", -kNoLimit, kNoLimit, "how texels are mixed"},
+        Field{"centers_at_ends", &ImageMap::centersAtEnds, "", -kNoLimit, kNoLimit,
+              "the outermost texels have their centres at 0 and 1, not their edges"},
+        Field{"srgb", &ImageMap::srgb, "", -kNoLimit, kNoLimit,
+              "its numbers are sRGB and are made linear, before they are mixed; otherwise they are taken as "
+              "they are"},
+        Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
+        Field{
+            "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
+            "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
+  }
+  bool operator==(const ImageMap&) const = default;
+
+  /// Black where nothing is loaded.
+  Texel texelAt(const TexturePlace& place) const;
+  Color at(const TexturePlace& place) const;
+};
+
+}  // namespace trace
