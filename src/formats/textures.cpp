@@ -1,7 +1,6 @@
 #include "formats/textures.h"
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -16,10 +15,11 @@ namespace {
 
 /// A picture file of the scene, and what came of reading it.
 struct Loaded {
-  Place place;  ///< where the scene names it first
+  std::string name;  ///< as the scene has it
+  Place place;       ///< where the scene names it first
   std::string bytes;
   std::shared_ptr<const MipMap> map;
-  std::exception_ptr failure;
+  std::string failure;  ///< why there is no map
 };
 
 /// What nobody takes for the surface that was meant.
@@ -46,7 +46,7 @@ void load(const std::string& path, Loaded& loaded) {
     loaded.map = MipMap::decode(loaded.bytes, path);
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
-    loaded.failure = std::current_exception();
+    loaded.failure = error.messages().front().what;
   }
 }
 
@@ -62,7 +62,7 @@ void loadTextures(Scene& scene, Messages& messages) {
       if (pixels.map || pixels.file.empty()) return;
       const auto [found, fresh] = byPath.try_emplace(pathOf(scene, pixels.file));
       if (!fresh) return;
-      found->second.place = pixels.place;
+      found->second.name = pixels.file, found->second.place = pixels.place;
       files.push_back(&*found);
     });
   if (files.empty()) return;
@@ -73,6 +73,8 @@ void loadTextures(Scene& scene, Messages& messages) {
     load(path, loaded);
   });
 
+  UnusedTextures unread;
+  std::string reason;  // of the first
   for (auto* file : files) {
     auto& [path, loaded] = *file;
     if (loaded.bytes.empty())
@@ -80,16 +82,12 @@ void loadTextures(Scene& scene, Messages& messages) {
     else
       scene.inputs.noteRead(path, loaded.bytes);
     std::string().swap(loaded.bytes);
-    if (!loaded.failure) continue;
+    if (loaded.map) continue;
     loaded.map = missingPicture();
-    try {
-      std::rethrow_exception(loaded.failure);
-    } catch (const Error& error) {
-      const Place place = loaded.place.file.empty() ? Place{.file = scene.file} : loaded.place;
-      messages.warn(place, "a texture cannot be read: " + error.messages().front().what,
-                    "a checker of magenta and black shows in its place");
-    }
+    if (unread.empty()) reason = loaded.failure;
+    unread.note(loaded.name, loaded.place.file.empty() ? Place{.file = scene.file} : loaded.place);
   }
+  unread.reportUnread(messages, reason);
   for (Material& material : scene.materials)
     changePixels(material, [&](Pixels& pixels) {
       if (pixels.map || pixels.file.empty()) return;
@@ -102,7 +100,7 @@ void UnusedTextures::note(std::string_view name, const Place& place) {
   if (known_.emplace(name).second) names_.emplace_back(name.substr(0, kLongName));
 }
 
-std::string UnusedTextures::warning() const {
+std::string UnusedTextures::list() const {
   const std::size_t count = names_.size();
   const std::size_t named = count <= kMostNamed + 1 ? count : kMostNamed;
   std::string list;
@@ -111,12 +109,19 @@ std::string UnusedTextures::warning() const {
     list += (i == 0 ? "" : last ? " and " : ", ") + ("\"" + names_[i] + "\"");
   }
   if (named < count) list += " and " + std::to_string(count - named) + " more";
-  return count == 1 ? "the texture " + list + " is not rendered yet"
-                    : "the textures " + list + " are not rendered yet";
+  return (count == 1 ? "the texture " : "the textures ") + list;
 }
 
 void UnusedTextures::report(Messages& messages, std::string_view instead) const {
-  if (!names_.empty()) messages.warn(place_, warning(), std::string(instead) + " shows instead");
+  if (names_.empty()) return;
+  messages.warn(place_, list() + (names_.size() == 1 ? " is" : " are") + " not rendered yet",
+                std::string(instead) + " shows instead");
+}
+
+void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) const {
+  if (names_.empty()) return;
+  messages.warn(place_, list() + " cannot be read: " + std::string(reason),
+                "a checker of magenta and black shows instead");
 }
 
 }  // namespace trace

@@ -1,4 +1,5 @@
-// The pictures that a scene names: loaded for the textures that are rendered, and told for those that are not.
+// The pictures that a scene names: loaded for the textures that are rendered, and told for those that are
+// not.
 //
 // All readers share this, so that no texture vanishes without a word and a file of a hundred has one warning.
 #pragma once
@@ -18,7 +19,7 @@ namespace trace {
 /// missing or broken is a warning, and a checker in its place. Throws Error(Fault::limit) where memory lacks.
 void loadTextures(Scene& scene, Messages& messages);
 
-/// Pictures that Trace does not render.
+/// Pictures that a scene names and nobody will see.
 class UnusedTextures {
  public:
   /// Notes one by its name as the file gives it. The first one gives the warning its place.
@@ -28,8 +29,12 @@ class UnusedTextures {
   /// Warns if there was one. `instead` says what is seen in their place.
   void report(Messages& messages, std::string_view instead = "the material's own colour") const;
 
+  /// Warns if there was one that cannot be read, for what reason the first.
+  void reportUnread(Messages& messages, std::string_view reason) const;
+
  private:
-  std::string warning() const;
+  /// `the textures "a", "b" and 3 more`.
+  std::string list() const;
 
   Place place_;
   std::vector<std::string> names_;  ///< each once

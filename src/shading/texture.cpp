@@ -1,5 +1,6 @@
 #include "shading/texture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -59,6 +60,17 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
     applyTextures(own, node.inputs, place);
     return own.at(place);
   });
+}
+
+bool wantsFootprint(const Texture& texture) {
+  const bool itself = match(texture->model, [](const auto& model) {
+    if constexpr (requires { model.wantsFootprint(); })
+      return model.wantsFootprint();
+    else
+      return false;
+  });
+  return itself || std::any_of(texture->inputs.begin(), texture->inputs.end(),
+                               [](const FieldTexture& input) { return wantsFootprint(input.texture); });
 }
 
 std::string summary(const Texture& texture) {

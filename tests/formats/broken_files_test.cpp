@@ -87,7 +87,7 @@ TEST(BrokenFiles, Ray) {
       {"a.ray", ray("sphere { material = { diffuse = (255, 0, 0); } }"),
        "warning diffuse of material: expected 0 to 1"},
       {"a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }"),
-       "warning the texture \"wood.png\" is not rendered yet"},
+       "warning the texture \"wood.png\" cannot be read"},
       {"a.ray", ray("sphere { name = a; name = b; }"), "warning name of sphere given again"},
       {"a.ray", ray("lathe { profile = ((1, 0), (1, 1)); }"),
        "warning profile: expected at least 4 points for the spline bezier, found 2"},
@@ -233,7 +233,7 @@ TEST(BrokenFiles, Ubc) {
       {"a.ray", ubc("Material \"n\" \"diffuse\" [1 0 0] \"diffuse\" [0 1 0]\nSphere 1 \"n\""),
        "warning \"diffuse\" is given again"},
       {"a.ray", ubc("Material \"n\" \"texture\" \"wood.bmp\"\nSphere 1 \"n\""),
-       "warning the texture \"wood.bmp\" is not rendered yet"},
+       "warning the texture \"wood.bmp\" cannot be read"},
       {"a.ray", ubc("PointLight 0 0 5 \"attenuation\" [-1 0 0]\nSphere 1 \"m\""),
        "warning attenuation: expected numbers"},
       {"a.ray", ubc("PointLight 0 0 5 \"diffuse\" [-1 0 0]\nSphere 1 \"m\""),
@@ -296,7 +296,7 @@ TEST(BrokenFiles, Composer) {
       {"a.out", composer("sphere { name NULL\n numMaterials 3 }"),
        "warning numMaterials says 3, but the file has 0"},
       {"a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }"),
-       "warning the texture \"wood.png\" is not rendered"},
+       "warning the texture \"wood.png\" cannot be read"},
       {"a.out", composer("sphere { name \"bump=dents.png\" numMaterials 0 }"),
        "warning the texture \"dents.png\" is not rendered"},
       {"a.out", composer("sphere { name \"ior=banana\" numMaterials 0 }"),
@@ -415,7 +415,7 @@ TEST(BrokenFiles, Inventor) {
       {"a.iv", iv("Texture2 { image 1 1 3 0xff0000 } Sphere { }"),
        "warning the texture \"Texture2 (inside the file)\""},
       {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture ImageTexture { url \"wood.png\" } }"),
-       "warning the texture \"wood.png\" is not rendered yet"},
+       "warning the texture \"wood.png\" cannot be read"},
       {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture PixelTexture { image 1 1 1 0xff } }"),
        "warning the texture \"PixelTexture (inside the file)\""},
       {"a.wrl", "#VRML V2.0 utf8\nBackground { frontUrl \"sky.png\" }", "warning the texture \"sky.png\""},
@@ -469,15 +469,15 @@ TEST(BrokenFiles, Obj) {
       {"illum 99", "warning illum: expected 0 to 10, found 99"},
       {"banana 1", "warning \"banana\" is not known and is skipped"},
       {"map_Kd", "warning map_Kd: expected the name of a picture"},
-      {"map_Kd wood.png", "warning the texture \"wood.png\" is not rendered yet"},
-      {"map_Ns -s 2 2 2 shine.png", "warning the texture \"shine.png\" is not rendered yet"},
+      {"map_Kd wood.png", "warning the texture \"wood.png\" cannot be read"},
+      {"map_Ns -s 2 2 2 shine.png", "warning the texture \"shine.png\" cannot be read"},
       {"bump -bm 0.5 dents.png", "warning the texture \"dents.png\" is not rendered yet"},
       {"disp deep.png", "warning the texture \"deep.png\" is not rendered yet"},
       {"norm normals.png", "warning the texture \"normals.png\" is not rendered yet"},
       {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
       {"map_d holes.png", "warning the texture \"holes.png\" is not rendered yet"},
       {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
-       "warning the textures \"a.png\", \"b.png\", \"c.png\" and 2 more are not rendered yet"},
+       "warning the textures \"a.png\", \"b.png\", \"c.png\" and \"d.png\" cannot be read"},
   };
   for (const auto& [line, expected] : materials) {
     writeFile(folder.path() + "/a.mtl", std::string("newmtl gold\n") + line + "\n");
@@ -682,7 +682,7 @@ TEST(BrokenFiles, Gltf) {
       {"a.gltf",
        gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 0}")
            .insert(1, "\"textures\": [{\"source\": 0}], \"images\": [{\"uri\": \"wood.png\"}], "),
-       "warning the texture \"wood.png\" is not rendered yet"},
+       "warning the texture \"wood.png\" cannot be read"},
       {"a.gltf",
        gltfMaterial("\"normalTexture\": {\"index\": 0}")
            .insert(1,
@@ -736,7 +736,7 @@ std::size_t warningsOfTextures(const std::string& file, const std::string& text)
   readScene(file, text, messages);
   return static_cast<std::size_t>(
       std::count_if(messages.all().begin(), messages.all().end(),
-                    [](const Message& m) { return m.what.find("not rendered yet") != m.what.npos; }));
+                    [](const Message& m) { return m.what.starts_with("the textures"); }));
 }
 
 TEST(BrokenFiles, TexturesOfEveryFormatAreNamedOnce) {
@@ -745,7 +745,7 @@ TEST(BrokenFiles, TexturesOfEveryFormatAreNamedOnce) {
                    textures, images;
   for (int i = 0; i < 100; ++i) {
     const std::string n = std::to_string(i), picture = "picture" + n + ".png", comma = i ? ", " : "";
-    mtl += "newmtl m" + n + "\nmap_Kd " + picture + "\nbump " + picture + "\n";
+    mtl += "newmtl m" + n + "\nmap_Kd " + picture + "\n";
     obj += "usemtl m" + n + "\nf 1 2 3\n";
     scene += "sphere { material = { diffuse = map(\"" + picture + "\"); } }\n";
     course += "Material \"m" + n + "\" \"texture\" \"" + picture + "\" Sphere 1 \"m" + n + "\"\n";
@@ -775,13 +775,17 @@ TEST(BrokenFiles, KeepTheNamesOfTheirTextures) {
   const test::Folder folder;
   writeFile(folder / "a.mtl", "newmtl m\nmap_Kd wood.png\nmap_Ns shine.png\n");
   Messages messages;
+  using Names = std::vector<std::pair<std::string, std::string>>;
   const auto maps = [&](const std::string& file, const std::string& text) {
     const Scene read = readScene(file, text, messages);
-    return read.materials.at(read.objects.at(0).material).maps;
+    Names names;
+    for (const FieldTexture& t : read.materials.at(read.objects.at(0).material).textures)
+      names.emplace_back(t.field, std::get<ImageMap>(t.texture->model).file.file);
+    return names;
   };
   EXPECT_EQ(maps(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"),
-            (std::vector<FieldMap>{{"diffuse", "wood.png"}, {"shininess", "shine.png"}}));
-  const std::vector<FieldMap> wood{{"diffuse", "wood.png"}};
+            (Names{{"diffuse", "wood.png"}, {"shininess", "shine.png"}}));
+  const Names wood{{"diffuse", "wood.png"}};
   EXPECT_EQ(maps("a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }")), wood);
   EXPECT_EQ(maps("a.ray", ubc("Material \"n\" \"texture\" \"wood.png\" Sphere 1 \"n\"")), wood);
   EXPECT_EQ(maps("a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }")), wood);

@@ -58,7 +58,7 @@ TEST(Composer, MaterialsAreGlassOfAFixedIndexThatNamesMayChange) {
   EXPECT_EQ(phong.transmissive, Color(0.5));
   EXPECT_EQ(phong.reflective, Color(0.4));
   EXPECT_EQ(phong.index, 1.33);
-  EXPECT_EQ(material.maps, (std::vector<FieldMap>{{"diffuse", "wood.png"}}));
+  EXPECT_EQ(material.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("wood.png")}}));
   EXPECT_EQ(std::get<Phong>(scene.materials[scene.objects[1].material].model).index, 1.5);
 }
 

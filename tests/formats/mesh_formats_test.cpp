@@ -63,7 +63,7 @@ TEST(Obj, MakesAnObjectOfEachNameAndMaterial) {
 
   const Material& red = scene.materials.at(scene.objects[0].material);
   EXPECT_EQ(red.name, "red");
-  EXPECT_EQ(red.maps, (std::vector<FieldMap>{{"diffuse", "bricks.png"}}));
+  EXPECT_EQ(red.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("bricks.png")}}));
   EXPECT_NEAR(phongOf(scene, 0).reflective.r, 0.5, 1e-6) << "illum 3 mirrors";
   const Phong& glass = phongOf(scene, 1);
   EXPECT_NEAR(glass.transmissive.r, 0.9 * 0.75, 1e-6);
@@ -145,7 +145,7 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
 
   const Material& paint = scene.materials.at(scene.objects[0].material);
   EXPECT_EQ(paint.name, "paint");
-  EXPECT_EQ(paint.maps, (std::vector<FieldMap>{{"diffuse", "wood.png"}}));
+  EXPECT_EQ(paint.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("wood.png")}}));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0.8, 0.4, 0.1));
   EXPECT_TRUE(isBlack(phongOf(scene, 1).diffuse)) << "a metal";
   EXPECT_EQ(meshOf(scene, 1).materials.size(), 4u);
@@ -230,7 +230,8 @@ mesh { file = "ply/little.ply"; })")
   ASSERT_EQ(scene.objects.size(), 8u);
   EXPECT_EQ(scene.objects[0].name, "left");
   EXPECT_NEAR(length(scene.objects[0].worldFromObject.offset), 3, 1e-6);
-  EXPECT_EQ(scene.materials.at(scene.objects[4].material).maps.at(0).file, "obj/bricks.png");
+  EXPECT_EQ(scene.materials.at(scene.objects[4].material).textures,
+            (std::vector<FieldTexture>{{"diffuse", pictureTexture("obj/bricks.png")}}));
   const MeshData& coloured = meshOf(scene, 7);
   ASSERT_EQ(coloured.materials.size(), 4u);
   EXPECT_EQ(std::get<Phong>(scene.materials.at(coloured.materials[1]).model).diffuse.r, 1);

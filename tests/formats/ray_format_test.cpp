@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "formats/ray/ray_texture.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/bezier_patches.h"
@@ -346,19 +347,15 @@ TEST(RayFormat, KeepsMapsByField) {
       "sphere { material = { diffuse = (0.5, 0.5, 0.5); } }";
   const Scene scene = load(text).scene;
   const Material& first = scene.materials[scene.objects[0].material];
-  EXPECT_EQ(first.maps,
-            (std::vector<FieldMap>{{"diffuse", "a.bmp"}, {"specular", "b.png"}, {"shininess", "c.png"}}));
+  EXPECT_EQ(first.textures, (std::vector<FieldTexture>{{"diffuse", rayfile::mappedPicture("a.bmp")},
+                                                       {"specular", rayfile::mappedPicture("b.png")},
+                                                       {"shininess", rayfile::mappedPicture("c.png")}}));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(1));
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
-  EXPECT_EQ(phongOf(scene, 0).shininess, 7);
-  EXPECT_TRUE(scene.materials[scene.objects[1].material].maps.empty());
-  EXPECT_EQ(
-      warningsOf(text),
-      "2:24: the textures \"a.bmp\", \"b.png\" and \"c.png\" are not rendered yet [white, or the second "
-      "value of map(\"file\", (r, g, b)), shows instead]");
-  ASSERT_EQ(scene.unrendered.size(), 3u);
-  EXPECT_EQ(scene.unrendered[1].kind, "map");
-  EXPECT_EQ(scene.unrendered[1].text, "\"b.png\"");
+  EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
+  EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
+  EXPECT_EQ(warningsOf(text),
+            "");  // the files are looked for when the whole scene is read
 }
 
 // --- camera -------------------------------------------------------------------------------------------

@@ -163,7 +163,7 @@ TEST(RayWriter, KeepsHowASurfaceMirrors) {
           Scene scene;
           scene.format = "ray";
           scene.materials.push_back({"", phong, {}});
-          if (picture) scene.materials[0].maps = {{"specular", "a b.png"}};
+          if (picture) scene.materials[0].textures = {{"specular", pictureTexture("a b.png")}};
           scene.objects.push_back({"", Sphere{}, {}, 0, {}});
           expectRoundTrip(scene, written(scene));
         }

@@ -187,9 +187,10 @@ class Reader {
     const auto first = static_cast<std::uint32_t>(scene_.materials.size());
     for (const cf::Material& m : object.materials) checkRanges(m, object.place);
     for (const cf::Material& m : object.materials) add(m, extras);
-    for (const auto& picture : {extras.texture, extras.bump})
-      if (picture) textures_.note(*picture, object.place);
-    if (extras.bump) scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
+    if (extras.bump) {
+      textures_.note(*extras.bump, object.place);
+      scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
+    }
     if (object.materials.empty()) add(cf::Material{}, extras);
     if (object.sphere)
       add(object, Sphere{}, sphere(*object.sphere), first);

@@ -124,10 +124,6 @@ std::string_view Reader::textureOf(const Values& v) {
   const std::string_view file = v.word(v.has("url") ? "url" : "filename", "");
   const Place place = document_.place(v.node().token);
   if (!file.empty()) {
-    scene_.inputs.noteNamed(besideFile(document_.file(), std::string(file)));
-    if (files_.emplace(file).second)
-      scene_.unrendered.push_back({"map", place, "map(\"" + std::string(file) + "\")"});
-    textures_.note(file, place);
     return file;
   }
   for (std::string_view several : {"texture", "textures"})  // of a MultiTexture

@@ -86,7 +86,7 @@ class MtlCheck {
  public:
   /// `lines` are the text with continued lines made one.
   MtlCheck(const std::string& file, std::string_view text, std::string_view lines, UnusedTextures& textures,
-          WarningsByKind& warnings)
+           WarningsByKind& warnings)
       : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
 
   void line(std::string_view line) {
@@ -166,6 +166,9 @@ class MtlCheck {
   void map(std::string_view key, LineWords words) {
     const std::string_view picture = pictureOf(words);
     if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
+    static constexpr std::array<std::string_view, 5> kRendered{"map_Ka", "map_Kd", "map_Ks", "map_Ke",
+                                                               "map_Ns"};
+    if (std::find(kRendered.begin(), kRendered.end(), key) != kRendered.end()) return;
     textures_.note(picture, textures_.empty() ? place(key) : Place());
   }
 

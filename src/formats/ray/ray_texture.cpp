@@ -26,7 +26,8 @@ bool withModel(std::string_view keyword, Visit&& visit) {
 
 std::vector<std::string_view> textureKinds() {
   std::vector<std::string_view> kinds;
-  forEachType<TextureModel>([&](auto* type) { kinds.push_back(std::remove_pointer_t<decltype(type)>::kKeyword); });
+  forEachType<TextureModel>(
+      [&](auto* type) { kinds.push_back(std::remove_pointer_t<decltype(type)>::kKeyword); });
   return kinds;
 }
 
@@ -103,7 +104,8 @@ std::optional<Texture> TextureReader::block(const Item& call) {
       if (field.key() == kName)
         rayfile::read(findings_, kName, field.value(), node.name);
       else if (!assign(model, node.inputs, field) && !assignField(findings_, node.placement, field))
-        findings_.unknownField(Model::kKeyword, field, keywords<Model>({"name", "scale", "rotate", "translate"}));
+        findings_.unknownField(Model::kKeyword, field,
+                               keywords<Model>({"name", "scale", "rotate", "translate"}));
     }
   });
   Texture texture(std::move(node));
@@ -159,7 +161,8 @@ const std::string* mappedFile(const Texture& texture) {
 
 std::string textured(const Texture& texture, const std::string& constant, bool plain, int digits,
                      WrittenTextures* names) {
-  if (const std::string* file = mappedFile(texture)) return "map(" + written(*file, digits) + ", " + constant + ")";
+  if (const std::string* file = mappedFile(texture))
+    return "map(" + written(*file, digits) + ", " + constant + ")";
   const auto before = names ? names->find(texture->name) : WrittenTextures::iterator();
   if (names && before != names->end() && before->second == texture)
     return "texture(" + written(texture->name, digits) + ", " + constant + ")";
