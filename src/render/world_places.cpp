@@ -72,7 +72,8 @@ SurfaceSlopes World::slopes(std::uint32_t object, std::uint64_t part, const Surf
 TexturePlace World::place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
                           const Differentials* arrived) const {
   const Affine& in = objects_[object].placement.inFromOut();
-  TexturePlace place{.point = in * surface.point, .uv = surface.uv};
+  TexturePlace place;
+  place.point = in * surface.point, place.uv = surface.uv;
   if (!arrived) return place;
   const SurfaceSlopes along = slopes(object, part, surface);
   place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
