@@ -2,6 +2,7 @@
 // explanation.
 #pragma once
 
+#include "render/footprint.h"
 #include "render/integrator.h"
 
 namespace trace {
@@ -27,12 +28,9 @@ class PixelTracer {
     const Sampler sampler(rules_, x, y, k);
     const Vec2 film = sampler.film();
     const Ray ray = tracer_.world().camera().ray(film);
-    CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
-    Differentials differentials;
-    if (tracer_.world().wantsFootprints()) {
-      differentials = differentialsAt(film, ray);
-      camera.differentials = &differentials;
-    }
+    Footprint differentials;
+    if (tracer_.world().wantsFootprints()) differentials = differentialsAt(film, ray);
+    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera), differentials.get()};
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }
@@ -42,12 +40,13 @@ class PixelTracer {
 
  private:
   /// To the rays of the samples beside this one, whatever the camera is.
-  Differentials differentialsAt(const Vec2& film, const Ray& ray) const {
+  [[gnu::noinline]] Footprint differentialsAt(const Vec2& film, const Ray& ray) const {
     const CameraFrame& camera = tracer_.world().camera();
     const Vec2 step = rules_.spacing();
     const Ray x = camera.ray({film.x + step.x, film.y}), y = camera.ray({film.x, film.y + step.y});
-    return {x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
-            y.direction - ray.direction};
+    return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
+                                                               x.direction - ray.direction,
+                                                               y.direction - ray.direction});
   }
 
   Tracer tracer_;

@@ -26,10 +26,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  std::optional<Differentials> footprint;
-  if (path.differentials)
-    footprint = arrived(*path.differentials, ray.direction, hit->t, hit->surface.normal);
-  const PlaceBsdf bsdf = world.shade(*hit, footprint ? &*footprint : nullptr);
+  Footprint footprint;  // null where none is wanted
+  if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
+  const PlaceBsdf bsdf = world.shade(*hit, footprint.get());
   sum.note(*bsdf);
   const WhittedTerms& material = whitted(*bsdf);
   const SurfacePoint& surface = hit->surface;
@@ -61,7 +60,6 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       return true;
     return false;
   };
-  Differentials onward;
   const Indices indices = Interfaces(settings.airIndex).at(hit->leaving, material.index);
   sum.note(indices);
   // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
@@ -71,10 +69,8 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   if (!isBlack(mirror)) {
     Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
     if (worthwhile(next)) {
-      if (footprint) {
-        onward = mirroredAt(world, *hit, *footprint, ray.direction, normal);
-        next.differentials = &onward;
-      }
+      const Footprint onward = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
+      next.differentials = onward.get();
       sum.add(Term::Kind::reflection, mirror,
               follow(tracer, hit->leave(mirrored(ray.direction, normal)), next));
     }
@@ -87,10 +83,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     if (worthwhile(next)) {
       const Real ratio = indices.before / indices.behind;
       if (const auto direction = refracted(ray.direction, normal, ratio)) {
-        if (footprint) {
-          onward = refractedAt(world, *hit, *footprint, ray.direction, *direction, normal, ratio);
-          next.differentials = &onward;
-        }
+        const Footprint onward =
+            refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
+        next.differentials = onward.get();
         sum.add(Term::Kind::refraction, filter, follow(tracer, hit->leave(*direction), next));
       } else
         sum.stop(TotalInternalReflection{});
