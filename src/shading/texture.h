@@ -2,7 +2,8 @@
 //
 // Each is one header in shading/textures/: a struct with kKeyword, kHelp, fields() and
 //   Color at(const TexturePlace&) const;
-// which gives a finite colour at a finite place.
+// which gives a finite colour at a finite place. One that looks at the footprint there adds
+//   bool wantsFootprint() const;
 #pragma once
 
 #include <algorithm>
@@ -96,6 +97,9 @@ inline void setTexture(std::vector<FieldTexture>& textures, std::string_view fie
 inline Texture pictureTexture(std::string file, Place place = {}) {
   return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
 }
+
+/// It, or a texture in it, looks at how large a part of the surface a place stands for.
+bool wantsFootprint(const Texture& texture);
 
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);

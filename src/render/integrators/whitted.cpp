@@ -1,5 +1,6 @@
 #include "render/integrators/whitted.h"
 
+#include "render/footprint.h"
 #include "render/gather.h"
 #include "shading/optics.h"
 
@@ -11,6 +12,7 @@ struct Path {
   int depth = 0;
   Color weight{1};  ///< the largest share of the pixel that this ray can still make
   Color medium{1};  ///< what passes through a unit of length of what the ray runs in
+  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
 };
 
 /// Branches of a place's numbers: its lights by their number, and the rays that go on.
@@ -28,7 +30,10 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  const PlaceBsdf bsdf = world.shade(*hit);
+  Footprint footprint;  // null where none is wanted
+  if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
+  const PlaceBsdf bsdf = world.shade(*hit, footprint.get());
+  sum.note(*bsdf);
   const WhittedTerms& material = whitted(*bsdf);
   const SurfacePoint& surface = hit->surface;
   // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
@@ -75,21 +80,28 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
   const Color mirror = fresnel ? Color(R) : material.reflective;
   if (!isBlack(mirror)) {
-    const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
-    if (worthwhile(next))
+    Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
+    if (worthwhile(next)) {
+      const Footprint onward = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
+      next.differentials = onward.get();
       sum.add(Term::Kind::reflection, mirror,
               follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, sampler.branch(kMirrored)));
+    }
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
     const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - R);
-    const Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
-                    perCrossing || hit->leaving ? Color(1) : material.transmissive};
+    Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
+              perCrossing || hit->leaving ? Color(1) : material.transmissive};
     if (worthwhile(next)) {
-      if (const auto direction = refracted(ray.direction, normal, indices.before / indices.behind))
+      const Real ratio = indices.before / indices.behind;
+      if (const auto direction = refracted(ray.direction, normal, ratio)) {
+        const Footprint onward =
+            refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
+        next.differentials = onward.get();
         sum.add(Term::Kind::refraction, filter,
                 follow(tracer, hit->leave(*direction), next, sampler.branch(kRefracted)));
-      else
+      } else
         sum.stop(TotalInternalReflection{});
     }
   }
@@ -104,7 +116,9 @@ Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sa
 }  // namespace
 
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
-  return radianceAlong(tracer, camera.ray, camera.hit, {}, sampler);
+  Path path;
+  path.differentials = camera.differentials;
+  return radianceAlong(tracer, camera.ray, camera.hit, path, sampler);
 }
 
 }  // namespace trace
