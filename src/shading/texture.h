@@ -14,12 +14,25 @@
 #include "base/match.h"
 #include "math/transform.h"
 #include "shading/texture_place.h"
+#include "shading/textures/brick.h"
+#include "shading/textures/cells.h"
 #include "shading/textures/checker.h"
+#include "shading/textures/clouds.h"
+#include "shading/textures/formula.h"
+#include "shading/textures/gradient.h"
+#include "shading/textures/granite.h"
 #include "shading/textures/image_map.h"
+#include "shading/textures/marble.h"
+#include "shading/textures/mix.h"
+#include "shading/textures/noise.h"
+#include "shading/textures/ramp.h"
+#include "shading/textures/spots.h"
+#include "shading/textures/wood.h"
 
 namespace trace {
 
-using TextureModel = std::variant<ImageMap, Checker>;
+using TextureModel = std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
+                                  Clouds, Cells, Ramp, Mix, Formula>;
 
 /// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
 /// and v is moved there, as if they were x and y.

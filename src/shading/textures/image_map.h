@@ -50,8 +50,9 @@ struct ImageMap {
         Field{"srgb", &ImageMap::srgb, "", -kNoLimit, kNoLimit,
               "its numbers are sRGB and are made linear; otherwise they are taken as they are"},
         Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
-        Field{"transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
-              "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
+        Field{
+            "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
+            "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
   }
   bool operator==(const ImageMap&) const = default;
 
