@@ -5,9 +5,11 @@
 // which gives a finite colour at a finite place.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -91,6 +93,16 @@ inline const Texture* textureOf(const std::vector<FieldTexture>& textures, std::
   for (const FieldTexture& t : textures)
     if (t.field == field) return &t.texture;
   return nullptr;
+}
+
+/// Gives the field this texture. The list is in the order of the alphabet.
+inline void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture) {
+  const auto at =
+      std::find_if(textures.begin(), textures.end(), [&](const FieldTexture& t) { return t.field >= field; });
+  if (at != textures.end() && at->field == field)
+    at->texture = std::move(texture);
+  else
+    textures.insert(at, {std::string(field), std::move(texture)});
 }
 
 /// A picture on a field.

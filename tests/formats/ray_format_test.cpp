@@ -348,14 +348,15 @@ TEST(RayFormat, KeepsMapsByField) {
   const Scene scene = load(text).scene;
   const Material& first = scene.materials[scene.objects[0].material];
   EXPECT_EQ(first.textures, (std::vector<FieldTexture>{{"diffuse", rayfile::mappedPicture("a.bmp")},
-                                                       {"specular", rayfile::mappedPicture("b.png")},
-                                                       {"shininess", rayfile::mappedPicture("c.png")}}));
+                                                       {"shininess", rayfile::mappedPicture("c.png")},
+                                                       {"specular", rayfile::mappedPicture("b.png")}}));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(1));
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
   EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
   EXPECT_EQ(warningsOf(text),
-            "");  // the files are looked for when the whole scene is read
+            "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
+            "file or directory [a checker of magenta and black shows instead]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------

@@ -129,7 +129,7 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
     if (given && !namesSpecular(given->value())) return;
     phong.*f.member = phongOf(from).*f.member;
     if (const Texture* texture = textureOf(from.textures, f.keyword))
-      result.textures.push_back({std::string(f.keyword), *texture});
+      setTexture(result.textures, f.keyword, *texture);
   });
   result.model = phong;
   return result;

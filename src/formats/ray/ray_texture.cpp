@@ -52,6 +52,7 @@ bool TextureReader::isTexture(const Item& value) const {
 
 std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
   const auto picture = [&](const Item& word) {
+    findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(word.text())));
     return mappedPicture(std::string(word.text()), findings_.syntax().shortPlace(value.offset()));
   };
   if (isFile(value)) return Scaled{picture(value), {}, true};

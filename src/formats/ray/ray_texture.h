@@ -70,8 +70,7 @@ bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, 
     if constexpr (std::is_same_v<Value, Color> || std::is_same_v<Value, Real>) {
       const std::optional<Scaled> scaled = read(field.value());
       if (!scaled) return;
-      std::erase_if(textures, [&](const FieldTexture& t) { return t.field == key; });
-      textures.push_back({std::string(key), scaled->texture});
+      setTexture(textures, key, scaled->texture);
       value = Value(1);
       if (scaled->isMap && key == "shininess") value = Value(128);  // as the courses' programs have it
       if (scaled->by) rayfile::read(findings_, key, *scaled->by, value);

@@ -255,7 +255,7 @@ class Reader {
   void texture(const Parameter& p, Material& material) {
     if (!p.text) tokens_.fail(p.key, "texture: expected the name of a picture in quotes");
     if (p.text->empty()) return;
-    material.textures.push_back({"diffuse", pictureTexture(std::string(*p.text), tokens_.place(p.key))});
+    setTexture(material.textures, "diffuse", pictureTexture(std::string(*p.text), tokens_.place(p.key)));
   }
 
   void ignored(const Parameter& p, std::string_view owner) {
