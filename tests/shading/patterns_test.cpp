@@ -234,13 +234,14 @@ TEST(Textures, ArePlacedWithWhatIsInThem) {
   Gradient x;
   x.a = Color(0), x.b = Color(1);
   Mix mix;
-  mix.amount = 1;
+  mix.b = Color(1), mix.amount = 1;
   const Texture half =
       TextureNode{.model = x, .placement = {.scale = {0.5, 1, 1}, .translate = {0.25, 0, 0}}};
   EXPECT_NEAR(half.at(at({0.5, 0, 0})).r, 0.5, 1e-12);
   const Texture whole =
       TextureNode{.model = mix, .placement = {.rotate = {0, 0, 90}}, .inputs = {{"b", half}}};
-  EXPECT_NEAR(whole.at(at({0, 0.5, 0})).r, 0, 1e-12);  // b of Mix is black
+  EXPECT_NEAR(whole.at(at({0, 0.5, 0})).r, 0.5, 1e-12);
+  EXPECT_NEAR(whole.at(at({3, 0.65, 0})).r, 0.8, 1e-12);
 }
 
 // --- cells ----------------------------------------------------------------------------------------------
