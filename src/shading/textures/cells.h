@@ -96,18 +96,19 @@ struct Cells : PatternColors {
   }
   bool operator==(const Cells&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const CellDistances d = cellDistances(p.at, space == TextureSpace::uv ? 2 : 3,
                                           std::clamp(jitter, 0.0, 1.0), static_cast<std::uint32_t>(seed));
     switch (value) {
       case CellValue::f1: break;
-      case CellValue::f2: return shade(d.second);
-      case CellValue::border: return shade(d.second - d.first);
-      case CellValue::cell: return shade(mixBits32(d.bits ^ 0x5bd1e995u) * 0x1p-32);
+      case CellValue::f2: return d.second;
+      case CellValue::border: return d.second - d.first;
+      case CellValue::cell: return mixBits32(d.bits ^ 0x5bd1e995u) * 0x1p-32;
     }
-    return shade(d.first);
+    return d.first;
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

@@ -20,13 +20,15 @@ struct Checker {
   }
   bool operator==(const Checker&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     // The product of three waves of 1 and -1, each filtered along its axis.
     Real even = 1;
     for (int axis = 0; axis < 3; ++axis) even *= 2 * evenShare(p.at[axis], p.width[axis]) - 1;
-    return even == 1 ? a : even == -1 ? b : lerp((1 - even) / 2, a, b);
+    return (1 - even) / 2;
   }
+  Color shade(Real t) const { return lerp(t, a, b); }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

@@ -24,7 +24,7 @@ struct Clouds : PatternColors, FractalSum {
   }
   bool operator==(const Clouds&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, TextureSpace::point);
     const Real width = p.widest();
     const Real value = time == 0 ? FractalSum::at<3>(p.point(), width)
@@ -32,8 +32,9 @@ struct Clouds : PatternColors, FractalSum {
     constexpr Real kSpread = 0.5;  // nearly all of a fractal sum is within it
     const Real height = (sum == SumKind::fractal ? value : 2 * value - 1) + (2 * cover - 1) * kSpread;
     const Real soft = softness * kSpread;
-    return shade(soft > 0 ? smoothStep(0.5 + height / (2 * soft)) : height > 0);
+    return soft > 0 ? smoothStep(0.5 + height / (2 * soft)) : height > 0;
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

@@ -30,16 +30,17 @@ struct Gradient : PatternColors {
   }
   bool operator==(const Gradient&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const Real t = number(PatternPlace(place, space).at);
     switch (repeat) {
       case Repeat::none: break;
-      case Repeat::saw: return shade(wave(WaveForm::saw, t));
-      case Repeat::triangle: return shade(wave(WaveForm::triangle, t / 2));
-      case Repeat::smooth: return shade(wave(WaveForm::smooth, t / 2));
+      case Repeat::saw: return wave(WaveForm::saw, t);
+      case Repeat::triangle: return wave(WaveForm::triangle, t / 2);
+      case Repeat::smooth: return wave(WaveForm::smooth, t / 2);
     }
-    return shade(t);
+    return t;
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 
  private:
   Real number(const Vec3& p) const {

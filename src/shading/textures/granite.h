@@ -27,13 +27,14 @@ struct Granite : PatternColors, FractalSum {
   }
   bool operator==(const Granite&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, TextureSpace::point);
     const Real value = FractalSum::at<3>({p.at.x * frequency, p.at.y * frequency, p.at.z * frequency},
                                          p.widest() * std::abs(frequency));
     const Real mean = sum == SumKind::fractal ? 0 : 0.437;  // of turbulence in 3 dimensions
-    return shade(0.5 + contrast * (value - mean));
+    return 0.5 + contrast * (value - mean);
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

@@ -33,14 +33,15 @@ struct Marble : PatternColors, FractalSum {
   }
   bool operator==(const Marble&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const Vec3& p = place.point;
     const Vec3 width = abs(place.pointX) + abs(place.pointY);
     const Real bent = FractalSum::at<3>(
         {p.x * grain.x, p.y * grain.y, p.z * grain.z},
         max(width.x * std::abs(grain.x), max(width.y * std::abs(grain.y), width.z * std::abs(grain.z))));
-    return shade(trace::wave(wave, p.x * frequency + turbulence * bent));
+    return trace::wave(wave, p.x * frequency + turbulence * bent);
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

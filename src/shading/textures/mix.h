@@ -20,7 +20,9 @@ struct Mix {
   }
   bool operator==(const Mix&) const = default;
 
-  Color at(const TexturePlace&) const { return lerp(amount > 0 ? min(amount, 1) : 0, a, b); }
+  Real pattern(const TexturePlace&) const { return amount > 0 ? min(amount, 1) : 0; }
+  Color shade(Real t) const { return lerp(t, a, b); }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

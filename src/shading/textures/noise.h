@@ -32,11 +32,12 @@ struct Noise : PatternColors, FractalSum {
   bool operator==(const Noise&) const = default;
 
   /// -1 to 1 becomes 0 to 1.
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const Real value = sumAt(p);
-    return shade(sum == SumKind::fractal ? 0.5 + 0.5 * value : value);
+    return sum == SumKind::fractal ? 0.5 + 0.5 * value : value;
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 
  private:
   Real sumAt(const PatternPlace& p) const {

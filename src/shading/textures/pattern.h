@@ -97,6 +97,7 @@ struct PatternColors {
   }
   bool operator==(const PatternColors&) const = default;
 
+  /// For t up to 0 only a counts, and from 1 on only b.
   Color shade(Real t) const {
     if (!ramp.empty()) return colorAt(ramp, t);
     return lerp(t > 0 ? min(t, 1) : 0, a, b);

@@ -18,7 +18,8 @@ struct Ramp : PatternColors {
   }
   bool operator==(const Ramp&) const = default;
 
-  Color at(const TexturePlace&) const { return shade(value); }
+  Real pattern(const TexturePlace&) const { return value; }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

@@ -26,7 +26,7 @@ struct Spots {
   }
   bool operator==(const Spots&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const int axes = space == TextureSpace::uv ? 2 : 3;
     Real away[3] = {};
@@ -44,8 +44,10 @@ struct Spots {
       squared += d * d;
     }
     const Real edge = max(softness, p.widest()), inside = radius - std::sqrt(squared);
-    return lerp(edge > 0 ? smoothStep(0.5 + inside / edge) : inside > 0, b, a);
+    return edge > 0 ? smoothStep(0.5 - inside / edge) : !(inside > 0);
   }
+  Color shade(Real t) const { return lerp(t, a, b); }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

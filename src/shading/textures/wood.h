@@ -32,7 +32,7 @@ struct Wood : PatternColors, FractalSum {
   }
   bool operator==(const Wood&) const = default;
 
-  Color at(const TexturePlace& place) const {
+  Real pattern(const TexturePlace& place) const {
     constexpr Real kFibresPerRing = 6, kSlender = 1.0 / 24;
     const Vec3& p = place.point;
     const Vec3 width = abs(place.pointX) + abs(place.pointY);
@@ -48,8 +48,9 @@ struct Wood : PatternColors, FractalSum {
                            max(max(width.x, width.y), width.z * kSlender) * std::abs(fine));
     }
     // A saw stays light at first, as the wood of spring does.
-    return shade((wave == WaveForm::saw ? ring * ring : ring) + fibres * fibre);
+    return (wave == WaveForm::saw ? ring * ring : ring) + fibres * fibre;
   }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace
