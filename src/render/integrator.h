@@ -17,6 +17,7 @@ namespace trace {
 struct CameraRay {
   Ray ray;
   std::optional<Hit> hit;
+  const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
 };
 
 /// There is one for a render; it never changes once it is prepared.

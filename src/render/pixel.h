@@ -25,8 +25,14 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    const Ray ray = tracer_.world().camera().ray(sampler.film());
-    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
+    const Vec2 film = sampler.film();
+    const Ray ray = tracer_.world().camera().ray(film);
+    CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
+    Differentials differentials;
+    if (tracer_.world().wantsFootprints()) {
+      differentials = differentialsAt(film, ray);
+      camera.differentials = &differentials;
+    }
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }
@@ -35,6 +41,15 @@ class PixelTracer {
   Statistics& statistics() { return tracer_.statistics(); }
 
  private:
+  /// To the rays of the samples beside this one, whatever the camera is.
+  Differentials differentialsAt(const Vec2& film, const Ray& ray) const {
+    const CameraFrame& camera = tracer_.world().camera();
+    const Vec2 step = rules_.spacing();
+    const Ray x = camera.ray({film.x + step.x, film.y}), y = camera.ray({film.x, film.y + step.y});
+    return {x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
+            y.direction - ray.direction};
+  }
+
   Tracer tracer_;
   const Integrator& integrator_;
   SampleRules rules_;

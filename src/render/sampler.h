@@ -37,6 +37,8 @@ class SampleRules {
 
   /// The place of a cell of the grid of a pixel, in the picture, from 0 to 1 (generator "grid").
   Vec2 cell(int x, int y, int k) const;
+  /// From a sample to the next on the right and above, on the average.
+  Vec2 spacing() const { return {1.0 / (size_.width * grid_), 1.0 / (size_.height * grid_)}; }
 
  private:
   Real place(int pixel, int cell, int pixels) const;

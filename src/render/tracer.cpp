@@ -158,6 +158,8 @@ void Tracer::record(int node, const RayEnd& why) {
   tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
 }
 
+void Tracer::record(int node, const Bsdf& bsdf) { tree_->nodes[static_cast<std::size_t>(node)].bsdf = bsdf; }
+
 void Tracer::record(int node, const Indices& indices) {
   tree_->nodes[static_cast<std::size_t>(node)].indices = indices;
 }

@@ -19,10 +19,12 @@
 #include "geometry/mesh/mesh_tree.h"
 #include "geometry/placement.h"
 #include "geometry/solve/approach.h"
+#include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
+#include "shading/differentials.h"
 #include "shading/lights/light.h"
 
 namespace trace {
@@ -87,20 +89,22 @@ class World {
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
-  /// Where textures are asked for the place on an object.
-  TexturePlace place(std::uint32_t object, const SurfacePoint& surface) const {
-    TexturePlace place;
-    place.point = objects_[object].placement.inFromOut() * surface.point;
-    place.uv = surface.uv;
-    return place;
+  /// How texture coordinates and the normal change along the surface, in world space.
+  SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
+  /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
+  TexturePlace place(const Hit& hit, const Differentials* arrived = nullptr) const {
+    return place(hit.object, hit.part, hit.surface, arrived);
   }
-  PlaceBsdf shade(const Hit& hit) const { return shade(hit.object, hit.materials, hit.surface); }
+  /// What the place does with light; textures are filtered by the footprint of the ray, if any.
+  PlaceBsdf shade(const Hit& hit, const Differentials* arrived = nullptr) const {
+    return shade(hit.object, hit.part, hit.materials, hit.surface, arrived);
+  }
+  /// Some texture is filtered by footprint: rays should have Differentials.
+  bool wantsFootprints() const { return wantsFootprints_; }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const {
-    return whitted(*bsdfAt(ray, found)).transmissive;
-  }
+  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -194,7 +198,7 @@ class World {
 
   /// A material of the scene.
   struct Surface {
-    Bsdf bsdf;  ///< without its textures
+    Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
@@ -202,18 +206,23 @@ class World {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }
   bool textured(const MaterialMix& materials) const {
-    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
-      return m != MaterialMix::kClear && surfaces_[m].textured;
-    });
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
-  PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
+  PlaceBsdf shade(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
+                  const SurfacePoint& surface, const Differentials* arrived) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
-    return PlaceBsdf(mixedAt(object, materials, surface));
+    return PlaceBsdf(mixedAt(object, part, materials, surface, arrived));
   }
-  [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, const MaterialMix& materials,
-                                 const SurfacePoint& surface) const;
+  [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
+                                 const SurfacePoint& surface, const Differentials* arrived) const;
+
+  SurfaceSlopes slopes(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface) const;
+  TexturePlace place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                     const Differentials* arrived) const;
 
   std::vector<Surface> surfaces_;  ///< of the scene's materials
+  bool wantsFootprints_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

@@ -1,5 +1,6 @@
 #include "shading/texture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -32,9 +33,6 @@ TexturePlace moved(const TexturePlace& p, const Affine& m) {
           .pointX = linear(m, p.pointX),
           .pointY = linear(m, p.pointY)};
 }
-
-/// IEC 61966-2-1.
-Real linearOf(Real srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
 }  // namespace
 
@@ -73,6 +71,17 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
   });
 }
 
+bool wantsFootprint(const Texture& texture) {
+  const bool itself = match(texture->model, [](const auto& model) {
+    if constexpr (requires { model.wantsFootprint(); })
+      return model.wantsFootprint();
+    else
+      return false;
+  });
+  return itself || std::any_of(texture->inputs.begin(), texture->inputs.end(),
+                               [](const FieldTexture& input) { return wantsFootprint(input.texture); });
+}
+
 std::string summary(const Texture& texture) {
   if (!texture->name.empty()) return texture->name;
   return match(texture->model, [](const auto& model) {
@@ -87,9 +96,8 @@ Texel ImageMap::texelAt(const TexturePlace& place) const {
   const auto& m = transform;
   const Vec2 uv{m[0] * place.uv.x + m[1] * place.uv.y + m[2], m[3] * place.uv.x + m[4] * place.uv.y + m[5]};
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
-  Texel texel = file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds});
-  if (srgb) texel.color = {linearOf(texel.color.r), linearOf(texel.color.g), linearOf(texel.color.b)};
-  return texel;
+  const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };
+  return file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds, srgb, step(place.uvX), step(place.uvY)});
 }
 
 Color ImageMap::at(const TexturePlace& place) const {

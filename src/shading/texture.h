@@ -7,6 +7,8 @@
 //   Real pattern(const TexturePlace&) const;    0 is a, 1 is b
 //   Color shade(Real pattern) const;
 // so that a texture in place of one is not asked where only the other is seen.
+// One that looks at the footprint adds
+//   bool wantsFootprint() const;
 #pragma once
 
 #include <algorithm>
@@ -113,6 +115,9 @@ inline void setTexture(std::vector<FieldTexture>& textures, std::string_view fie
 inline Texture pictureTexture(std::string file, Place place = {}) {
   return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
 }
+
+/// It, or a texture in it, looks at how large a part of the surface a place stands for.
+bool wantsFootprint(const Texture& texture);
 
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);

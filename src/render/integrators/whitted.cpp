@@ -1,5 +1,6 @@
 #include "render/integrators/whitted.h"
 
+#include "render/footprint.h"
 #include "render/gather.h"
 #include "shading/optics.h"
 
@@ -11,6 +12,7 @@ struct Path {
   int depth = 0;
   Color weight{1};  ///< the largest share of the pixel that this ray can still make
   Color medium{1};  ///< what passes through a unit of length of what the ray runs in
+  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
 };
 
 Color follow(Tracer& tracer, const Ray& ray, const Path& path);
@@ -24,7 +26,11 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  const PlaceBsdf bsdf = world.shade(*hit);
+  std::optional<Differentials> footprint;
+  if (path.differentials)
+    footprint = arrived(*path.differentials, ray.direction, hit->t, hit->surface.normal);
+  const PlaceBsdf bsdf = world.shade(*hit, footprint ? &*footprint : nullptr);
+  sum.note(*bsdf);
   const WhittedTerms& material = whitted(*bsdf);
   const SurfacePoint& surface = hit->surface;
   // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
@@ -55,6 +61,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       return true;
     return false;
   };
+  Differentials onward;
   const Indices indices = Interfaces(settings.airIndex).at(hit->leaving, material.index);
   sum.note(indices);
   // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
@@ -62,20 +69,30 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
   const Color mirror = fresnel ? Color(R) : material.reflective;
   if (!isBlack(mirror)) {
-    const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
-    if (worthwhile(next))
+    Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
+    if (worthwhile(next)) {
+      if (footprint) {
+        onward = mirroredAt(world, *hit, *footprint, ray.direction, normal);
+        next.differentials = &onward;
+      }
       sum.add(Term::Kind::reflection, mirror,
               follow(tracer, hit->leave(mirrored(ray.direction, normal)), next));
+    }
   }
   if (material.transmits()) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
     const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - R);
-    const Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
-                    perCrossing || hit->leaving ? Color(1) : material.transmissive};
+    Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
+              perCrossing || hit->leaving ? Color(1) : material.transmissive};
     if (worthwhile(next)) {
-      if (const auto direction = refracted(ray.direction, normal, indices.before / indices.behind))
+      const Real ratio = indices.before / indices.behind;
+      if (const auto direction = refracted(ray.direction, normal, ratio)) {
+        if (footprint) {
+          onward = refractedAt(world, *hit, *footprint, ray.direction, *direction, normal, ratio);
+          next.differentials = &onward;
+        }
         sum.add(Term::Kind::refraction, filter, follow(tracer, hit->leave(*direction), next));
-      else
+      } else
         sum.stop(TotalInternalReflection{});
     }
   }
@@ -90,7 +107,9 @@ Color follow(Tracer& tracer, const Ray& ray, const Path& path) {
 }  // namespace
 
 Color Whitted::radiance(Tracer& tracer, Sampler, const CameraRay& camera) const {
-  return radianceAlong(tracer, camera.ray, camera.hit, {});
+  Path path;
+  path.differentials = camera.differentials;
+  return radianceAlong(tracer, camera.ray, camera.hit, path);
 }
 
 }  // namespace trace
