@@ -21,6 +21,7 @@
 #include "geometry/solve/approach.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
+#include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/lights/light.h"
@@ -95,9 +96,7 @@ class World {
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const {
-    return whitted(*bsdfAt(ray, found)).transmissive;
-  }
+  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -119,10 +118,8 @@ class World {
     return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_); });
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  /// What a camera ray sees that meets nothing.
-  Color background(const Ray& ray) const {
-    return background_.at(background_.colors.size() > 1 ? 1 - camera_.heightOf(ray.direction) : 0);
-  }
+  /// What rays see that meet nothing.
+  const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
@@ -191,7 +188,7 @@ class World {
 
   /// A material of the scene.
   struct Surface {
-    Bsdf bsdf;  ///< without its textures
+    Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
@@ -199,9 +196,8 @@ class World {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }
   bool textured(const MaterialMix& materials) const {
-    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
-      return m != MaterialMix::kClear && surfaces_[m].textured;
-    });
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
   PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
@@ -216,7 +212,7 @@ class World {
   std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
-  Background background_;
+  Outside outside_;
   Box3 bounds_;
 };
 
