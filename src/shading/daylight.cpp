@@ -45,12 +45,11 @@ Real Daylight::Perez::at(Real cosTheta, Real gamma) const {
   return (1 + a * toHorizon) * (1 + c * std::exp(d * gamma) + e * cosGamma * cosGamma);
 }
 
-Daylight::Daylight(Real turbidity, const Vec3& sun)
-    : turbidity_(std::clamp(turbidity, kLeastTurbidity, kMostTurbidity)) {
+Daylight::Daylight(Real turbidity, const Vec3& sun) {
   const Vec3 risen{sun.x, std::max(sun.y, 0.0), sun.z};
   sun_ = length(risen) > 0 ? normalize(risen) : Vec3{0, 0, -1};  // one straight below says no direction
   sunFromTop_ = std::atan2(std::hypot(sun_.x, sun_.z), sun_.y);
-  const Real T = turbidity_;
+  const Real T = std::clamp(turbidity, kLeastTurbidity, kMostTurbidity);
   zenith_ = zenithOf(T, sunFromTop_);
   Y_ = {0.1787 * T - 1.4630, -0.3554 * T + 0.4275, -0.0227 * T + 5.3251, 0.1206 * T - 2.5771,
         -0.0670 * T + 0.3703};
@@ -67,17 +66,6 @@ ColorXyY Daylight::at(const Vec3& direction) const {
   const Real gamma = across > 0 ? std::acos(std::clamp(dot(d, sun_) / across, -1.0, 1.0)) : sunFromTop_;
   const auto relative = [&](const Perez& f) { return f.at(cosTheta, gamma) / f.at(1, sunFromTop_); };
   return {zenith_.x * relative(x_), zenith_.y * relative(y_), zenith_.Y * relative(Y_)};
-}
-
-Color Daylight::sunlight() const {
-  const Real degrees = sunFromTop_ * 180 / kPi;
-  const Real mass = 1 / (std::cos(sunFromTop_) + 0.15 * std::pow(93.885 - degrees, -1.253));
-  const Real haze = 0.04608 * turbidity_ - 0.04586;
-  const auto through = [&](Real micrometres) {
-    return std::exp(-0.008735 * std::pow(micrometres, -4.08) * mass) *
-           std::exp(-haze * std::pow(micrometres, -1.3) * mass);
-  };
-  return {through(0.610), through(0.550), through(0.465)};
 }
 
 }  // namespace trace

@@ -25,9 +25,6 @@ class Daylight {
   const ColorXyY& zenith() const { return zenith_; }
   /// Of a direction of length 1; of one below the horizon what is on the horizon above it.
   ColorXyY at(const Vec3& direction) const;
-  /// The share of sunlight that the air lets through, for red, green and blue (610, 550 and 465 nm):
-  /// scattering by molecules (Rayleigh) and by haze (Angstrom), the two largest of the appendix's five terms.
-  Color sunlight() const;
 
  private:
   struct Perez {
@@ -35,7 +32,6 @@ class Daylight {
     Real at(Real cosTheta, Real gamma) const;
   };
 
-  Real turbidity_;
   Vec3 sun_;         // of length 1, not below the horizon
   Real sunFromTop_;  // theta_s
   ColorXyY zenith_;
