@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <type_traits>
 
@@ -634,7 +635,9 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
 
 bool sameValue(const Option& option, const Settings& a, const Settings& b) {
   const std::string x = option.get(a), y = option.get(b);
-  return x == y || (option.kind == Option::Kind::file && x != kNone && y != kNone && sameFile(x, y));
+  return x == y || (option.kind == Option::Kind::file && x != kNone && y != kNone &&
+                    sameFile(std::filesystem::absolute(x).lexically_normal(),
+                             std::filesystem::absolute(y).lexically_normal()));
 }
 
 std::vector<Choice> changedOptions(const Settings& settings) {

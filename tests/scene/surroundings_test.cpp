@@ -89,8 +89,8 @@ TEST(Surroundings, WhatTheCommandLineNamesAndIsNoPictureIsAnErrorWithAHint) {
   };
   for (const char* option : {"backdrop", "environment"}) {
     const std::string flag = "--" + std::string(option) + ": ";
-    wrong({{option, folder / "missing.png", {}}}, (flag + folder.path() + "/missing.png").c_str());
-    wrong({{option, folder / "broken.png", {}}}, (flag + folder.path() + "/broken.png").c_str());
+    wrong({{option, folder / "missing.png", {}}}, (flag + "cannot read \"" + folder.path() + "/missing.png\"").c_str());
+    wrong({{option, folder / "broken.png", {}}}, (flag + "cannot read \"" + folder.path() + "/broken.png\"").c_str());
   }
   wrong({{"backdrop", folder.path(), {}}}, "--backdrop: ");
   wrong({{"environment", folder / "empty", {}}},
@@ -109,8 +109,8 @@ TEST(Surroundings, WhatTheSceneNamesAndIsMissingIsAWarningAndAChecker) {
   }
   EXPECT_NE(read.messages.all()[0].what.find("nowhere/a.png"), std::string::npos);
   ASSERT_TRUE(read->backdrop && read->environment);
-  EXPECT_EQ(read->backdrop->at(1, 0), Color(1, 0, 1));
-  EXPECT_EQ(read->backdrop->at(0, 0), Color(0));
+  EXPECT_EQ(read->backdrop->at(0, 0), Color(1, 0, 1));
+  EXPECT_EQ(read->backdrop->at(1, 0), Color(0));
   for (const InputFile& file : read.scene.inputs.all()) EXPECT_FALSE(file.read) << file.path;
   EXPECT_EQ(read.scene.inputs.all().size(), 2u);  // nothing may be written there
 }
