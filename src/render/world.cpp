@@ -175,7 +175,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
   world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
-  world.background_ = scene.background;
+  world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
   MeshTrees trees;

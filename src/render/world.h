@@ -22,6 +22,7 @@
 #include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
+#include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/differentials.h"
@@ -130,10 +131,8 @@ class World {
     return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  /// What a camera ray sees that meets nothing.
-  Color background(const Ray& ray) const {
-    return background_.at(background_.colors.size() > 1 ? 1 - camera_.heightOf(ray.direction) : 0);
-  }
+  /// What rays see that meet nothing.
+  const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
@@ -235,7 +234,7 @@ class World {
   std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
-  Background background_;
+  Outside outside_;
   Box3 bounds_;
 };
 

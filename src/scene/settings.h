@@ -3,10 +3,13 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
+#include <string>
+
 #include "base/enum_set.h"
 #include "image/pixel_filter.h"
 #include "image/tone.h"
 #include "shading/cameras/camera.h"
+#include "shading/environment_map.h"
 #include "shading/rules.h"
 
 namespace trace {
@@ -46,6 +49,12 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
+/// A file, or a folder of files, as the program opens it; "" for none.
+struct FilePath {
+  std::string path;
+  bool operator==(const FilePath&) const = default;
+};
+
 struct Settings {
   // Picture
   int width = 400;
@@ -69,6 +78,13 @@ struct Settings {
   int depth = 5;
   Real threshold = 0;
   EnumSet<ShapeKind> omit{};
+  // Background
+  FilePath backdrop{};
+  FilePath environment{};
+  EnvironmentKind environmentKind = EnvironmentKind::automatic;
+  Real environmentRotation = 0;
+  Real environmentBrightness = 1;
+  Real environmentBlur = 0;
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;

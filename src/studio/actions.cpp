@@ -86,6 +86,11 @@ constexpr std::array kTable{
     Action{"File", "Close reference", 0, false, false, "compare no more",
            [](Studio& s) { s.workspace.closeReference(), s.picture.view = View::picture; }, hasReference,
            nullptr},
+    Action{"File", "Background image...", 0, false, false, "choose a picture to be seen behind everything",
+           [](Studio& s) { chooseFile(s, findOption("backdrop")); }, hasScene, nullptr},
+    Action{"File", "Environment map...", 0, false, false,
+           "choose a picture all around: a map, or one of the six faces of a cube",
+           [](Studio& s) { chooseFile(s, findOption("environment")); }, hasScene, nullptr},
     Action{"File", "Save scene", 'S', true, false, "write the scene, as edited, to its .ray file", saveScene,
            hasScene, nullptr},
     Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to another .ray file",
@@ -287,6 +292,13 @@ void drawLeaving(Studio& studio) {
 }
 
 }  // namespace
+
+void chooseFile(Studio& studio, const Option& option) {
+  const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
+  const std::string near = now == "none" ? studio.workspace.document.file() : now;
+  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near, pictureSuffixes(),
+                     [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
+}
 
 std::span<const Action> actions() { return kTable; }
 

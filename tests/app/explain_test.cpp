@@ -74,6 +74,7 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::choices:
       return {std::string(option.choices.front()), std::string(option.choices.back())};
     case Option::Kind::region: return {};
+    case Option::Kind::file: return {test::sourceFolder() + "/scenes/pictures/dusk.png"};
   }
   return {};
 }

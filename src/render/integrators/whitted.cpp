@@ -26,7 +26,8 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
-    if (path.kind == RayKind::camera) sum.add(Term::Kind::background, world.background(ray));
+    if (world.outside().isSeenBy(path.kind))
+      sum.add(Term::Kind::background, world.outside().view(ray.direction, path.kind).color);
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();

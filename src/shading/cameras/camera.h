@@ -69,6 +69,12 @@ struct CameraFrame {
     const Vec3 upward = cross(look, right), forward = cross(right, up);
     return 0.5 + dot(direction, upward) / dot(up, upward) * (dot(look, forward) / dot(direction, forward));
   }
+  /// The x of the ray of that direction, in the same way.
+  Real acrossOf(const Vec3& direction) const {
+    const Vec3 sideways = cross(look, up), forward = cross(right, up);
+    return 0.5 +
+           dot(direction, sideways) / dot(right, sideways) * (dot(look, forward) / dot(direction, forward));
+  }
   bool sees(Real distance) const { return near <= distance && distance <= far; }
   Ray ray(const Vec2& film) const {
     return {eye, normalize(look + right * (film.x - 0.5) + up * (film.y - 0.5))};
