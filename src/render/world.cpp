@@ -40,6 +40,14 @@ Bsdf World::mixedAt(std::uint32_t object, const MaterialMix& m, const SurfacePoi
   return mix(part(m.material[0]), part(m.material[1]), part(m.material[2]), m.weight);
 }
 
+Vec3 World::along(const Hit& hit) const {
+  const Affine& placed = worldFromObject(hit.object);
+  const Vec3 around = cross(linear(placed, {0, 0, 1}), hit.surface.shading);
+  // The axis is the normal to the last digits on a face across it.
+  return length(around) > gammaError(64) * length(linear(placed, {0, 0, 1})) ? around
+                                                                             : linear(placed, {1, 0, 0});
+}
+
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
   return shade(found.object, materials, textured(materials) ? surface(ray, found) : SurfacePoint());

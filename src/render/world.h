@@ -94,10 +94,13 @@ class World {
   PlaceBsdf shade(const Hit& hit) const { return shade(hit.object, hit.materials, hit.surface); }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
-  /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const {
-    return whitted(*bsdfAt(ray, found)).transmissive;
+  /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
+  /// asked for, u grows around the object's own axis z.
+  Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}};
   }
+  /// What of it the rays of a light pass through.
+  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -172,6 +175,9 @@ class World {
   [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
                                         Statistics& statistics, VisitFound visit) const;
 
+  /// The direction in which u grows.
+  Vec3 along(const Hit& hit) const;
+
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
   template <class Visit>
@@ -191,7 +197,7 @@ class World {
 
   /// A material of the scene.
   struct Surface {
-    Bsdf bsdf;  ///< without its textures
+    Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
@@ -199,9 +205,8 @@ class World {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }
   bool textured(const MaterialMix& materials) const {
-    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
-      return m != MaterialMix::kClear && surfaces_[m].textured;
-    });
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
   PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));

@@ -15,6 +15,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
 #include "geometry/field_value.h"
@@ -28,6 +29,8 @@ namespace {
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Material& material : scene.materials)
+      hasModels_ |= !std::holds_alternative<Phong>(material.model);
     for (const Object& object : scene.objects) count(object.shape, object.material);
     nameMaterials();
   }
@@ -173,6 +176,8 @@ class Writer {
     }
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
+    if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
+      item(kModel, std::string(keywordOf(material.model)));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
     out_ += "}";
   }
@@ -300,13 +305,14 @@ class Writer {
   int digits_;
   MaterialText materialText_;  ///< says materials in another way, if there is one
   bool inWhole_ = false;       ///< what is written is an operand
+  bool hasModels_ = false;     ///< some material is not Phong's: an operand may inherit its model
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
   WrittenTextures writtenTextures_;
-  std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
+  std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 
 }  // namespace

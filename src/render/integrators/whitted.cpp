@@ -32,13 +32,14 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const bool turned =
       hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
   const Vec3 normal = turned ? -surface.shading : surface.shading;
+  const Frame frame = world.frame(*hit, *bsdf, normal);
 
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient, world.ambient());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const auto arriving = world.illuminate(i, surface.point);
     if (!arriving) continue;
-    const Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
+    const Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
     const Color scattered = arriving->scattered(parts);
     const Color passed =
         isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
@@ -60,7 +61,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
   const bool fresnel = settings.fresnel == Fresnel::schlick && material.transmits();
   const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
-  const Color mirror = fresnel ? Color(R) : material.reflective;
+  const Color mirror = fresnel ? Color(R) : mirrorWeight(*bsdf, -dot(ray.direction, normal));
   if (!isBlack(mirror)) {
     const Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
     if (worthwhile(next))
