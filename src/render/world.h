@@ -89,7 +89,10 @@ class World {
   MaterialMix materialMix(const Found& found) const;
   /// Where textures are asked for the place on an object.
   TexturePlace place(std::uint32_t object, const SurfacePoint& surface) const {
-    return {.point = objects_[object].placement.inFromOut() * surface.point, .uv = surface.uv};
+    TexturePlace place;
+    place.point = objects_[object].placement.inFromOut() * surface.point;
+    place.uv = surface.uv;
+    return place;
   }
   PlaceBsdf shade(const Hit& hit) const { return shade(hit.object, hit.materials, hit.surface); }
   /// `ray` is the ray that found the place.
