@@ -104,6 +104,11 @@ class World {
   bool wantsFootprints() const { return wantsFootprints_; }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
+  /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
+  /// asked for, u grows around the object's own axis z.
+  Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}};
+  }
   /// What of it the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
@@ -181,6 +186,9 @@ class World {
                                        VisitFound visit) const;
   [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
                                         Statistics& statistics, VisitFound visit) const;
+
+  /// The direction in which u grows.
+  Vec3 along(const Hit& hit) const;
 
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.

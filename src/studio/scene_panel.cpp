@@ -170,6 +170,16 @@ void editMaterial(Studio& studio) {
   if (!beginFields("material")) return;
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
+  const std::vector<std::string_view> models = modelKeywords();
+  std::size_t chosen = material.model.index();
+  fieldName("model", "how the surface scatters light; fields that both models have keep their values");
+  ImGui::PushID("model");
+  const bool otherModel = editChoice(models.data(), models.size(), chosen);
+  ImGui::PopID();
+  if (otherModel) {
+    material = withModel(std::move(material), *modelCalled(models[chosen]));
+    changed(name + ": model " + std::string(models[chosen]));
+  }
   match(material.model, [&](auto& model) {
     const auto before = model;
     editFields(model, [&](std::string_view key) {

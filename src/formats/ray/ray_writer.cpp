@@ -17,6 +17,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
 #include "geometry/field_value.h"
@@ -32,6 +33,8 @@ namespace fs = std::filesystem;
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Material& material : scene.materials)
+      hasModels_ |= !std::holds_alternative<Phong>(material.model);
     for (const Object& object : scene.objects) count(object.shape, object.material);
     nameMaterials();
   }
@@ -184,6 +187,8 @@ class Writer {
     }
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
+    if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
+      item(kModel, std::string(keywordOf(material.model)));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
     out_ += "}";
   }
@@ -311,6 +316,7 @@ class Writer {
   int digits_;
   MaterialText materialText_;  ///< says materials in another way, if there is one
   bool inWhole_ = false;       ///< what is written is an operand
+  bool hasModels_ = false;     ///< some material is not Phong's: an operand may inherit its model
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file

@@ -42,6 +42,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const bool turned =
       hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
   const Vec3 normal = turned ? -surface.shading : surface.shading;
+  const Frame frame = world.frame(*hit, *bsdf, normal);
 
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient, world.ambient());
@@ -49,7 +50,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     const auto light = [&](const Vec2& place, Real share) {
       const auto arriving = world.illuminate(i, surface.point, place);
       if (!arriving) return;
-      const Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
+      const Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
       const Color scattered = arriving->scattered(parts) * share;
       const Color passed =
           isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
@@ -79,7 +80,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
   const bool fresnel = settings.fresnel == Fresnel::schlick && material.transmits();
   const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
-  const Color mirror = fresnel ? Color(R) : material.reflective;
+  const Color mirror = fresnel ? Color(R) : mirrorWeight(*bsdf, -dot(ray.direction, normal));
   if (!isBlack(mirror)) {
     Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
     if (worthwhile(next)) {
