@@ -57,8 +57,17 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
   return match(node.model, [&](const auto& model) {
     if (node.inputs.empty()) return model.at(place);
     auto own = model;
-    applyTextures(own, node.inputs, place);
-    return own.at(place);
+    if constexpr (requires { own.pattern(place); }) {
+      for (const FieldTexture& t : node.inputs)
+        if (t.field != "a" && t.field != "b") applyTexture(own, t, place);
+      const Real pattern = own.pattern(place);
+      for (const FieldTexture& t : node.inputs)
+        if ((t.field == "a" && pattern < 1) || (t.field == "b" && pattern > 0)) applyTexture(own, t, place);
+      return own.shade(pattern);
+    } else {
+      applyTextures(own, node.inputs, place);
+      return own.at(place);
+    }
   });
 }
 
