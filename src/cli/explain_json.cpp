@@ -79,6 +79,7 @@ class Writer {
     json["ends"] = Json::list();
     for (const RayEnd& why : node.ends) json["ends"].add(end(why));
     json["sentence"] = sentence(node, scene_);
+    if (node.outside) json["outside"] = outside(*node.outside);
     json["radiance"] = toJson(node.radiance);
     json["weight"] = toJson(node.weight);
     json["nodes"] = node.nodes;
@@ -143,6 +144,17 @@ class Writer {
                        {"specular", toJson(l.scatter.specular)},
                        {"extraHighlight", toJson(l.arriving.extraHighlight)}};
     }
+    return json;
+  }
+
+  static Json outside(const Outside::View& view) {
+    Json json;
+    json["source"] = Outside::kNames[static_cast<std::size_t>(view.source)];
+    json["direction"] = toJson(view.direction);
+    json["place"] = Json::list({view.place.x, view.place.y});
+    json["face"] =
+        view.face < 0 ? Json(nullptr) : Json(EnvironmentMap::kFaceNames[static_cast<std::size_t>(view.face)]);
+    json["color"] = toJson(view.color);
     return json;
   }
 

@@ -57,6 +57,7 @@ class Tracer {
   void record(int node, Term term);
   void record(int node, const RayEnd& why);
   void record(int node, const Indices& indices);
+  void record(int node, const Bsdf& bsdf);
   void record(int node, const Color& through, const Color& radiance);
   /// A new node for a ray about to be traced; when it was, what it cost.
   void begin(const Ray& ray, RayKind kind, Real tMost);

@@ -29,15 +29,16 @@ MaterialMix World::materialMix(const Found& found) const {
   return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
-Bsdf World::mixedAt(std::uint32_t object, const MaterialMix& m, const SurfacePoint& surface) const {
+Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& m,
+                    const SurfacePoint& surface, const Differentials* arrived) const {
   const bool hasTextures = textured(m);
-  const TexturePlace at = hasTextures ? place(object, surface) : TexturePlace();
-  const auto part = [&](std::uint32_t material) {
+  const TexturePlace at = hasTextures ? place(object, part, surface, arrived) : TexturePlace();
+  const auto of = [&](std::uint32_t material) {
     const Material* textured = material == MaterialMix::kClear ? nullptr : surfaces_[material].textured.get();
     return textured ? bsdfOf(*textured, at, rules_) : bsdf(material);
   };
-  if (m.count == 1) return part(m.material[0]);
-  return mix(part(m.material[0]), part(m.material[1]), part(m.material[2]), m.weight);
+  if (m.count == 1) return of(m.material[0]);
+  return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
 Vec3 World::along(const Hit& hit) const {
@@ -50,7 +51,8 @@ Vec3 World::along(const Hit& hit) const {
 
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
-  return shade(found.object, materials, textured(materials) ? surface(ray, found) : SurfacePoint());
+  return shade(found.object, found.part, materials,
+               textured(materials) ? surface(ray, found) : SurfacePoint(), nullptr);
 }
 
 std::size_t World::triangleCount() const {
@@ -147,6 +149,13 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
+void World::focusOnMiddle() {
+  const Ray ray = camera_.ray({0.5, 0.5});
+  Statistics uncounted;
+  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
+  camera_.lens.focus = found ? found->t : kInfinity;
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -154,6 +163,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   for (const Material& material : scene.materials)
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
+  for (const Material& material : scene.materials)
+    for (const FieldTexture& t : material.textures) world.wantsFootprints_ |= wantsFootprint(t.texture);
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
@@ -171,8 +182,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes);
-  world.background_ = scene.background;
+  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
+  world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
   MeshTrees trees;
@@ -239,6 +250,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
+  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
   return world;
 }
 

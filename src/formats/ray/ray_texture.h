@@ -38,6 +38,9 @@ class TextureReader {
 
   bool isTexture(const Item& value) const;
 
+  /// All that have names so far.
+  const std::map<std::string, Texture, std::less<>>& named() const { return named_; }
+
  private:
   struct Scaled {
     Texture texture;
@@ -47,6 +50,7 @@ class TextureReader {
   /// Nothing, after a report, if it cannot be had.
   std::optional<Scaled> read(const Item& value);
   std::optional<Texture> block(const Item& call);
+  void readFields(const Item& block, TextureNode& node);
   std::optional<Texture> named(const Item& word);
 
   Findings& findings_;

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <type_traits>
 #include <utility>
 
+#include "base/file.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
@@ -25,6 +27,8 @@
 namespace trace {
 namespace rayfile {
 namespace {
+
+namespace fs = std::filesystem;
 
 class Writer {
  public:
@@ -117,7 +121,11 @@ class Writer {
       out_ += "material = { };  // what shapes start from\n\n";
     if (scene_.choices.empty()) return;
     out_ += "settings {\n";
-    for (const Choice& choice : scene_.choices) field(choice.option, choice.value);
+    for (const Choice& choice : scene_.choices) {
+      const bool file = findOption(choice.option).kind == Option::Kind::file && choice.value != "none";
+      const fs::path path = file ? besideFile(choice.place.file, choice.value) : "";
+      field(choice.option, file ? fs::absolute(path).lexically_normal().string() : choice.value);
+    }
     out_ += "}\n\n";
   }
 
@@ -128,9 +136,12 @@ class Writer {
   }
 
   void writeBackground() {
-    if (scene_.background == Background{}) return;
+    const Background usual, &is = scene_.background;
+    if (is == usual) return;
     out_ += "background {\n";
-    fields(scene_.background);
+    forEachField<Background>([&](const auto& f) {
+      if (is.*f.member != usual.*f.member) field(f.keyword, is.*f.member);
+    });
     out_ += "}\n\n";
   }
 
