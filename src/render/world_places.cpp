@@ -75,9 +75,11 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   TexturePlace place;
   place.point = in * surface.point, place.uv = surface.uv;
   if (!arrived) return place;
-  const SurfaceSlopes along = slopes(object, part, surface);
-  place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
-  place.uvY = {dot(along.u, arrived->originY), dot(along.v, arrived->originY)};
+  if (footprintsInUv_) {
+    const SurfaceSlopes along = slopes(object, part, surface);
+    place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
+    place.uvY = {dot(along.u, arrived->originY), dot(along.v, arrived->originY)};
+  }
   place.pointX = linear(in, arrived->originX);
   place.pointY = linear(in, arrived->originY);
   return place;

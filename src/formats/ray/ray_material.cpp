@@ -112,9 +112,14 @@ void Materials::field(Block& block, const Item& field) {
     block.gaveReflective = false, block.phong.mirrorsSpecular = true;
     return;
   }
+  const bool isNumber = field.value().is(Kind::number);
+  if (key == "bump" && !textures_.isTexture(field.value()) && !(isNumber && field.value().number() == 0))
+    return findings_.expected(field.value(), "bump",
+                              "a texture of heights, as in bump = texture(noise { }, 0.1), or 0");
   if (!pattern(block, field)) {
-    if (!textures_.assign(block.phong, block.material.textures, field))
-      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
+    if (!textures_.assign(block.phong, block.material.textures, field) &&
+        !textures_.assign(block.material, block.material.textures, field) && !studentBump(block, field))
+      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name", "bump"}));
     if (key == "index" && block.phong.index == 0)
       findings_.warn(field, "index of material: expected a number above 0, found 0",
                      "air has 1, water 1.33, glass 1.5");
@@ -137,6 +142,24 @@ bool Materials::pattern(Block& block, const Item& field) {
   });
   if (known) findings_.notRendered(value.key(), value, {});
   return known;
+}
+
+/// `bump_mapping = bump("file")`, of a student at Austin: heights, of which only the differences from texel
+/// to texel counted. The height is ours.
+bool Materials::studentBump(Block& block, const Item& field) {
+  constexpr Real kHeight = 0.02;
+  const Item value = field.value();
+  if (field.key() != "bump_mapping" || !value.is(Kind::call) || value.key() != "bump") return false;
+  const Item tuple = value.value();
+  if (!tuple.is(Kind::tuple) || tuple.count() != 1 || !(*tuple.begin()).is(Kind::word)) {
+    findings_.expected(value, "bump_mapping", "bump(\"file\")");
+    return true;
+  }
+  setTexture(
+      block.material.textures, "bump",
+      mappedPicture(std::string((*tuple.begin()).text()), findings_.syntax().shortPlace(value.offset())));
+  block.material.bump = kHeight;
+  return true;
 }
 
 /// Whoever describes all looks of a material but that it is glass seldom wants the glass of another.

@@ -40,6 +40,7 @@ class Materials {
   struct Block;
   void field(Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
+  bool studentBump(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);
 

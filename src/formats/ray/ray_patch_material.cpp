@@ -131,6 +131,11 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
     if (const Texture* texture = textureOf(from.textures, f.keyword))
       setTexture(result.textures, f.keyword, *texture);
   });
+  if (!fieldOf(block, "bump") && !fieldOf(block, "bump_mapping")) {
+    result.bump = from.bump;
+    if (const Texture* texture = textureOf(from.textures, "bump"))
+      setTexture(result.textures, "bump", *texture);
+  }
   result.model = phong;
   return result;
 }
@@ -149,6 +154,8 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
     if (given && !(value == phongOf(was).*f.member))
       edits_.change(given->value(), valueText(wanted, f.keyword, value));
   });
+  if (const auto given = fieldOf(block, "bump"); given && was.bump != wanted.bump)
+    edits_.change(given->value(), valueText(wanted, "bump", wanted.bump));
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
 }
 
@@ -175,6 +182,9 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
     if (all || !(value == phongOf(from).*f.member) || !sameTexture(from, wanted, f.keyword))
       add(f.keyword, valueText(wanted, f.keyword, value));
   });
+  const bool sameBump = from.bump == wanted.bump && sameTexture(from, wanted, "bump");
+  if (!given("bump") && !given("bump_mapping") && !sameBump)
+    add("bump", valueText(wanted, "bump", wanted.bump));
   if (mirror.specular != phongOf(wanted).mirrorsSpecular)
     add("reflective",
         mirror.specular ? valueText(wanted, "reflective", phongOf(wanted).reflective) : "specular");

@@ -174,6 +174,7 @@ class Writer {
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
+    if (bumps_) modelFields(material, material);
     out_ += "}";
   }
 
@@ -306,7 +307,10 @@ class Writer {
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
   WrittenTextures writtenTextures_;
-  std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
+  /// Some material has one, which others may have to take back.
+  bool bumps_ = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                            [](const Material& m) { return textureOf(m.textures, "bump") != nullptr; });
+  std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 
 }  // namespace
