@@ -19,7 +19,9 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       materials(world.materialMix(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object)),
-      convex(world.convex(object)) {}
+      convex(world.convex(object)) {
+  world.bump(ray, *this);
+}
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   count(kind);
