@@ -22,8 +22,7 @@ struct Background {
   /// Where each band but the last ends, as a share of the picture's height from the top, ascending; none: all
   /// bands are equally high.
   std::vector<Real> limits;
-  std::vector<Color>
-      gradient{};  ///< colours all around, from straight down to straight up; none: no gradient
+  std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
   std::vector<Real> elevations{};  ///< of each, in degrees above the horizon, ascending; none: equally spaced
   Real turbidity = 0;              ///< of a sky by day (shading/daylight.h); 0: none
   Vec3 sun{1, 1, 1};               ///< the direction to it
