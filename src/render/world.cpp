@@ -41,14 +41,6 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
   return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
-Vec3 World::along(const Hit& hit) const {
-  const Affine& placed = worldFromObject(hit.object);
-  const Vec3 around = cross(linear(placed, {0, 0, 1}), hit.surface.shading);
-  // The axis is the normal to the last digits on a face across it.
-  return length(around) > gammaError(64) * length(linear(placed, {0, 0, 1})) ? around
-                                                                             : linear(placed, {1, 0, 0});
-}
-
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
   return shade(found.object, found.part, materials,
