@@ -62,6 +62,7 @@ struct Arguments {
   bool idiffCodes = false;
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
+  double sceneLimit = 0;      ///< seconds
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 

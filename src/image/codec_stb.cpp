@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -117,6 +118,7 @@ struct Source {
 
 [[noreturn]] void failAsStbSays() {
   const char* reason = stbi_failure_reason();
+  if (reason && std::strcmp(reason, "outofmem") == 0) throw std::bad_alloc();
   throw std::runtime_error(reason ? reason : "damaged");
 }
 

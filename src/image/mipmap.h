@@ -79,11 +79,9 @@ class MipMap {
 
   /// What is seen at a finite place. The first lookup that needs the pyramid makes it.
   Texel at(const Vec2& uv, const Lookup& lookup) const;
-  /// Makes what lookups like this need beforehand.
-  void prepare(const Lookup& lookup) const;
   /// Levels of the pyramid, the picture itself and the last texel counted.
   int levels() const;
-  /// Of memory now.
+  /// Of memory now; not while others look up.
   std::size_t bytes() const;
 
   struct Level {

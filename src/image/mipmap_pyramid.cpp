@@ -180,11 +180,6 @@ const MipMap::Pyramid& MipMap::pyramid(bool srgb) const {
   return pyramid;
 }
 
-void MipMap::prepare(const Lookup& lookup) const {
-  if (lookup.srgb) linear();
-  if (lookup.filter == TexelFilter::trilinear || lookup.filter == TexelFilter::ewa) pyramid(lookup.srgb);
-}
-
 int MipMap::levels() const {
   int count = 1;
   for (int size = std::max(width(), height()); size > 1; size /= 2) ++count;

@@ -2,6 +2,7 @@
 // explanation.
 #pragma once
 
+#include "render/footprint.h"
 #include "render/integrator.h"
 
 namespace trace {
@@ -25,14 +26,14 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    const Vec2 film = sampler.film();
-    const Ray ray = tracer_.world().camera().ray(film);
-    CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
-    Differentials differentials;
-    if (tracer_.world().wantsFootprints()) {
-      differentials = differentialsAt(film, ray);
-      camera.differentials = &differentials;
-    }
+    const World& world = tracer_.world();
+    const CameraFrame& frame = world.camera();
+    const auto [place, weight] = sampler.film();
+    const Vec2 lens = frame.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
+    const Ray ray = frame.ray(place, lens);
+    Footprint differentials;
+    if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
+    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera), weight, differentials.get()};
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }
@@ -42,12 +43,13 @@ class PixelTracer {
 
  private:
   /// To the rays of the samples beside this one, whatever the camera is.
-  Differentials differentialsAt(const Vec2& film, const Ray& ray) const {
+  [[gnu::noinline]] Footprint differentialsAt(const Vec2& film, const Vec2& lens, const Ray& ray) const {
     const CameraFrame& camera = tracer_.world().camera();
     const Vec2 step = rules_.spacing();
-    const Ray x = camera.ray({film.x + step.x, film.y}), y = camera.ray({film.x, film.y + step.y});
-    return {x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
-            y.direction - ray.direction};
+    const Ray x = camera.ray({film.x + step.x, film.y}, lens), y = camera.ray({film.x, film.y + step.y}, lens);
+    return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
+                                                               x.direction - ray.direction,
+                                                               y.direction - ray.direction});
   }
 
   Tracer tracer_;

@@ -31,9 +31,11 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
     if (records()) {
       const CameraFrame& camera = world_.camera();
       const Real limit = found && found->t < camera.near ? camera.near : camera.far;
-      finish().ends.push_back(
+      RayNode& node = finish();
+      node.ends.push_back(
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
                 : LeftScene{});
+      if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray.direction, kind);
     }
     return std::nullopt;
   }

@@ -41,6 +41,14 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
   return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
+Vec3 World::along(const Hit& hit) const {
+  const Affine& placed = worldFromObject(hit.object);
+  const Vec3 around = cross(linear(placed, {0, 0, 1}), hit.surface.shading);
+  // The axis is the normal to the last digits on a face across it.
+  return length(around) > gammaError(64) * length(linear(placed, {0, 0, 1})) ? around
+                                                                             : linear(placed, {1, 0, 0});
+}
+
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
   return shade(found.object, found.part, materials,
@@ -141,6 +149,13 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
+void World::focusOnMiddle() {
+  const Ray ray = camera_.ray({0.5, 0.5});
+  Statistics uncounted;
+  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
+  camera_.lens.focus = found ? found->t : kInfinity;
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -172,8 +187,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes);
-  world.background_ = scene.background;
+  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
+  world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
   MeshTrees trees;
@@ -240,6 +255,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
+  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
   return world;
 }
 

@@ -22,6 +22,7 @@
 #include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
+#include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/differentials.h"
@@ -107,6 +108,11 @@ class World {
   }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
+  /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
+  /// asked for, u grows around the object's own axis z.
+  Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}};
+  }
   /// What of it the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
@@ -125,15 +131,17 @@ class World {
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Rules& rules() const { return rules_; }
-  /// What arrives at a point of the light of that number, if nothing is in the way.
-  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from) const {
-    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_); });
+  /// What arrives at a point of the light of that number, if nothing is in the way: from the place of the
+  /// light that `u` chooses, two numbers from 0 up to 1.
+  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from, const Vec2& u = kCenter) const {
+    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_, u); });
+  }
+  bool lightHasSize(std::size_t light) const {
+    return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  /// What a camera ray sees that meets nothing.
-  Color background(const Ray& ray) const {
-    return background_.at(background_.colors.size() > 1 ? 1 - camera_.heightOf(ray.direction) : 0);
-  }
+  /// What rays see that meet nothing.
+  const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
@@ -183,11 +191,17 @@ class World {
   [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
                                         Statistics& statistics, VisitFound visit) const;
 
+  /// The direction in which u grows.
+  Vec3 along(const Hit& hit) const;
+
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
   template <class Visit>
   void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
+
+  /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
+  void focusOnMiddle();
 
   struct Forms;  ///< complete in world_queries.cpp
   /// Takes the forms out of the shapes of all objects, to lie side by side.
@@ -234,7 +248,7 @@ class World {
   std::vector<std::uint32_t> lightSources_;
   Color ambient_;
   CameraFrame camera_;
-  Background background_;
+  Outside outside_;
   Box3 bounds_;
 };
 

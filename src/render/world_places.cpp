@@ -27,6 +27,18 @@ struct Barycentric {
   }
 };
 
+/// Those of texture coordinates in a triangle.
+struct Gradients {
+  Vec3 u, v;
+};
+Gradients gradientsOf(const MeshData& mesh, std::uint32_t index) {
+  const Barycentric b(corners(mesh, index));
+  if (mesh.uvs.empty()) return {b.second, b.third};
+  const Triangle& t = mesh.triangles[index];
+  const Vec2 &p = mesh.uvs[t[0]], &q = mesh.uvs[t[1]], &r = mesh.uvs[t[2]];
+  return {b.second * (q.x - p.x) + b.third * (r.x - p.x), b.second * (q.y - p.y) + b.third * (r.y - p.y)};
+}
+
 /// From one texture coordinate to another nearby. The way across the line where it starts again is short.
 Real shortWay(Real from, Real to) {
   constexpr Real kTorn = 0.25;  // so much in a step as short as ours is no slope
@@ -75,13 +87,18 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   TexturePlace place;
   place.point = in * surface.point, place.uv = surface.uv;
   if (!arrived) return place;
-  if (footprintsInUv_) {
+  place.pointX = linear(in, arrived->originX);
+  place.pointY = linear(in, arrived->originY);
+  if (!footprintsInUv_) return place;
+  if (const auto& mesh = objects_[object].mesh) {  // with gradients in the space of the object
+    const Gradients g = gradientsOf(mesh->data(), static_cast<std::uint32_t>(part));
+    place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};
+    place.uvY = {dot(g.u, place.pointY), dot(g.v, place.pointY)};
+  } else {
     const SurfaceSlopes along = slopes(object, part, surface);
     place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
     place.uvY = {dot(along.u, arrived->originY), dot(along.v, arrived->originY)};
   }
-  place.pointX = linear(in, arrived->originX);
-  place.pointY = linear(in, arrived->originY);
   return place;
 }
 

@@ -235,9 +235,11 @@ TEST(MipMap, EightBitsTakeAByteAndHalfAsMuchMoreForThePyramid) {
   const auto grey = [](int, int, int) { return 7; };
   const MipMap map(raster<std::uint8_t>(256, 256, 3, 255, grey));
   EXPECT_EQ(map.bytes(), 3u * 256 * 256);
-  map.prepare({.filter = TexelFilter::bilinear});
+  Lookup lookup{.filter = TexelFilter::bilinear, .uvX = {0.1, 0}, .uvY = {0, 0.1}};
+  map.at({0.5, 0.5}, lookup);
   EXPECT_EQ(map.bytes(), 3u * 256 * 256);
-  map.prepare({.filter = TexelFilter::ewa});
+  lookup.filter = TexelFilter::ewa;
+  map.at({0.5, 0.5}, lookup);
   EXPECT_LE(map.bytes(), 5u * 256 * 256);
   EXPECT_EQ(map.levels(), 9);
 }

@@ -87,9 +87,18 @@ void checkSlopes(const Shape& shape, test::Random& random, int rays) {
       return std::abs(change - dot(gradient, step)) <= 0.01 * length(gradient) * length(step) + 1e-9;
     };
     uv.add(close(to.x - from.x, slopes.u) && close(to.y - from.y, slopes.v));
-    const Vec3 turn = pair.b.surface.shading - pair.a.surface.shading, told = slopes.normalAlong(step);
-    const Real most = length(slopes.normal[0]) + length(slopes.normal[1]);
-    normal.add(length(turn - told) <= 0.02 * most * length(step) + 1e-9);
+    const Vec3 turn = pair.b.surface.shading - pair.a.surface.shading, turned = slopes.normalAlong(step);
+    const Real bend = length(slopes.normal[0]) + length(slopes.normal[1]);
+    normal.add(length(turn - turned) <= 0.02 * bend * length(step) + 1e-9);
+
+    // Places go by the same slopes.
+    const Differentials along{step, step * 2, {}, {}};
+    const TexturePlace seen = world.place(pair.a, &along);
+    const Vec2 told{dot(slopes.u, step), dot(slopes.v, step)};
+    const Real most = (length(slopes.u) + length(slopes.v)) * length(step);
+    EXPECT_NEAR(seen.uvX.x, told.x, 1e-4 * most);
+    EXPECT_NEAR(seen.uvX.y, told.y, 1e-4 * most);
+    EXPECT_NEAR(seen.uvY.x, 2 * told.x, 1e-4 * most);
 
     // The frame is dual to the gradients.
     const Vec3 byU = slopes.byU(), byV = slopes.byV();

@@ -176,10 +176,11 @@ void checkRange(Findings& findings, std::string_view owner, const Field& f, cons
 
 /// Warns if the field of that keyword is outside its range; the value stays.
 template <class Struct>
-void checkRange(Findings& findings, const Struct& target, const Item& field) {
+void checkRange(Findings& findings, const Struct& target, const Item& field,
+                std::string_view owner = Struct::kKeyword) {
   const std::string_view key = canonical(field.key());
   forEachField<Struct>([&](const auto& f) {
-    if (f.keyword == key) checkRange(findings, Struct::kKeyword, f, target.*f.member, field);
+    if (f.keyword == key) checkRange(findings, owner, f, target.*f.member, field);
   });
 }
 void checkRange(Findings& findings, const Shape& target, const Item& field);

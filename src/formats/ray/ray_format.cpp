@@ -76,7 +76,7 @@ class Reader {
   void topLevel(const Item& item) {
     if (item.is(Kind::entry)) return topLevelEntry(item);
     if (item.is(Kind::call)) {
-      if (item.key() == Phong::kKeyword) return objects_.namedMaterial(item);
+      if (item.key() == Material::kKeyword) return objects_.namedMaterial(item);
       if (item.key() == Camera::kKeyword) return camera(item);
       if (item.key() == kSettings) return readSettings(findings_, item);
       if (item.key() == Background::kKeyword) return background(item);
@@ -87,7 +87,7 @@ class Reader {
 
   void topLevelEntry(const Item& item) {
     if (item.key() == kTexture) return materials_.textures().define(item.value());
-    if (item.key() != Phong::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
+    if (item.key() != Material::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
     findings_.sureSignOf2005();
     materials_.current = materials_.read(item.value(), materials_.current);
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -15,6 +16,9 @@
 #include "shading/material.h"
 
 namespace trace::rayfile {
+
+/// The field of a material that says its shading model.
+inline constexpr std::string_view kModel = "model";
 
 class Materials {
  public:
@@ -38,7 +42,10 @@ class Materials {
 
  private:
   struct Block;
+  static std::optional<Item> modelOf(const Item& block);
+  void chooseModel(Block& block, const Item& value);
   void field(Block& block, const Item& field);
+  void unknownField(const Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
   bool studentBump(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);

@@ -33,7 +33,8 @@ class TextureReader {
   /// Reads `field` into the member of that keyword, or the texture that stands there into `textures`. False
   /// if Struct has no such field.
   template <class Struct>
-  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field);
+  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field,
+              std::string_view owner = Struct::kKeyword);
 
   bool isTexture(const Item& value) const;
 
@@ -57,12 +58,13 @@ class TextureReader {
 };
 
 template <class Struct>
-bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field) {
+bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field,
+                           std::string_view owner) {
   const std::string_view key = canonical(field.key());
   if (!isTexture(field.value())) {
     if (!assignField(findings_, target, field)) return false;
     std::erase_if(textures, [&](const FieldTexture& t) { return t.field == key; });
-    checkRange(findings_, target, field);
+    checkRange(findings_, target, field, owner);
     return true;
   }
   bool known = false;
