@@ -34,7 +34,7 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
       RayNode& node = finish();
       node.ends.push_back(
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
-                : LeftScene{});
+                : hiddenFrom(ray, kind));
       if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray.direction, kind);
     }
     return std::nullopt;
@@ -47,6 +47,14 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
     return hit;
   }
   return std::optional<Hit>(std::in_place, world_, ray, *found);
+}
+
+RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
+  Statistics uncounted;
+  if (facesSeenBy(kind) == Faces::both) return LeftScene{};
+  const auto hidden = world_.closest(ray, Faces::both, uncounted);
+  if (!hidden) return LeftScene{};
+  return Culled{hidden->object, hidden->t, sharesOf(world_.materialMix(*hidden))};
 }
 
 bool Tracer::tooNear(const Ray& ray) const {
