@@ -179,7 +179,7 @@ void Materials::unknownField(const Block& block, const Item& field) {
       return findings_.error(
           field,
           "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
-          "it has " + list(keywords<Model>({"name"}), "and"));
+          "it has " + list(keywords<Model>({"name", "bump"}), "and"));
     std::vector<std::string_view> having;
     forEachType<MaterialModel>([&]<class Other>(Other*) {
       forEachField<Other>([&](const auto& f) {
@@ -187,7 +187,7 @@ void Materials::unknownField(const Block& block, const Item& field) {
       });
     });
     if (having.empty())
-      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", kModel, "bump"}));
+      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", "bump", kModel}));
     findings_.warn(field,
                    "unknown field \"" + std::string(key) +
                        "\" of material is ignored: it is one of model = " + list(having, "or"),
