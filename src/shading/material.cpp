@@ -43,6 +43,7 @@ Material withModel(Material material, const MaterialModel& to) {
   material.model = converted(material.model, to);
   std::erase_if(material.textures, [&](const FieldTexture& t) {
     bool known = false;
+    forEachField<Material>([&](const auto& f) { known |= f.keyword == t.field; });
     match(material.model, [&]<class M>(const M&) {
       forEachField<M>([&](const auto& f) {
         using Value = std::remove_cvref_t<decltype(std::declval<M&>().*f.member)>;
