@@ -17,6 +17,7 @@ namespace trace {
 struct CameraRay {
   Ray ray;
   std::optional<Hit> hit;
+  Interfaces inside;  ///< what the ray is in when it gets there
 };
 
 /// There is one for a render; it never changes once it is prepared.

@@ -26,7 +26,8 @@ class PixelTracer {
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
     const Ray ray = tracer_.world().camera().ray(sampler.film());
-    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera)};
+    CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin)};
+    camera.hit = tracer_.cast(ray, RayKind::camera, camera.inside);
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }

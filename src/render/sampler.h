@@ -59,6 +59,9 @@ class Sampler {
   /// Where in the picture the sample lies, from 0 to 1, (0, 0) at the bottom left.
   Vec2 film() const { return rules_->generator().film(*rules_, x_, y_, k_); }
 
+  /// The number of the sample in its pixel.
+  int sample() const { return k_; }
+
   /// The next number, from 0 up to 1; the next two.
   Real next() { return rules_->generator().number(key_, dimension_++); }
   Vec2 next2() {

@@ -21,6 +21,7 @@
 #include "geometry/solve/approach.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
+#include "render/interfaces.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "shading/lights/light.h"
@@ -95,9 +96,7 @@ class World {
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const {
-    return whitted(*bsdfAt(ray, found)).transmissive;
-  }
+  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -106,6 +105,14 @@ class World {
   }
   /// A ray that leaves the object on the side of its normal does not meet it again.
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
+  /// It encloses space; a mesh does if it is closed.
+  bool solid(std::uint32_t object) const { return objects_[object].solid; }
+  /// Bodies of glass inside and across one another are told apart.
+  bool nestedGlass() const { return nestedGlass_; }
+  /// What fills the body at a place on it that looks like `terms`, by the conventions of a render.
+  Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
+  /// What a ray that starts at the point is inside of.
+  Interfaces interfacesAt(const Vec3& point, const Settings& settings) const;
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -142,6 +149,7 @@ class World {
     std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
     bool convex = false;
+    bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
@@ -191,17 +199,17 @@ class World {
 
   /// A material of the scene.
   struct Surface {
-    Bsdf bsdf;  ///< without its textures
+    Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
+    std::uint32_t kind = 0;                    ///< Filling::kind, where glass may be nested
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }
   bool textured(const MaterialMix& materials) const {
-    return std::any_of(materials.material, materials.material + materials.count, [&](std::uint32_t m) {
-      return m != MaterialMix::kClear && surfaces_[m].textured;
-    });
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
   PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
@@ -214,6 +222,8 @@ class World {
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
+  bool nestedGlass_ = false;
+  std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where they may be nested
   Color ambient_;
   CameraFrame camera_;
   Background background_;

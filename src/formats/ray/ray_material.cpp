@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_format.h"
+#include "shading/substances.h"
 
 namespace trace::rayfile {
 namespace {
@@ -29,7 +30,7 @@ std::size_t hashOf(const Material& material, const Phong& phong) {
     if constexpr (requires { value.r; })
       add(value.r), add(value.g), add(value.b);
     else
-      add(value);
+      add(static_cast<double>(value));
   });
   return hash;
 }
@@ -108,13 +109,14 @@ void Materials::field(Block& block, const Item& field) {
     rayfile::read(findings_, key, field.value(), block.material.name);
     return;
   }
+  if (key == kLibrary) return fromLibrary(block, field.value());
   if (key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
     block.gaveReflective = false, block.phong.mirrorsSpecular = true;
     return;
   }
   if (!pattern(block, field)) {
     if (!textures_.assign(block.phong, block.material.textures, field))
-      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name"}));
+      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name", kLibrary}));
     if (key == "index" && block.phong.index == 0)
       findings_.warn(field, "index of material: expected a number above 0, found 0",
                      "air has 1, water 1.33, glass 1.5");
@@ -122,6 +124,22 @@ void Materials::field(Block& block, const Item& field) {
   }
   if (key == "reflective") block.gaveReflective = true, block.phong.mirrorsSpecular = false;
   if (key == "specular" && !block.gaveReflective) block.phong.mirrorsSpecular = true;
+}
+
+/// Starts the block as a copy of a material of the library; its name stays.
+void Materials::fromLibrary(Block& block, const Item& value) {
+  std::string name;
+  if (!rayfile::read(findings_, kLibrary, value, name)) return;
+  const std::optional<Material> found = libraryMaterial(name);
+  if (!found) {
+    std::string hint = didYouMean(name, libraryNames());
+    if (hint.empty()) hint = "docs/indices.md lists them, as in library = water";
+    findings_.error(value, "library: expected the name of a material, found " + describe(value),
+                    std::move(hint));
+    return;
+  }
+  block.material.textures.clear();
+  block.phong = phongOf(*found);
 }
 
 /// Is the field given by a pattern that Trace does not render? White shows where it goes.
@@ -146,7 +164,7 @@ void Materials::warnOfInheritedGlass(const Item& block, const Material& inherite
   bool looks = false;
   for (const Item item : block) {
     if (!item.keyed()) continue;
-    if (item.key() == "transmissive" || item.key() == "index") return;
+    if (item.key() == "transmissive" || item.key() == "index" || item.key() == kLibrary) return;
     looks |= item.key() == "diffuse";
   }
   if (!looks) return;

@@ -16,6 +16,10 @@
 
 namespace trace::rayfile {
 
+/// `library = water` makes a block start from that material (shading/substances.h), in place of what it
+/// inherits.
+inline constexpr std::string_view kLibrary = "library";
+
 class Materials {
  public:
   explicit Materials(Findings& findings) : findings_(findings), textures_(findings) {}
@@ -39,6 +43,7 @@ class Materials {
  private:
   struct Block;
   void field(Block& block, const Item& field);
+  void fromLibrary(Block& block, const Item& value);
   bool pattern(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);
