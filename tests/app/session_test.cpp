@@ -49,6 +49,9 @@ TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
 const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
     {"spp", {"antialias.ray", "9"}},
     {"threshold", {"threshold.ray", "0.3"}},
+    {"nested-glass", {"glass.ray", "on"}},
+    {"wavelengths", {"prism.ray", "5"}},
+    {"varnish", {"coloured-glass.ray", "on"}},
 };
 
 TEST(Extras, EachChangesThePictureOfItsExampleAndNothingWhenOff) {

@@ -145,7 +145,7 @@ TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
     if constexpr (requires { member.r; })
       member = {0.1, 0.2, 1.0 / 7};
     else
-      member = 0.3;
+      member = static_cast<std::remove_reference_t<decltype(member)>>(0.3);
     scene.materials.push_back({std::string(f.keyword), phong, {}});
     scene.objects.push_back({"", Sphere{}, {}, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
   });
