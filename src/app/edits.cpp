@@ -13,6 +13,8 @@ void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>
 }
 
 void followEdit(Background& now, const Background& before, std::string_view) {
+  if (now.elevations.size() != now.gradient.size()) now.elevations.clear();
+  std::sort(now.elevations.begin(), now.elevations.end());
   std::vector<Real>& limits = now.limits;
   const std::size_t wanted = now.colors.empty() ? 0 : now.colors.size() - 1;
   const bool takenOut = limits.size() < before.limits.size();

@@ -21,7 +21,8 @@ void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
 
 /// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
-/// limits of their own; who takes a limit out wants equal bands again.
+/// limits of their own; who takes a limit out wants equal bands again. Elevations ascend, one for each colour
+/// of the gradient, or there are none.
 void followEdit(Background& now, const Background& before, std::string_view keyword);
 
 }  // namespace trace

@@ -10,6 +10,7 @@
 #include "app/session.h"
 #include "base/budget.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "image/codec.h"
 
 namespace trace {
@@ -40,12 +41,15 @@ InputFiles filesOf(const GradeTask& task, const Grades& grades) {
 
 LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
   Budget budget(budgetOfThread.budget);  // the scene's own time limit counts from here
+  budget.limitTime(task.sceneLimit);
   const BudgetScope scope(&budget);
   Session session;
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
   session.build();
   const RenderResult result = session.renderPicture();
+  if (result.end == End::timeLimit && task.sceneLimit > 0 && budget.seconds() > task.sceneLimit)
+    throw Error(Fault::limit, "it takes longer than the " + toText(task.sceneLimit) + " s of --scene-limit");
   if (result.end != End::finished)
     throw Error(Fault::limit,
                 "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));
@@ -106,6 +110,7 @@ void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) 
     compareInto(pair, task, inputs);
   } catch (const Error& error) {
     lookAtBudget();  // if the time of all is over, this pair is not at fault
+    pair.values.clear();
     pair.verdict = Verdict::unreadable;
     pair.problem = problemOf(error);
   } catch (const std::bad_alloc&) {
@@ -191,7 +196,7 @@ bool worse(const GradedPair& a, const GradedPair& b) {
 }  // namespace
 
 std::string_view verdictText(Verdict verdict) {
-  constexpr std::string_view kTexts[] = {"missing", "unreadable", "sizes differ",
+  constexpr std::string_view kTexts[] = {"missing", "unreadable", "not reached", "sizes differ",
                                          "beyond",  "within",     "identical"};
   return kTexts[static_cast<std::size_t>(verdict)];
 }
@@ -217,12 +222,21 @@ Grades grade(const GradeTask& task) {
   std::vector<InputFiles> inputs(grades.pairs.size());
   Work work("comparing pictures", static_cast<std::int64_t>(grades.pairs.size()));
   const int threads = resolve({task.choices}).threads;
-  parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
-                 [&](std::int64_t i, int) {
-                   work.reached(job.done);
-                   const auto index = static_cast<std::size_t>(i);
-                   compareOrNote(grades.pairs[index], task, inputs[index]);
-                 });
+  std::vector<char> reached(grades.pairs.size());
+  try {
+    parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
+                   [&](std::int64_t i, int) {
+                     work.reached(job.done);
+                     const auto index = static_cast<std::size_t>(i);
+                     compareOrNote(grades.pairs[index], task, inputs[index]);
+                     reached[index] = true;
+                   });
+  } catch (const Error& error) {
+    if (error.fault() != Fault::limit) throw;
+    grades.stopped = error.messages().front().what;
+  }
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    if (!reached[i] && !grades.pairs[i].file.empty()) grades.pairs[i].verdict = Verdict::notReached;
   for (const InputFiles& ofScene : inputs) checkPage(task, ofScene);
   std::sort(grades.pairs.begin(), grades.pairs.end(), worse);
   grades.passed = static_cast<std::size_t>(std::count_if(grades.pairs.begin(), grades.pairs.end(),

@@ -19,10 +19,11 @@ struct GradeTask {
   double magnify = 8;         ///< of the heat pictures
   bool keepsPictures = true;  ///< for a page
   std::string page{};         ///< the file to be written, which must be none of those read; "" for none
+  double sceneLimit = 0;      ///< seconds that reading and rendering a scene may take; 0 for no limit
 };
 
 /// Of one reference picture. The order is from worst to best.
-enum class Verdict { missing, unreadable, sizesDiffer, beyond, within, identical };
+enum class Verdict { missing, unreadable, notReached, sizesDiffer, beyond, within, identical };
 std::string_view verdictText(Verdict verdict);
 inline bool passes(Verdict verdict) { return verdict >= Verdict::within; }
 
@@ -42,10 +43,12 @@ struct Grades {
   std::vector<GradedPair> pairs;   ///< worst first
   std::vector<std::string> extra;  ///< files of the folder that have no reference, seen from it
   std::size_t passed = 0;
+  std::string stopped;  ///< why some pairs were not reached; "" if all were
 };
 
 /// Pairs are files of the same name, wherever the suffixes differ, in the same sub-folder. What goes wrong
-/// with one pair is its verdict. Throws Error when a folder cannot be read or there is no reference picture.
+/// with one pair is its verdict. When the time of all is over, the pairs that are left are not reached. Throws
+/// Error when a folder cannot be read or there is no reference picture.
 Grades grade(const GradeTask& task);
 
 /// One self-contained HTML page: a table, worst first, with the pictures in it, and a viewer to swipe between

@@ -246,8 +246,10 @@ void blackReflection(const LintScene& s, Findings& findings) {
     warn(findings, "black-reflection", placeOf(s, object),
          quoted(s, object) + (mirrors ? " mirrors black" : " lets black through") +
              " where it should show the background: only rays of the camera see that",
-         "put objects where it " + std::string(mirrors ? "mirrors" : "is looked through to") +
-             " nothing, such as a large sphere around all with `emissive` as sky and the lights inside");
+         "every ray sees a `gradient` in `background`, a sky by day and what --environment names; or put "
+         "objects "
+         "where it " +
+             std::string(mirrors ? "mirrors" : "is looked through to") + " nothing");
   }
 }
 

@@ -104,6 +104,7 @@ class Surveyor {
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
     survey_.picture = Picture(kWidth, kHeight);
+    if (world.outside().isSeenBy(RayKind::reflection)) return;  // everybody sees the sky
     for (const Color& color : scene.background.colors)
       brightestSky_ = std::max(brightestSky_, maxComponent(color));
   }

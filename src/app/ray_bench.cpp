@@ -94,7 +94,7 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   for (int y = 0; y < size.height; ++y) {
     work->reached(y);
     for (int x = 0; x < size.width; ++x) {
-      const Ray ray = world.camera().ray(Sampler(rules, x, y, 0).film());
+      const Ray ray = world.camera().ray(Sampler(rules, x, y, 0).film().place);
       primary.push_back({ray});
       const auto found = world.closest(ray, Faces::both, statistics);
       if (!found) continue;

@@ -10,7 +10,8 @@
 namespace trace {
 namespace {
 
-constexpr int kDivisions = 24;  // of a shape's longest side
+constexpr int kDivisions = 24;          // of a shape's longest side
+constexpr int kDivisionsOfSolids = 72;  // of one made of objects, whose curved edges are to look smooth
 constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 constexpr int kLooks = 24;        // rays across and down, to find what a camera sees
 constexpr double kAside = 0.2;    // share of the picture on each side that is not asked
@@ -18,10 +19,13 @@ constexpr double kFarOut = 0.15;  // share of the points seen that is left out o
 
 constexpr double kFarther = 1e6;  // times as far from the camera as the first quarter: left out
 
-/// Glass has hardly a colour of its own; what it lets through is shown instead.
+/// The colour that diffuse light gives it. Mirrors and glass have hardly one of their own: as far as that
+/// leaves room, what they reflect and let through is shown instead.
 Color lookOf(const Phong& m) {
-  const Color own = m.diffuse + m.ambient * 0.3 + m.emissive + (m.reflective + m.specular) * 0.3;
-  return clamp01(own + m.transmissive * 0.8 + Color(0.06));
+  constexpr Real kMirror = 0.4, kClear = 0.8, kBlack = 0.04;  // black things are to be seen, too
+  const Color lit = m.diffuse + m.emissive, own = clamp01(maxComponent(lit) > 0 ? lit : m.ambient);
+  const Color other = clamp01(m.reflective * kMirror + m.transmissive * kClear);
+  return lerp(kBlack, own + other * (1 - maxComponent(own)), Color(1));
 }
 
 Real opacityOf(const Phong& m) {
@@ -89,7 +93,8 @@ SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& wi
     if (Corners corners = in(kept)) return corners;
     if (Corners corners = in(made_)) return kept.push_back({shape, corners}), corners;
   }
-  Corners corners = std::make_shared<const std::vector<SurfaceCorner>>(tessellate(shape, kDivisions, within));
+  Corners corners = std::make_shared<const std::vector<SurfaceCorner>>(
+      tessellate(shape, shape.type().ofObjects ? kDivisionsOfSolids : kDivisions, within));
   if (lasts) kept.push_back({shape, corners});
   return corners;
 }

@@ -35,6 +35,8 @@ std::uint64_t bytesPerPixel(const Settings& settings) {
   return Film::bytesPerPixel(passesOf(settings).size()) + 2 * sizeof(Color) + 16;
 }
 
+PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowedMemory(settings)}; }
+
 }  // namespace
 
 std::uint64_t machineMemory() {
@@ -88,6 +90,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   Real time = 0;
   scene_ = readSceneAtItsMoment(file, bytes, choices, messages_, time);
   settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
+  readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
   fingerprint_ = scene_.inputs.fingerprint();
   messages_.throwIfFailed(strict_);
   if (budgetOfThread.budget) budgetOfThread.budget->limitTime(settings_.timeLimit);  // also the file's own
@@ -105,6 +108,8 @@ void Session::build(const Session* before) {
   const Stopwatch watch;
   const Size picture = size();
   checkMemory("a picture", picture, bytesPerPixel(settings_), settings_);
+  readSurroundings(scene_, settings_, pictureLimits(settings_), messages_,
+                   before ? &before->scene_.surroundings : nullptr);
   if (before) {
     const Compiled earlier{before->scene_, before->settings_, *before->world_};
     world_.emplace(compile(scene_, settings_, messages_, &earlier));

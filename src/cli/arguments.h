@@ -4,6 +4,7 @@
 // THE options table (scene/options.h); the others from the table in flags.cpp.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@
 namespace trace::cli {
 
 /// The sub-commands, in the order of their table (commands.h).
-enum class Verb { render, gui, info, bench, explain, lint, diff, grade, convert, features, help };
+enum class Verb { render, gui, info, bench, explain, lint, diff, grade, convert, texture, features, help };
 using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
@@ -49,6 +50,8 @@ struct Arguments {
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool markdown = false;              ///< features: as docs/options.md
+  std::array<int, 2> size{256, 256};  ///< texture: --size, width and height
+  std::optional<double> across;       ///< texture: --across, steps of the pattern
   // diff and grade
   double tolerance = 0;  ///< levels or values
   std::vector<Limit> limits;
@@ -59,6 +62,7 @@ struct Arguments {
   bool idiffCodes = false;
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
+  double sceneLimit = 0;      ///< seconds
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 

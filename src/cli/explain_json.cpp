@@ -14,6 +14,12 @@ namespace {
 Json toJson(const Vec3& v) { return Json::list({v.x, v.y, v.z}); }
 Json toJson(const Color& c) { return Json::list({c.r, c.g, c.b}); }
 Json toJson(Real x) { return x; }
+Json toJson(bool yes) { return yes; }
+Json toJson(int number) { return number; }
+template <class Enum>
+requires std::is_enum_v<Enum> Json toJson(Enum value) {
+  return names(Enum{})[static_cast<std::size_t>(value)];
+}
 
 Json toJson(const Place& place) {
   if (place.file.empty()) return nullptr;
@@ -25,6 +31,25 @@ Json fieldsOf(const Struct& value) {
   Json json = Json::object();
   forEachField<Struct>([&](const auto& field) { json[field.keyword] = toJson(value.*field.member); });
   return json;
+}
+
+/// The model and its values at the place; of a mixture of models what they have in common.
+Json material(const Bsdf& bsdf) {
+  const auto of = [](std::string_view model, Json fields) {
+    fields["model"] = model;
+    return fields;
+  };
+  return match(bsdf,
+               Overloaded{[&](const PhongBsdf& phong) { return of(Phong::kKeyword, fieldsOf(phong)); },
+                          [&](const MixedBsdf& mixed) {
+                            return of("mixed", {{"emissive", toJson(mixed.emissive)},
+                                                {"ambient", toJson(mixed.ambient)},
+                                                {"reflective", toJson(mixed.reflective)},
+                                                {"transmissive", toJson(mixed.transmissive)},
+                                                {"index", mixed.index},
+                                                {"shadow", mixed.shadow}});
+                          },
+                          [&](const auto& bsdf) { return of(bsdf.said.kKeyword, fieldsOf(bsdf.said)); }});
 }
 
 class Writer {
@@ -67,6 +92,7 @@ class Writer {
     json["ends"] = Json::list();
     for (const RayEnd& why : node.ends) json["ends"].add(end(why));
     json["sentence"] = sentence(node, scene_);
+    if (node.outside) json["outside"] = outside(*node.outside);
     json["radiance"] = toJson(node.radiance);
     json["weight"] = toJson(node.weight);
     json["nodes"] = node.nodes;
@@ -111,7 +137,7 @@ class Writer {
               {"leaving", h.leaving},
               {"indexBefore", node.indices.before},
               {"indexBehind", node.indices.behind},
-              {"material", match(*node.bsdf, [](const auto& model) { return fieldsOf(model); })}};
+              {"material", material(*node.bsdf)}};
     if (node.indices.nested) {
       json["bodyBefore"] = body(node.indices.objectBefore);
       json["bodyBehind"] = body(node.indices.objectBehind);
@@ -139,6 +165,17 @@ class Writer {
                        {"specular", toJson(l.scatter.specular)},
                        {"extraHighlight", toJson(l.arriving.extraHighlight)}};
     }
+    return json;
+  }
+
+  static Json outside(const Outside::View& view) {
+    Json json;
+    json["source"] = Outside::kNames[static_cast<std::size_t>(view.source)];
+    json["direction"] = toJson(view.direction);
+    json["place"] = Json::list({view.place.x, view.place.y});
+    json["face"] =
+        view.face < 0 ? Json(nullptr) : Json(EnvironmentMap::kFaceNames[static_cast<std::size_t>(view.face)]);
+    json["color"] = toJson(view.color);
     return json;
   }
 

@@ -8,6 +8,7 @@
 #include "image/codec.h"
 #include "render/integrator.h"
 #include "render/passes.h"
+#include "shading/material.h"
 
 namespace trace::cli {
 namespace {
@@ -27,6 +28,8 @@ std::string featuresText() {
   for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
   text += "passes (--passes NAME,NAME)\n";
   for (const PassRow& pass : passRows()) text += row(pass.name, pass.help);
+  text += "shading models (material = { model = NAME; ... })\n";
+  forEachType<MaterialModel>([&]<class Model>(Model*) { text += row(Model::kKeyword, Model::kHelp); });
   text += "scene formats\n";
   for (const SceneFormat& format : sceneFormats())
     text += row(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));

@@ -12,15 +12,15 @@ namespace {
 
 using Takes = Flag::Takes;
 constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
-    kConvert{Verb::convert}, kFeatures{Verb::features}, kComparing{Verb::diff, Verb::grade},
+    kConvert{Verb::convert}, kTexture{Verb::texture}, kComparing{Verb::diff, Verb::grade},
     kOfScenes{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade},
     kStrict{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade, Verb::convert},
-    kWorking{Verb::render, Verb::info, Verb::bench, Verb::explain,
-             Verb::lint,   Verb::diff, Verb::grade, Verb::convert},
-    kWithOutput{Verb::render, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
+    kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
+             Verb::diff,   Verb::grade, Verb::convert, Verb::texture},
+    kWithOutput{Verb::render, Verb::explain, Verb::lint, Verb::diff, Verb::grade, Verb::texture},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render, Verb::gui,   Verb::info,    Verb::bench,    Verb::explain, Verb::lint,
-                Verb::diff,   Verb::grade, Verb::convert, Verb::features, Verb::help};
+    kEverywhere{Verb::render, Verb::gui,   Verb::info,    Verb::bench,   Verb::explain,  Verb::lint,
+                Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::features, Verb::help};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -150,6 +150,16 @@ int wholeNumber(std::string_view flag, std::string_view value, int least, int mo
   return static_cast<int>(number->value);
 }
 
+/// "512x256".
+void setSize(Arguments& arguments, std::string_view value) {
+  const std::size_t by = value.find('x');
+  if (by == std::string_view::npos)
+    throw Error(Fault::usage,
+                "--size: expected WIDTHxHEIGHT, as in 512x256, found \"" + std::string(value) + "\"");
+  arguments.size = {wholeNumber("size", value.substr(0, by), 1, 32768),
+                    wholeNumber("size", value.substr(by + 1), 1, 32768)};
+}
+
 void setOutput(Arguments& arguments, std::string_view value) {
   if (value.empty()) throw Error(Fault::usage, "--output: expected the name of a file, found nothing");
   arguments.output = value;
@@ -219,6 +229,11 @@ std::span<const Flag> flags() {
            [](Arguments& a, std::string_view value) {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
+      Flag{"size", 0, Takes::value, "WxH", "", kTexture, true, "of the picture; default 256x256", setSize},
+      Flag{"across", 0, Takes::value, "X", "", kTexture, true,
+           "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "
+           "scene",
+           [](Arguments& a, std::string_view value) { a.across = numberOf("across", value, 1e-6); }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", kWorking, false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
@@ -261,6 +276,9 @@ std::span<const Flag> flags() {
       Flag{"render", 0, Takes::nothing, "", "", kGrade, false,
            "render the scenes of the folder, with the options given, instead of reading pictures",
            [](Arguments& a, std::string_view) { a.renderScenes = true; }},
+      Flag{"scene-limit", 0, Takes::value, "SECONDS", "", kGrade, false,
+           "a scene that takes longer to render is given up, and the next one comes; default 0, no limit",
+           [](Arguments& a, std::string_view value) { a.sceneLimit = numberOf("scene-limit", value, 0); }},
       Flag{"pixel", 0, Takes::value, "X,Y", "", kExplain, true,
            "the pixel to explain; 0,0 is at the top left",
            [](Arguments& a, std::string_view value) { a.pixel = value; }},
@@ -270,7 +288,14 @@ std::span<const Flag> flags() {
       Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", kAnswering, true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) { a.format = value; }},  // each command knows its own
-      Flag{"markdown", 0, Takes::nothing, "", "", kFeatures, false, "print docs/options.md",
+      Flag{"markdown",
+           0,
+           Takes::nothing,
+           "",
+           "",
+           {Verb::features, Verb::texture},
+           false,
+           "print docs/options.md, or of texture docs/texture-fields.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
       Flag{"print-defaults", 0, Takes::nothing, "", "", kRender, false,
            "print every option as NAME=VALUE with its default, and end",

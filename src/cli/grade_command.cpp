@@ -1,15 +1,19 @@
 // ray grade DIR --reference DIR: a table of all pairs, worst first, and a page to look at.
 //
-// Keys of the JSON object: folder, reference, passed, pairs[] of {name, file, verdict, problem, unit, width,
+// Keys of the JSON object: folder, reference, passed, stopped (or null), pairs[] of {name, file, verdict, problem, unit, width,
 // height, then each metric by name, null where it is infinite or there is none}, extra[], page (or null).
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <thread>
 
 #include "app/grade.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/metric_text.h"
+#include "cli/terminal.h"
 
 namespace trace::cli {
 namespace {
@@ -34,7 +38,8 @@ GradeTask taskOf(const Arguments& arguments) {
           .limits = arguments.limits,
           .magnify = arguments.magnify,
           .keepsPictures = !arguments.output.empty(),
-          .page = arguments.output};
+          .page = arguments.output,
+          .sceneLimit = arguments.sceneLimit};
 }
 
 /// Of UTF-8 text, as far as each character is one column wide.
@@ -88,6 +93,8 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
   json["folder"] = arguments.files[0];
   json["reference"] = arguments.reference;
   json["passed"] = grades.passed;
+  json["stopped"] = nullptr;
+  if (!grades.stopped.empty()) json["stopped"] = grades.stopped;
   json["pairs"] = Json::list();
   for (const GradedPair& pair : grades.pairs) {
     Json one{{"name", pair.name},       {"file", pair.file}, {"verdict", verdictText(pair.verdict)},
@@ -107,18 +114,66 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
   return json.text(2) + "\n";
 }
 
+/// Ctrl-C makes the time of the command be over, so that what is compared by then is kept.
+class StopKey {
+ public:
+  explicit StopKey(const Console& console) : console_(console), budget_(budgetOfThread.budget) {
+    signals_.renderingBegins();
+    Signals::receive(false);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~StopKey() {
+    finished_ = true;
+    signals_.wake();
+    thread_.join();
+    Signals::receive(true);
+  }
+  StopKey(const StopKey&) = delete;
+  StopKey& operator=(const StopKey&) = delete;
+
+  bool pressed() const { return pressed_; }
+
+ private:
+  void run() {
+    Signals::receive(true);
+    while (!finished_) {
+      if (signals_.wait(kInterval) != Signals::Event::stop) continue;
+      pressed_ = true;
+      budget_->letFinish();
+      budget_->limitTime(budget_->seconds());
+      console_.line(LogLevel::info, "stopping; Ctrl-C again stops at once");
+    }
+  }
+
+  static constexpr int kInterval = 100;  // milliseconds
+  const Console& console_;
+  Budget* budget_;
+  Signals signals_;
+  std::atomic<bool> finished_{false}, pressed_{false};
+  std::thread thread_;
+};
+
 }  // namespace
 
 int gradeCommand(const Arguments& arguments, const Console& console) {
   const bool asJson = chosenFormat(arguments, "grade", kFormats) == "json";
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);
+  StopKey stop(console);
   const Grades grades = trace::grade(task);
+  const BudgetScope late(nullptr);  // what was compared is told, whatever the time
   if (!arguments.output.empty()) writeFile(arguments.output, gradePage(task, grades));
   printResult(asJson ? gradesJson(arguments, grades) : gradesText(grades));
+  const std::string pairs = counted(grades.pairs.size(), "pair");
   if (!arguments.output.empty())  // the last line, below a table that may be long
-    console.line(LogLevel::info,
-                 "wrote " + arguments.output + " (" + counted(grades.pairs.size(), "pair") + ")");
+    console.line(LogLevel::info, "wrote " + arguments.output + " (" + pairs + ")");
+  if (!grades.stopped.empty()) {
+    const auto left = std::count_if(grades.pairs.begin(), grades.pairs.end(),
+                                    [](const auto& p) { return p.verdict == Verdict::notReached; });
+    console.line(LogLevel::error, std::to_string(left) + " of " + pairs + " not reached: " +
+                                      (stop.pressed() ? "stopped by the user" : grades.stopped));
+    return stop.pressed() ? kStopped : static_cast<int>(Fault::limit);
+  }
   return grades.passed == grades.pairs.size() ? kDone : kNotAllWithin;
 }
 

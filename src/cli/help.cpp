@@ -61,6 +61,7 @@ std::string placeholder(const Option& option) {
     case Option::Kind::choice: return joined(option.choices, "|");
     case Option::Kind::choices: return joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
+    case Option::Kind::file: return "FILE";
   }
   return "";
 }
@@ -71,6 +72,7 @@ std::string rangeText(const Option& option) {
     case Option::Kind::choice: return joined(option.choices, ", ");
     case Option::Kind::choices: return "none, or some of " + joined(option.choices, ",");
     case Option::Kind::region: return "x0,y0,x1,y1";
+    case Option::Kind::file: return "the name of a file, or none";
     case Option::Kind::integer:
     case Option::Kind::real: break;
   }

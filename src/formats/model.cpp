@@ -1,5 +1,6 @@
 #include "formats/model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -17,9 +18,11 @@ bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 
 Material colored(const Material& base, const Color& color) {
   Material material = base;
-  match(material.model, [&](auto& model) { model.diffuse = model.ambient = color; });
-  std::erase_if(material.textures,
-                [](const FieldTexture& t) { return t.field == "diffuse" || t.field == "ambient"; });
+  const auto own = {kDiffuse, kColor, kAmbient};
+  changeColors(material.model, own, [&](const Color&) { return color; });
+  std::erase_if(material.textures, [&](const FieldTexture& t) {
+    return std::find(own.begin(), own.end(), t.field) != own.end();
+  });
   return material;
 }
 

@@ -45,7 +45,7 @@ void load(const std::string& path, Loaded& loaded) {
     loaded.bytes = readBeside("", path);
     loaded.map = MipMap::decode(loaded.bytes, path);
   } catch (const Error& error) {
-    if (error.fault() == Fault::limit && loaded.bytes.empty()) throw;
+    if (error.fault() == Fault::limit) throw;
     loaded.failure = error.messages().front().what;
   }
 }

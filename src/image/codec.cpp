@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/match.h"
 #include "base/text.h"
 #include "image/codec_parts.h"
 
@@ -78,7 +79,7 @@ std::string encodeTga(const Picture& picture, Rounding rounding, const Metadata&
 std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata& metadata) {
   return withJpegComments(encodeJpegByStb(toBytes(picture, rounding)), metadata);
 }
-Picture decodePng(std::string_view bytes, const PictureLimits& limits) {
+Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);
   // stb takes a PNG that is too large for one of another type.
   constexpr std::size_t kWidth = 16, kHeight = 20;
@@ -207,7 +208,26 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
 }
 
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
+  return withFormatOf(bytes, name,
+                      [&](const PictureFormat& format) { return toPicture(format.decode(bytes, limits)); });
+}
+
+Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
   return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes, limits); });
+}
+
+Picture toPicture(const Raster& raster) {
+  Picture picture(raster.width, raster.height);
+  const auto stride = static_cast<std::size_t>(raster.channels);
+  const std::size_t g = raster.channels > 2 ? 1 : 0, b = 2 * g;
+  match(raster.samples, [&](const auto& samples) {
+    const auto* sample = samples.data();
+    for (Color& c : picture.pixels) {
+      c = Color(double(sample[0]), double(sample[g]), double(sample[b])) / raster.most;
+      sample += stride;
+    }
+  });
+  return picture;
 }
 
 Picture readPicture(const std::string& path, const PictureLimits& limits) {

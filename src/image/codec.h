@@ -13,6 +13,7 @@
 
 #include "image/metadata.h"
 #include "image/picture.h"
+#include "image/raster.h"
 #include "image/tone.h"
 
 namespace trace {
@@ -38,7 +39,7 @@ struct PictureFormat {
   bool (*recognise)(std::string_view bytes);
   /// Throws a std::exception whose what() is the reason why the bytes are no sound file, Error(Fault::limit)
   /// if the picture is larger than the limits.
-  Picture (*decode)(std::string_view bytes, const PictureLimits&);
+  Raster (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
 };
@@ -66,6 +67,9 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
 /// anything that is not a whole, sound file of a known format, Error(Fault::limit) for a picture larger than
 /// the limits, and when memory is short.
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
+
+/// The same as the file has it, with transparency. Throws as decodePicture().
+Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// decodePicture() of a file. Throws Error.
 Picture readPicture(const std::string& path, const PictureLimits& limits = {});

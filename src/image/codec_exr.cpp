@@ -1,9 +1,13 @@
 // EXR through OpenEXR, the only file that sees it; in memory, so that all writing goes through base/file.h.
 // One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G, B
-// or Y of any sample type; the display window is the picture. Source: "OpenEXR File Layout" and
-// "Reading and Writing OpenEXR Image Files" (openexr.com). No threads are started.
+// or Y, and A, of any sample type; the display window is the picture, in which colours are multiplied by A.
+// Source: "OpenEXR File Layout" and "Reading and Writing OpenEXR Image Files" (openexr.com). No threads are
+// started.
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "image/codec.h"
@@ -156,7 +160,7 @@ std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata
   return file;
 }
 
-Picture decodeExr(std::string_view bytes, const PictureLimits& limits) {
+Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
   const ExrHeaders headers = exrHeaders(bytes);
   const Imf::Header header = headerOf(bytes);
   const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
@@ -168,29 +172,40 @@ Picture decodeExr(std::string_view bytes, const PictureLimits& limits) {
   MemoryInput stream(bytes);
   Imf::InputFile input(stream, kNoThreads);
   const bool grey = !input.header().channels().findChannel("R") && input.header().channels().findChannel("Y");
-  std::vector<float> values(size_t{3} * static_cast<size_t>(stored.width) *
+  std::vector<const char*> names = grey ? std::vector{"Y"} : std::vector{"R", "G", "B"};
+  if (input.header().channels().findChannel("A")) names.push_back("A");
+  const size_t channels = names.size();
+  std::vector<float> values(channels * static_cast<size_t>(stored.width) *
                             static_cast<size_t>(stored.height));
   Imf::FrameBuffer target;
-  const char* names[] = {grey ? "Y" : "R", "G", "B"};
-  for (size_t i = 0; i < (grey ? 1u : 3u); ++i) {
+  for (size_t i = 0; i < channels; ++i) {
     const Imf::Channel* channel = input.header().channels().findChannel(names[i]);
     if (!channel) throw std::runtime_error("it has neither channels R, G, B nor Y");
     if (channel->xSampling != 1 || channel->ySampling != 1)
       throw std::runtime_error("channels stored at lower resolution are not read");
     target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, values.data() + i, data.min, stored.width,
-                                             stored.height, 3 * sizeof(float)));
+                                             stored.height, channels * sizeof(float)));
   }
   input.setFrameBuffer(target);
   input.readPixels(data.min.y, data.max.y);
 
-  Picture picture(shown.width, shown.height);  // black where the file stores nothing
+  Raster raster(shown.width, shown.height, static_cast<int>(channels), 1);
+  raster.premultiplied = true;
+  if (data == display) {
+    raster.samples = std::move(values);
+    return raster;
+  }
+  std::vector<float> samples(raster.count());  // black where the file stores nothing
   const float* value = values.data();
   for (int y = data.min.y; y <= data.max.y; ++y)
-    for (int x = data.min.x; x <= data.max.x; ++x, value += 3)
-      if (x >= display.min.x && x <= display.max.x && y >= display.min.y && y <= display.max.y)
-        picture.at(x - display.min.x, y - display.min.y) = {value[0], value[grey ? 0 : 1],
-                                                            value[grey ? 0 : 2]};
-  return picture;
+    for (int x = data.min.x; x <= data.max.x; ++x, value += channels) {
+      if (x < display.min.x || x > display.max.x || y < display.min.y || y > display.max.y) continue;
+      const auto pixel = static_cast<size_t>(y - display.min.y) * static_cast<size_t>(shown.width) +
+                         static_cast<size_t>(x - display.min.x);
+      std::copy(value, value + channels, samples.begin() + static_cast<std::ptrdiff_t>(pixel * channels));
+    }
+  raster.samples = std::move(samples);
+  return raster;
 }
 
 Metadata exrMetadata(std::string_view bytes) {

@@ -11,6 +11,7 @@
 
 #include "image/metadata.h"
 #include "image/picture.h"
+#include "image/raster.h"
 #include "image/tone.h"
 
 namespace trace {
@@ -34,16 +35,16 @@ std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);
 /// PNG, BMP, TGA or JPEG.
-Picture decodeByStb(std::string_view bytes, const PictureLimits& limits);
+Raster decodeByStb(std::string_view bytes, const PictureLimits& limits);
 
 std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
 /// P2, P3, P5 or P6.
-Picture decodePpm(std::string_view bytes, const PictureLimits& limits);
+Raster decodePpm(std::string_view bytes, const PictureLimits& limits);
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);
-Picture decodeHdr(std::string_view bytes, const PictureLimits& limits);
+Raster decodeHdr(std::string_view bytes, const PictureLimits& limits);
 
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
-Picture decodeExr(std::string_view bytes, const PictureLimits& limits);
+Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
 Metadata exrMetadata(std::string_view bytes);
 
 }  // namespace trace

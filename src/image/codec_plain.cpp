@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "image/codec.h"
@@ -135,7 +137,7 @@ std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata&
   return file;
 }
 
-Picture decodePpm(std::string_view bytes, const PictureLimits& limits) {
+Raster decodePpm(std::string_view bytes, const PictureLimits& limits) {
   const bool grey = bytes[1] == '2' || bytes[1] == '5', plain = bytes[1] == '2' || bytes[1] == '3';
   NetpbmReader reader(bytes);
   reader.skip(2);
@@ -144,18 +146,23 @@ Picture decodePpm(std::string_view bytes, const PictureLimits& limits) {
   const double bytesPerPixel = (plain || most > 255 ? 2 : 1) * (grey ? 1 : 3);
   checkClaimedSize(width, height, bytes.size(), 1 / bytesPerPixel, limits);
   if (!plain) reader.skip(1);
-  const auto next = [&] {
-    return (plain ? reader.number() : reader.sample(most > 255 ? 2 : 1)) / double(most);
+  Raster raster(width, height, grey ? 1 : 3, most);
+  const auto read = [&](auto value, const auto& next) {
+    std::vector<decltype(value)> samples(raster.count());
+    for (auto& sample : samples) sample = static_cast<decltype(value)>(next());
+    raster.samples = std::move(samples);
   };
-  Picture picture(width, height);
-  for (Color& c : picture.pixels) {
-    c = Color(next());
-    if (!grey) {
-      c.g = next();
-      c.b = next();
-    }
-  }
-  return picture;
+  if (plain)
+    read(std::uint16_t{}, [&] {
+      const int value = reader.number();
+      if (value > 65535) throw std::runtime_error("a sample above 65535");
+      return value;
+    });
+  else if (most > 255)
+    read(std::uint16_t{}, [&] { return reader.sample(2); });
+  else
+    read(std::uint8_t{}, [&] { return reader.sample(1); });
+  return raster;
 }
 
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata) {
@@ -167,7 +174,7 @@ std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata
   return file;
 }
 
-Picture decodeHdr(std::string_view bytes, const PictureLimits& limits) {
+Raster decodeHdr(std::string_view bytes, const PictureLimits& limits) {
   std::string_view rest = bytes;
   for (std::string_view line = takeLine(rest); !line.empty(); line = takeLine(rest))
     if (line.substr(0, 7) == "FORMAT=" && line != "FORMAT=32-bit_rle_rgbe")
@@ -179,14 +186,20 @@ Picture decodeHdr(std::string_view bytes, const PictureLimits& limits) {
     throw std::runtime_error("a size like \"-Y 300 +X 400\" was expected, found \"" + size + "\"");
   constexpr double kPixelsPerByte = 127.0 / 8;  // four runs of 127 values, two bytes each
   checkClaimedSize(width, height, bytes.size(), kPixelsPerByte, limits);
-  Picture picture(width, height);
+  Raster raster(width, height, 3, 1);
+  std::vector<float> samples;
+  samples.reserve(raster.count());
   RgbeReader reader(rest);
   std::vector<Rgbe> row(static_cast<size_t>(width));
   for (int y = 0; y < height; ++y) {
     reader.read(row);
-    for (int x = 0; x < width; ++x) picture.at(x, y) = fromRgbe(row[static_cast<size_t>(x)]);
+    for (const Rgbe& pixel : row) {
+      const Color c = fromRgbe(pixel);
+      for (double channel : {c.r, c.g, c.b}) samples.push_back(static_cast<float>(channel));
+    }
   }
-  return picture;
+  raster.samples = std::move(samples);
+  return raster;
 }
 
 }  // namespace trace

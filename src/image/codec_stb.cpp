@@ -10,7 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <stdexcept>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "image/codec.h"
 #include "image/codec_parts.h"
@@ -114,6 +118,7 @@ struct Source {
 
 [[noreturn]] void failAsStbSays() {
   const char* reason = stbi_failure_reason();
+  if (reason && std::strcmp(reason, "outofmem") == 0) throw std::bad_alloc();
   throw std::runtime_error(reason ? reason : "damaged");
 }
 
@@ -155,24 +160,42 @@ double mostPixelsPerByte(std::string_view bytes) {
   return packs ? kPackedPixelsPerByte : 128;
 }
 
-/// Runs one of stb's loaders (8 or 16 bit) and scales its values to colours.
+/// Runs one of stb's loaders (8 or 16 bit); `most` stands for 1.
 template <class Value>
-Picture decodeAs(std::string_view bytes, double scale,
-                 Value* (*load)(const stbi_io_callbacks*, void*, int*, int*, int*, int)) {
+Raster decodeAs(std::string_view bytes, double most,
+                Value* (*load)(const stbi_io_callbacks*, void*, int*, int*, int*, int)) {
   const stbi_io_callbacks callbacks{Source::read, Source::skip, Source::atEnd};
   Source source{bytes};
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<Value, void (*)(void*)> values(
-      load(&callbacks, &source, &width, &height, &channels, 3), stbi_image_free);
+      load(&callbacks, &source, &width, &height, &channels, 0), stbi_image_free);
   if (source.ranDry) throw std::runtime_error("the file ends too early");
   if (!values) failAsStbSays();
-  Picture picture(width, height);
-  const Value* value = values.get();
-  for (Color& c : picture.pixels) {
-    c = Color(double(value[0]), double(value[1]), double(value[2])) / scale;
-    value += 3;
-  }
-  return picture;
+  Raster raster(width, height, channels, most);
+  raster.samples = std::vector<Value>(values.get(), values.get() + raster.count());
+  return raster;
+}
+
+/// A TGA file of 32 bits a pixel whose header says that none of them are transparency.
+bool fourthIsUnused(std::string_view bytes) {
+  constexpr std::size_t kDescriptor = 17;
+  constexpr int kAlphaBits = 15;
+  const bool isTga =
+      bytes.size() > kDescriptor && bytes.substr(0, 2) != "BM" && bytes[0] != '\x89' && bytes[0] != '\xFF';
+  return isTga && (bytes[kDescriptor] & kAlphaBits) == 0;
+}
+
+/// Without its last channel.
+Raster withoutAlpha(const Raster& given) {
+  Raster raster(given.width, given.height, given.channels - 1, given.most);
+  const auto& from = std::get<std::vector<stbi_uc>>(given.samples);
+  std::vector<stbi_uc> samples;
+  samples.reserve(raster.count());
+  const auto stride = static_cast<size_t>(given.channels);
+  for (size_t i = 0; i < from.size(); ++i)
+    if (i % stride != stride - 1) samples.push_back(from[i]);
+  raster.samples = std::move(samples);
+  return raster;
 }
 
 }  // namespace
@@ -201,7 +224,7 @@ std::string encodeJpegByStb(const Bytes& b) {
   });
 }
 
-Picture decodeByStb(std::string_view bytes, const PictureLimits& limits) {
+Raster decodeByStb(std::string_view bytes, const PictureLimits& limits) {
   if (bytes.size() > INT_MAX) throw std::runtime_error("files above 2 GiB are not read");
   if (bytes.substr(0, 2) == "\xFF\xD8") checkJpegTables(bytes);
   const auto* start = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -213,7 +236,8 @@ Picture decodeByStb(std::string_view bytes, const PictureLimits& limits) {
   checkClaimedSize(width, height, bytes.size(), mostPixelsPerByte(bytes), limits);
   if (stbi_is_16_bit_from_memory(start, size))
     return decodeAs<stbi_us>(bytes, 65535, stbi_load_16_from_callbacks);
-  return decodeAs<stbi_uc>(bytes, 255, stbi_load_from_callbacks);
+  Raster raster = decodeAs<stbi_uc>(bytes, 255, stbi_load_from_callbacks);
+  return raster.hasAlpha() && fourthIsUnused(bytes) ? withoutAlpha(raster) : raster;
 }
 
 }  // namespace trace

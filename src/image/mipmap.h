@@ -1,16 +1,29 @@
-// The pixels of a picture as textures ask for them.
+// The pixels of a picture as textures ask for them: single texels, or means of many, from a pyramid of
+// smaller and smaller copies (Williams, Pyramidal Parametrics, SIGGRAPH 1983).
 //
-// Texture coordinates: (0, 0) is the bottom left corner of the picture, (1, 1) the top right one.
+// Texture coordinates: (0, 0) is the bottom left corner of the picture, (1, 1) the top right one. The texel
+// in column x and row y from the top covers x / width to (x + 1) / width.
+//
+// Each level of the pyramid is half as wide and high as the one before, rounded down; its texels are exact
+// means of what they cover (Guthe and Heckbert, Non-Power-of-Two Mipmap Creation, NVIDIA 2005). With
+// Lookup::srgb texels become linear before any mean is taken, otherwise means are taken of the numbers of the
+// file. Colours are not weighted by alpha. A picture of one colour gives that colour exactly, by every
+// filter.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "image/codec.h"
+#include "image/raster.h"
+#include "math/color.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -19,8 +32,15 @@ namespace trace {
 enum class Wrap { repeat, clamp, mirror, black };
 constexpr std::array<std::string_view, 4> names(Wrap) { return {"repeat", "clamp", "mirror", "black"}; }
 
-enum class TexelFilter { nearest, bilinear };
-constexpr std::array<std::string_view, 2> names(TexelFilter) { return {"nearest", "bilinear"}; }
+enum class TexelFilter {
+  nearest,    ///< the texel at the place
+  bilinear,   ///< between the four texels around it
+  trilinear,  ///< between two levels of the pyramid, by the longer side of the footprint
+  ewa,        ///< by the footprint as an ellipse (Greene and Heckbert, IEEE CG&A 6(6), 1986)
+};
+constexpr std::array<std::string_view, 4> names(TexelFilter) {
+  return {"nearest", "bilinear", "trilinear", "ewa"};
+}
 
 struct Texel {
   Color color;
@@ -33,24 +53,62 @@ struct Lookup {
   TexelFilter filter = TexelFilter::bilinear;
   /// The outermost texels have their centres at 0 and 1, rather than their edges.
   bool centersAtEnds = false;
+  bool srgb = false;  ///< the file's colours are sRGB, and are made linear
+  /// The footprint: how the place changes to the next pixel on the right and above. Where both are 0, the
+  /// filters that ask for it are bilinear.
+  Vec2 uvX{}, uvY{};
 };
+
+/// The linear value of an sRGB one, both from 0 to 1 (IEC 61966-2-1).
+Real linearOfSrgb(Real value);
 
 class MipMap {
  public:
-  explicit MipMap(Picture picture);
+  explicit MipMap(Raster raster);
+  explicit MipMap(const Picture& picture);
 
-  /// Of a picture file. Throws as decodePicture().
+  /// Of a picture file, with its transparency. Throws as decodePicture().
   static std::shared_ptr<const MipMap> decode(std::string_view bytes, const std::string& name,
                                               const PictureLimits& limits = {});
 
-  int width() const { return picture_.width; }
-  int height() const { return picture_.height; }
-  Texel texel(int x, int y) const { return {picture_.at(x, y), 1}; }  ///< row 0 at the top
-  /// Precondition: uv is finite.
+  int width() const { return base_.width; }
+  int height() const { return base_.height; }
+  bool hasAlpha() const { return base_.hasAlpha; }
+  /// As the file has it, row 0 at the top.
+  Texel texel(int x, int y) const;
+
+  /// What is seen at a finite place. The first lookup that needs the pyramid makes it.
   Texel at(const Vec2& uv, const Lookup& lookup) const;
+  /// Levels of the pyramid, the picture itself and the last texel counted.
+  int levels() const;
+  /// Of memory now; not while others look up.
+  std::size_t bytes() const;
+
+  struct Level {
+    int width = 0, height = 0, channels = 0;
+    bool hasAlpha = false;
+    double colorMost = 1, alphaMost = 1;  ///< the sample that stands for 1
+    Raster::Samples samples{};
+  };
+  /// The next smaller one. With `linear`, an entry for each sample of the level, the colours become those.
+  static Level halved(const Level& level, const std::vector<float>& linear);
 
  private:
-  Picture picture_;
+  struct Pyramid {
+    std::once_flag once;
+    std::vector<Level> levels;  ///< without the picture itself
+  };
+  const std::vector<float>& linear() const;
+  const Pyramid& pyramid(bool srgb) const;
+  Texel bilinear(const Level& level, const Vec2& place, const Lookup& lookup) const;
+  struct Ellipse;
+  Texel weighted(const Level& level, const Vec2& place, const Ellipse& ellipse, const Lookup& lookup) const;
+
+  Level base_;
+  // Made when first wanted; what they are follows from the picture.
+  mutable std::once_flag linearOnce_;
+  mutable std::vector<float> linear_;  ///< of each sample that an integer can be
+  mutable std::array<Pyramid, 2> pyramids_;
 };
 
 }  // namespace trace

@@ -20,8 +20,8 @@ std::vector<std::string_view> Expression::functions() { return {kFunctions.begin
 /// factor].
 class ExpressionParser {
  public:
-  ExpressionParser(std::string_view text, std::vector<Expression::Step>& steps)
-      : text_(text), steps_(steps) {}
+  ExpressionParser(std::string_view text, bool hasUv, std::vector<Expression::Step>& steps)
+      : text_(text), hasUv_(hasUv), steps_(steps) {}
 
   void parse() {
     sum();
@@ -123,8 +123,9 @@ class ExpressionParser {
         at_ += number->length;
         return add(Do::number, 0, 0, number->value);
       }
-    fail("expected a number, x, y, z, a function or \"(\"");
+    fail("expected a number, " + variables() + ", a function or \"(\"");
   }
+  std::string variables() const { return hasUv_ ? "x, y, z, u, v" : "x, y, z"; }
   Index word() {
     std::size_t end = at_;
     while (end < text_.size() &&
@@ -135,12 +136,16 @@ class ExpressionParser {
       at_ = end;
       return add(name == "x" ? Do::x : name == "y" ? Do::y : Do::z);
     }
+    if (hasUv_ && (name == "u" || name == "v")) {
+      at_ = end;
+      return add(name == "u" ? Do::u : Do::v);
+    }
     if (name == "pi") {
       at_ = end;
       return add(Do::number, 0, 0, kPi);
     }
     if (std::find(kFunctions.begin(), kFunctions.end(), name) == kFunctions.end())
-      fail("expected x, y, z, pi or a function");
+      fail("expected " + variables() + ", pi or a function");
     at_ = end;
     need('(');
     const Index a = sum();
@@ -174,12 +179,15 @@ class ExpressionParser {
   }
 
   std::string_view text_;
+  bool hasUv_;
   std::vector<Expression::Step>& steps_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
-Expression::Expression(std::string_view text) { ExpressionParser(text, steps_).parse(); }
+Expression::Expression(std::string_view text, Variables known) {
+  ExpressionParser(text, known == Variables::xyzuv, steps_).parse();
+}
 
 // --- evaluation ---------------------------------------------------------------------------------------
 
@@ -210,7 +218,7 @@ bool surelyBelow(const Interval& a, const Interval& b) { return a.high < b.low; 
 }  // namespace
 
 template <class T>
-Along<T> Expression::along(const Vec3& o, const Vec3& d, T t) const {
+Along<T> Expression::along(const Vec3& o, const Vec3& d, T t, const Vec2& uv) const {
   Along<T> v[kMostSteps];
   if (steps_.empty()) return {T(0), T(0)};
   const T zero(0), one(1);
@@ -223,6 +231,8 @@ Along<T> Expression::along(const Vec3& o, const Vec3& d, T t) const {
       case Do::x: set(T(o.x) + t * T(d.x), T(d.x)); break;
       case Do::y: set(T(o.y) + t * T(d.y), T(d.y)); break;
       case Do::z: set(T(o.z) + t * T(d.z), T(d.z)); break;
+      case Do::u: set(T(uv.x), zero); break;
+      case Do::v: set(T(uv.y), zero); break;
       case Do::negate: set(-a, -da); break;
       case Do::abs:
         set(magnitude(a), surelyBelow(zero, a) ? da : surelyBelow(a, zero) ? -da : either(da, -da));
@@ -254,8 +264,8 @@ Along<T> Expression::along(const Vec3& o, const Vec3& d, T t) const {
   return v[steps_.size() - 1];
 }
 
-template Along<Real> Expression::along(const Vec3&, const Vec3&, Real) const;
-template Along<Interval> Expression::along(const Vec3&, const Vec3&, Interval) const;
+template Along<Real> Expression::along(const Vec3&, const Vec3&, Real, const Vec2&) const;
+template Along<Interval> Expression::along(const Vec3&, const Vec3&, Interval, const Vec2&) const;
 
 Vec3 Expression::gradientAt(const Vec3& p) const {
   return {along<Real>(p, {1, 0, 0}, 0).slope, along<Real>(p, {0, 1, 0}, 0).slope,

@@ -1,6 +1,6 @@
-// A small, safe language for formulas in x, y, z: numbers, + - * / ^, brackets, functions. Parsed once into a
-// list of steps without loops or calls, so that evaluation always ends; evaluated along a line over numbers
-// or intervals, with its derivative.
+// A small, safe language for formulas in x, y, z, and where a surface is known u, v: numbers, + - * / ^,
+// brackets, functions. Parsed once into a list of steps without loops or calls, so that evaluation always
+// ends; evaluated along a line over numbers or intervals, with its derivative.
 #pragma once
 
 #include <array>
@@ -20,15 +20,17 @@ class Expression {
   /// The names of the functions, for messages and documentation.
   static std::vector<std::string_view> functions();
 
+  enum class Variables { xyz, xyzuv };
+
   Expression() = default;
   /// Throws Error(Fault::scene) that says what was expected at which character.
-  explicit Expression(std::string_view text);
+  explicit Expression(std::string_view text, Variables known = Variables::xyz);
 
   /// At the point o + t d, for a number t, or over all of them for an interval.
   template <class T>
-  Along<T> along(const Vec3& o, const Vec3& d, T t) const;
+  Along<T> along(const Vec3& o, const Vec3& d, T t, const Vec2& uv = {}) const;
 
-  Real at(const Vec3& p) const { return along<Real>(p, {}, 0).value; }
+  Real at(const Vec3& p, const Vec2& uv = {}) const { return along<Real>(p, {}, 0, uv).value; }
   Vec3 gradientAt(const Vec3& p) const;
   /// A bound of the rounding error of at(p).
   Real errorAt(const Vec3& p) const;
@@ -39,7 +41,9 @@ class Expression {
     number,
     x,
     y,
-    z,  // leaves
+    z,
+    u,
+    v,  // leaves
     negate,
     abs,
     square,

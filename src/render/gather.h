@@ -35,6 +35,10 @@ class Gather {
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
   }
 
+  /// Notes what the place that was hit does with light.
+  void note(const Bsdf& bsdf) {
+    if (Tracer::recorded(node_)) tracer_.record(node_, bsdf);
+  }
   /// Notes the indices of refraction at the hit.
   void note(const Indices& indices) {
     if (Tracer::recorded(node_)) tracer_.record(node_, indices);

@@ -18,6 +18,8 @@ struct CameraRay {
   Ray ray;
   std::optional<Hit> hit;
   Interfaces inside;  ///< what the ray is in when it gets there
+  Real weight = 1;  ///< what its radiance counts in the mean of the pixel
+  const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
 };
 
 /// There is one for a render; it never changes once it is prepared.

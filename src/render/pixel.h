@@ -2,6 +2,7 @@
 // explanation.
 #pragma once
 
+#include "render/footprint.h"
 #include "render/integrator.h"
 
 namespace trace {
@@ -25,8 +26,14 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    const Ray ray = tracer_.world().camera().ray(sampler.film());
-    CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin)};
+    const World& world = tracer_.world();
+    const CameraFrame& frame = world.camera();
+    const auto [place, weight] = sampler.film();
+    const Vec2 lens = frame.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
+    const Ray ray = frame.ray(place, lens);
+    Footprint differentials;
+    if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
+    CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin), weight, differentials.get()};
     camera.hit = tracer_.cast(ray, RayKind::camera, camera.inside);
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
@@ -36,6 +43,17 @@ class PixelTracer {
   Statistics& statistics() { return tracer_.statistics(); }
 
  private:
+  /// To the rays of the samples beside this one, whatever the camera is.
+  [[gnu::noinline]] Footprint differentialsAt(const Vec2& film, const Vec2& lens, const Ray& ray) const {
+    const CameraFrame& camera = tracer_.world().camera();
+    const Vec2 step = rules_.spacing();
+    const Ray x = camera.ray({film.x + step.x, film.y}, lens),
+              y = camera.ray({film.x, film.y + step.y}, lens);
+    return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
+                                                               x.direction - ray.direction,
+                                                               y.direction - ray.direction});
+  }
+
   Tracer tracer_;
   const Integrator& integrator_;
   SampleRules rules_;

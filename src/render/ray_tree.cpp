@@ -44,14 +44,16 @@ std::string named(std::string_view keyword, const Place& place) {
   return text;
 }
 
+std::string outside(const RayNode& node) { return node.outside ? sentence(*node.outside) : "background"; }
+
 std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
   return match(end,
-               Overloaded{[](const LeftScene&) -> std::string { return "left the scene: background"; },
+               Overloaded{[&](const LeftScene&) { return "left the scene: " + outside(node); },
                           [&](const CutOff& e) {
                             return objectName(scene, e.object) + " at distance " + shortText(e.t, 6) +
                                    (e.t < e.limit ? " is nearer than the camera's near "
                                                   : " is farther than the camera's far ") +
-                                   toText(e.limit) + ": background";
+                                   toText(e.limit) + ": " + outside(node);
                           },
                           [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
                           [](const DepthLimit& e) {

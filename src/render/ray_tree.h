@@ -19,6 +19,7 @@
 #include "geometry/materials.h"
 #include "render/hit.h"
 #include "render/interfaces.h"
+#include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
@@ -126,6 +127,7 @@ struct RayNode {
   Ray ray;
   Real tMost = kInfinity;                ///< of a shadow ray: the distance of the light
   std::optional<Hit> hit;                ///< not of shadow rays
+  std::optional<Outside::View> outside;  ///< what it sees where it meets nothing
   std::vector<MaterialShare> materials;  ///< of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there

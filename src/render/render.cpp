@@ -42,10 +42,12 @@ class TileRenderer {
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
         for (int k = wave.first; k < wave.end; ++k) {
+          Real weight = 1;
           const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera) {
+            weight = camera.weight;
             if (!passes_.empty()) addPasses(camera, samples.layers);
           });
-          samples.colors.push_back(color);
+          samples.colors.push_back(color * weight);
           if (!isFinite(color)) noteBad({x, y, k});
         }
     return samples;
@@ -89,9 +91,6 @@ Size pictureSize(const Settings& settings, const Camera& camera) {
                 "the camera's aspect ratio (width / height) is very small; --height N sets the height");
   return {settings.width, static_cast<int>(height)};
 }
-
-int gridSize(const Settings& settings) { return static_cast<int>(std::ceil(std::sqrt(settings.spp))); }
-int samplesOf(const Settings& settings) { return gridSize(settings) * gridSize(settings); }
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
   return render(world, *makeIntegrator(world, settings, job), settings, film, job);

@@ -37,9 +37,7 @@ struct Size {
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
 
-/// The grid of camera rays of one pixel is n x n, n = ceil(sqrt(spp)).
-int gridSize(const Settings& settings);
-/// How many that are.
+/// How many samples a pixel has: spp, or the next square number, as the generator has it.
 int samplesOf(const Settings& settings);
 
 /// Renders into `film`, which must be of pictureSize() and samplesOf() (makeFilm() in passes.h). Passes are

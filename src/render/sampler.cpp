@@ -1,29 +1,103 @@
 #include "render/sampler.h"
 
 #include <array>
+#include <cmath>
+
+#include "math/low_discrepancy.h"
 
 namespace trace {
 namespace {
 
-/// Independent numbers: a hash of where they are drawn.
-Real hashed(std::uint64_t key, std::uint32_t dimension) {
-  return unitFromBits(mixBits(key ^ mixBits(dimension)));
+std::uint32_t number(int k) { return static_cast<std::uint32_t>(k); }
+
+/// Independent numbers.
+Vec2 randomPair(const Draw& d) {
+  const std::uint64_t bits = mixBits(d.pixel ^ mixBits(number(d.k)));
+  return {unitFromBits(bits), unitFromBits(mixBits(bits))};
 }
 
-Vec2 onGrid(const SampleRules& rules, int x, int y, int k) { return rules.cell(x, y, k); }
+/// One in each cell of a grid, the cells in an order of their own.
+Vec2 jitteredPair(const Draw& d) {
+  const std::uint32_t n = number(d.rules.grid()), cell = permuted(number(d.k), n * n, d.pixel);
+  const Vec2 within = randomPair(d);
+  return {(cell % n + within.x) / n, (cell / n + within.y) / n};
+}
+
+/// Kensler, Correlated Multi-Jittered Sampling, 2013: the same, and of n x n samples one lies in each of n x
+/// n columns and rows.
+Vec2 multiJitteredPair(const Draw& d) {
+  const std::uint32_t n = number(d.rules.grid()), cell = permuted(number(d.k), n * n, d.pixel);
+  const std::uint32_t column = permuted(cell % n, n, d.pixel ^ 1), row = permuted(cell / n, n, d.pixel ^ 2);
+  const Vec2 within = randomPair(d);
+  return {(cell % n + (row + within.x) / n) / n, (cell / n + (column + within.y) / n) / n};
+}
+
+Vec2 haltonPair(const Draw& d) { return haltonPoint(number(d.k), d.pixel); }
+Vec2 sobolPair(const Draw& d) { return sobolPoint(number(d.k), d.pixel); }
+
+/// Bits of v at the even places.
+constexpr std::uint32_t spread(std::uint32_t v) {
+  v &= 0xffffu;
+  v = (v | v << 8) & 0x00ff00ffu;
+  v = (v | v << 4) & 0x0f0f0f0fu;
+  v = (v | v << 2) & 0x33333333u;
+  return (v | v << 1) & 0x55555555u;
+}
+
+/// Ahmed and Wonka, Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering
+/// of Pixels, 2020: one sequence for all pixels, along a curve whose quarters stand in random order at each
+/// level. What a pixel gets too much, its neighbours get too little.
+Vec2 bluePair(const Draw& d) {
+  int digits = 0;  // of base 4, that hold the number of a sample
+  while ((std::int64_t{1} << (2 * digits)) < d.rules.samples()) ++digits;
+  const std::uint64_t place = std::uint64_t{spread(number(d.x)) | spread(number(d.y)) << 1} << (2 * digits);
+  const std::uint64_t index = place | number(d.k);
+  std::uint64_t shuffled = 0, prefix = d.branch;
+  for (int digit = 15 + digits; digit >= 0; --digit) {
+    const auto own = static_cast<std::uint32_t>(index >> (2 * digit) & 3);
+    shuffled = shuffled << 2 | permuted(own, 4, prefix);
+    prefix = mixBits(prefix ^ (own + 1));
+  }
+  return sobolPoint(static_cast<std::uint32_t>(shuffled), d.branch);
+}
 
 constexpr std::array kTable{
-    GeneratorRow{"grid", "the cells of a regular grid in each pixel, row by row", onGrid, hashed},
+    GeneratorRow{SampleKind::grid, "grid", "camera rays on a regular grid in each pixel, all else by sobol",
+                 true, sobolPair},
+    GeneratorRow{SampleKind::random, "random", "independent of one another", false, randomPair},
+    GeneratorRow{SampleKind::jittered, "jittered", "one at random in each cell of a grid", true,
+                 jitteredPair},
+    GeneratorRow{SampleKind::stratified, "stratified",
+                 "jittered so that rows and columns are filled evenly, too", true, multiJitteredPair},
+    GeneratorRow{SampleKind::halton, "halton", "Halton's sequence in bases 2 and 3, scrambled", false,
+                 haltonPair},
+    GeneratorRow{SampleKind::sobol, "sobol", "Sobol's sequence, scrambled as Owen does", false, sobolPair},
+    GeneratorRow{SampleKind::blue, "blue", "sobol, with neighbouring pixels unlike each other: finer noise",
+                 false, bluePair},
 };
 
 }  // namespace
 
 std::span<const GeneratorRow> generators() { return kTable; }
 
+const GeneratorRow& generatorOf(const Settings& settings) {
+  return kTable[static_cast<std::size_t>(settings.sampling)];
+}
+
+int samplesOf(const Settings& settings) {
+  if (!generatorOf(settings).square) return settings.spp;
+  const int side = static_cast<int>(std::ceil(std::sqrt(settings.spp)));
+  return side * side;
+}
+
 SampleRules::SampleRules(const Settings& settings, const Size& size)
-    : generator_(&kTable.front()),
+    : generator_(&generatorOf(settings)),
+      filter_(settings.filter, settings.filterRadius),
       size_(size),
-      grid_(gridSize(settings)),
+      samples_(samplesOf(settings)),
+      grid_(static_cast<int>(std::sqrt(samples_))),
+      seed_(static_cast<std::uint64_t>(settings.seed)),
+      onGrid_(generator_->kind == SampleKind::grid),
       toBorder_(settings.pixelPosition == PixelPosition::border) {
   // A cell of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
   const Real within = settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
@@ -36,9 +110,14 @@ Real SampleRules::place(int pixel, int cell, int pixels) const {
   return last > 0 ? static_cast<Real>(pixel * grid_ + cell) / last : 0.5;
 }
 
-Vec2 SampleRules::cell(int x, int y, int k) const {
+FilmSample SampleRules::film(int x, int y, int k, const Vec2& u) const {
   const int fromBottom = size_.height - 1 - y;
-  return {place(x, k % grid_, size_.width), place(fromBottom, k / grid_, size_.height)};
+  if (onGrid_ && filter_.isPixel())
+    return {{place(x, k % grid_, size_.width), place(fromBottom, k / grid_, size_.height)}, 1};
+  const auto within = [&](int cell) { return (cell + 0.5) / grid_; };
+  const FilmSample sample = filter_.sample(onGrid_ ? Vec2{within(k % grid_), within(k / grid_)} : u);
+  return {{(x + 0.5 + sample.place.x) / size_.width, (fromBottom + 0.5 + sample.place.y) / size_.height},
+          sample.weight};
 }
 
 }  // namespace trace

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "image/pixel_filter.h"
 #include "math/noise.h"
 #include "render/render.h"
 
@@ -14,36 +15,53 @@ namespace trace {
 
 class SampleRules;
 
-/// THE table of generators: rules by which samples are spread. A new one is a row in sampler.cpp.
+/// Where a pair of numbers is drawn.
+struct Draw {
+  const SampleRules& rules;
+  int x, y, k;           ///< the pixel and its sample
+  std::uint64_t branch;  ///< a hash of the branch and the dimension
+  std::uint64_t pixel;   ///< a hash of both and of the pixel
+};
+
+/// THE table of generators: rules by which the samples of a pixel are spread. A new one is a row in
+/// sampler.cpp and a value of SampleKind.
 struct GeneratorRow {
+  SampleKind kind;
   std::string_view name;
   std::string_view help;
-  /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left. Row y = 0 is
-  /// the top.
-  Vec2 (*film)(const SampleRules& rules, int x, int y, int k);
-  /// Number `dimension` of a branch, from 0 up to 1; the key is a hash of seed, pixel, sample and branch.
-  Real (*number)(std::uint64_t key, std::uint32_t dimension);
+  bool square;  ///< it takes 1, 4, 9, 16, ... samples
+  /// Two numbers from 0 up to 1: of all samples of a pixel they fill the square evenly.
+  Vec2 (*pair)(const Draw& draw);
 };
 std::span<const GeneratorRow> generators();
+const GeneratorRow& generatorOf(const Settings& settings);
 
 /// What the samplers of a picture share.
 class SampleRules {
  public:
   SampleRules(const Settings& settings, const Size& size);
 
-  int samples() const { return grid_ * grid_; }  ///< of each pixel
+  int samples() const { return samples_; }  ///< of each pixel
+  int grid() const { return grid_; }        ///< the square root of samples(), if the generator is square
+  const Size& size() const { return size_; }
   const GeneratorRow& generator() const { return *generator_; }
-  std::uint64_t seed() const { return 0; }
+  std::uint64_t seed() const { return seed_; }
 
-  /// The place of a cell of the grid of a pixel, in the picture, from 0 to 1 (generator "grid").
-  Vec2 cell(int x, int y, int k) const;
+  /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left, and what it
+  /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, but for the generator "grid".
+  FilmSample film(int x, int y, int k, const Vec2& u) const;
+  /// From a sample to the next on the right and above, on the average.
+  Vec2 spacing() const { return {1.0 / (size_.width * grid_), 1.0 / (size_.height * grid_)}; }
 
  private:
   Real place(int pixel, int cell, int pixels) const;
 
   const GeneratorRow* generator_;
+  PixelFilter filter_;
   Size size_;
-  int grid_;                  ///< a pixel's samples lie on a grid of so many columns and rows
+  int samples_, grid_;
+  std::uint64_t seed_;
+  bool onGrid_;
   bool toBorder_;             ///< the outermost rays go through the border of the picture
   std::vector<Real> places_;  ///< if they do not: of the cells of the grid within a pixel
 };
@@ -51,37 +69,40 @@ class SampleRules {
 class Sampler {
  public:
   /// Of sample 0 <= k < rules.samples(); the rules must outlive it.
-  Sampler(const SampleRules& rules, int x, int y, int k) : rules_(&rules), x_(x), y_(y), k_(k) {
-    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-    key_ = mixBits(mixBits(rules.seed() ^ (bits(x) << 32 | bits(y))) ^ bits(k));
-  }
+  Sampler(const SampleRules& rules, int x, int y, int k)
+      : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {}
 
-  /// Where in the picture the sample lies, from 0 to 1, (0, 0) at the bottom left.
-  Vec2 film() const { return rules_->generator().film(*rules_, x_, y_, k_); }
+  /// Where in the picture the sample lies, and what it counts.
+  FilmSample film() const { return rules_->film(x_, y_, k_, branch(kFilm).next2()); }
 
   /// The number of the sample in its pixel.
   int sample() const { return k_; }
 
   /// The next number, from 0 up to 1; the next two.
-  Real next() { return rules_->generator().number(key_, dimension_++); }
+  Real next() { return next2().x; }
   Vec2 next2() {
-    const Real first = next();
-    return {first, next()};
+    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
+    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
+    const std::uint64_t pixel = mixBits(branch ^ mixBits(bits(x_) << 32 | bits(y_)));
+    return rules_->generator().pair({*rules_, x_, y_, k_, branch, pixel});
   }
 
   /// Numbers of its own for the n-th ray that is sent from here, whatever has been drawn here and elsewhere:
   /// a changed depth, light or extra changes only its own rays.
   Sampler branch(std::uint32_t n) const {
     Sampler sampler(*this);
-    sampler.key_ = mixBits(key_ + 1 + n);
+    sampler.branch_ = mixBits(branch_ + 1 + n);
     sampler.dimension_ = 0;
     return sampler;
   }
 
+  /// Branches of a camera ray that are no rays.
+  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u;
+
  private:
   const SampleRules* rules_;
   int x_, y_, k_;
-  std::uint64_t key_;
+  std::uint64_t branch_;
   std::uint32_t dimension_ = 0;
 };
 

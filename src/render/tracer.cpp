@@ -31,9 +31,11 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside
     if (records()) {
       const CameraFrame& camera = world_.camera();
       const Real limit = found && found->t < camera.near ? camera.near : camera.far;
-      finish().ends.push_back(
+      RayNode& node = finish();
+      node.ends.push_back(
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
                 : LeftScene{});
+      if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray.direction, kind);
     }
     return std::nullopt;
   }
@@ -89,13 +91,8 @@ Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const
   count(RayKind::shadow);
   const Ray ray = from.leave(toLight);
   if (records()) begin(ray, RayKind::shadow, distance, inside.wavelength);
-  Interfaces start = inside;
-  const bool through = from.leaving == (dot(toLight, from.surface.normal) > 0);
-  if (start.nested() && through) {
-    const PlaceBsdf bsdf = world_.shade(from);
-    if (whitted(*bsdf).transmits()) start.pass(from.leaving, filling(from, whitted(*bsdf)), from.solid);
-  }
-  const Color color = passed(ray, distance, start);
+  const Color color =
+      inside.nested() ? passedNested(from, ray, distance, inside) : passed(ray, distance, nullptr);
   if (records()) {
     RayNode& node = finish();
     node.radiance = color;
@@ -104,6 +101,16 @@ Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const
     node.ends.push_back(blocked ? RayEnd(*blocked) : ReachedLight{});
   }
   return color;
+}
+
+/// passed() of a ray from a surface, on whose side that a ray came from it is `inside`.
+Color Tracer::passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside) {
+  Interfaces start = inside;
+  if (from.leaving == (dot(ray.direction, from.surface.normal) > 0)) {  // on through the surface
+    const PlaceBsdf bsdf = world_.shade(from);
+    if (whitted(*bsdf).transmits()) start.pass(from.leaving, filling(from, whitted(*bsdf)), from.solid);
+  }
+  return passed(ray, distance, &start);
 }
 
 /// The crossings in order along the ray, each once, into crossed_. False if one is opaque and that ends it.
@@ -123,9 +130,10 @@ bool Tracer::collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque) 
   return true;
 }
 
-/// The share of light that passes along the ray, which starts inside of `inside`.
-Color Tracer::passed(const Ray& ray, Real distance, Interfaces& inside) {
+/// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
+Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
   if (!collect(ray, distance, facesSeenBy(RayKind::shadow), true)) return Color(0);
+  if (crossed_.empty() && !inside) return Color(1);
   Color color(1);
   Real last = 0;
   const auto record = [&](std::uint32_t object, std::uint64_t part, Real t, const Color& factor,
@@ -138,21 +146,24 @@ Color Tracer::passed(const Ray& ray, Real distance, Interfaces& inside) {
     if (!terms.transmits()) return Color(0);
     const bool perCrossing = settings_.glass == Glass::perCrossing;
     Color factor = perCrossing ? terms.transmissive : Color(1);
-    if (inside.nested() || !perCrossing || !(terms.attenuation == Color(1))) {
-      if (inside.nested() && ignored(ray, found, inside)) continue;
+    if (inside) {
+      if (ignored(ray, found, *inside)) continue;
       const Hit hit(world_, ray, found);
-      const Filling body = filling(hit, terms);
-      // Without nested glass light ran in the body that it leaves, from the last surface on.
-      const Color passes = inside.nested() ? inside.around().passes : hit.leaving ? body.passes : Color(1);
+      const Color& passes = inside->around().passes;
       if (!(passes == Color(1))) factor *= pow(passes, found.t - last);
-      inside.pass(hit.leaving, body, hit.solid);
+      inside->pass(hit.leaving, filling(hit, terms), hit.solid);
+    } else if (!perCrossing || !(terms.attenuation == Color(1))) {
+      // Light ran in the body that it leaves, from the last surface on.
+      const Hit hit(world_, ray, found);
+      if (hit.leaving) factor *= pow(filling(hit, terms).passes, found.t - last);
     }
     color *= factor;
     last = found.t;
     if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
   }
-  const Filling& around = inside.around();
-  if (inside.nested() && !(around.passes == Color(1)) && distance < kInfinity) {  // a light inside glass
+  if (!inside) return color;
+  const Filling& around = inside->around();
+  if (!(around.passes == Color(1)) && distance < kInfinity) {  // a light inside glass
     const Color factor = pow(around.passes, distance - last);
     color *= factor;
     if (records()) record(around.object, 0, distance, factor, {});
@@ -218,6 +229,8 @@ void Tracer::record(int node, Term term) {
 void Tracer::record(int node, const RayEnd& why) {
   tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
 }
+
+void Tracer::record(int node, const Bsdf& bsdf) { tree_->nodes[static_cast<std::size_t>(node)].bsdf = bsdf; }
 
 void Tracer::record(int node, const Indices& indices) {
   tree_->nodes[static_cast<std::size_t>(node)].indices = indices;

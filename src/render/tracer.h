@@ -30,6 +30,8 @@ class Tracer {
 
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);
+  /// A RayTree takes the rays.
+  bool records() const { return kRecords && tree_; }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
     return world_.filling(hit, terms, settings_);
@@ -53,7 +55,6 @@ class Tracer {
 #else
   static constexpr bool kRecords = true;
 #endif
-  bool records() const { return kRecords && tree_; }
   static bool recorded(int node) { return kRecords && node != kNoNode; }
 
   void count(RayKind kind) { ++statistics_.rays[static_cast<std::size_t>(kind)]; }
@@ -66,6 +67,7 @@ class Tracer {
   void record(int node, Term term);
   void record(int node, const RayEnd& why);
   void record(int node, const Indices& indices);
+  void record(int node, const Bsdf& bsdf);
   void record(int node, const Color& through, const Color& radiance);
   /// A new node for a ray about to be traced; when it was, what it cost.
   void begin(const Ray& ray, RayKind kind, Real tMost, Real wavelength);
@@ -76,7 +78,8 @@ class Tracer {
   bool collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque);
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside);
-  Color passed(const Ray& ray, Real distance, Interfaces& inside);
+  Color passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
+  Color passed(const Ray& ray, Real distance, Interfaces* inside);
   std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;
 
   const World& world_;

@@ -32,20 +32,30 @@ MaterialMix World::materialMix(const Found& found) const {
   return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
-Bsdf World::mixedAt(std::uint32_t object, const MaterialMix& m, const SurfacePoint& surface) const {
+Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& m,
+                    const SurfacePoint& surface, const Differentials* arrived) const {
   const bool hasTextures = textured(m);
-  const TexturePlace at = hasTextures ? place(object, surface) : TexturePlace();
-  const auto part = [&](std::uint32_t material) {
+  const TexturePlace at = hasTextures ? place(object, part, surface, arrived) : TexturePlace();
+  const auto of = [&](std::uint32_t material) {
     const Material* textured = material == MaterialMix::kClear ? nullptr : surfaces_[material].textured.get();
     return textured ? bsdfOf(*textured, at, rules_) : bsdf(material);
   };
-  if (m.count == 1) return part(m.material[0]);
-  return mix(part(m.material[0]), part(m.material[1]), part(m.material[2]), m.weight);
+  if (m.count == 1) return of(m.material[0]);
+  return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
+}
+
+Vec3 World::along(const Hit& hit) const {
+  const Affine& placed = worldFromObject(hit.object);
+  const Vec3 around = cross(linear(placed, {0, 0, 1}), hit.surface.shading);
+  // The axis is the normal to the last digits on a face across it.
+  return length(around) > gammaError(64) * length(linear(placed, {0, 0, 1})) ? around
+                                                                             : linear(placed, {1, 0, 0});
 }
 
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
-  return shade(found.object, materials, textured(materials) ? surface(ray, found) : SurfacePoint());
+  return shade(found.object, found.part, materials,
+               textured(materials) ? surface(ray, found) : SurfacePoint(), nullptr);
 }
 
 // --- what is inside -----------------------------------------------------------------------------------
@@ -64,7 +74,7 @@ Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings
   const Instance& instance = objects_[hit.object];
   if (!nestedGlass_ || !instance.mixed || instance.mesh) return filled(terms, hit.materials.material[0]);
   const MaterialMix inside = instance.shape.inside(static_cast<std::int64_t>(hit.part), instance.material);
-  return filled(whitted(*shade(hit.object, inside, hit.surface)), inside.material[0]);
+  return filled(whitted(*shade(hit.object, hit.part, inside, hit.surface, nullptr)), inside.material[0]);
 }
 
 Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) const {
@@ -215,6 +225,13 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   return kinds;
 }
 
+void World::focusOnMiddle() {
+  const Ray ray = camera_.ray({0.5, 0.5});
+  Statistics uncounted;
+  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
+  camera_.lens.focus = found ? found->t : kInfinity;
+}
+
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -230,6 +247,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const std::vector<std::uint32_t> kinds = kindsOf(scene.materials, world.rules_);
     for (std::size_t i = 0; i < kinds.size(); ++i) world.surfaces_[i].kind = kinds[i];
   }
+  for (const Material& material : scene.materials)
+    for (const FieldTexture& t : material.textures) world.wantsFootprints_ |= wantsFootprint(t.texture);
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
@@ -247,8 +266,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes);
-  world.background_ = scene.background;
+  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
+  world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
   MeshTrees trees;
@@ -319,6 +338,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
+  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
   return world;
 }
 

@@ -19,11 +19,14 @@
 #include "geometry/mesh/mesh_tree.h"
 #include "geometry/placement.h"
 #include "geometry/solve/approach.h"
+#include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
 #include "render/interfaces.h"
+#include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
+#include "shading/differentials.h"
 #include "shading/lights/light.h"
 
 namespace trace {
@@ -88,13 +91,25 @@ class World {
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
-  /// Where textures are asked for the place on an object.
-  TexturePlace place(std::uint32_t object, const SurfacePoint& surface) const {
-    return {.point = objects_[object].placement.inFromOut() * surface.point, .uv = surface.uv};
+  /// How texture coordinates and the normal change along the surface, in world space.
+  SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
+  /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
+  TexturePlace place(const Hit& hit, const Differentials* arrived = nullptr) const {
+    return place(hit.object, hit.part, hit.surface, arrived);
   }
-  PlaceBsdf shade(const Hit& hit) const { return shade(hit.object, hit.materials, hit.surface); }
+  /// What the place does with light; textures are filtered by the footprint of the ray, if any.
+  PlaceBsdf shade(const Hit& hit, const Differentials* arrived = nullptr) const {
+    return shade(hit.object, hit.part, hit.materials, hit.surface, arrived);
+  }
+  /// Some texture is filtered by footprint: rays should have Differentials.
+  bool wantsFootprints() const { return wantsFootprints_; }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
+  /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
+  /// asked for, u grows around the object's own axis z.
+  Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}};
+  }
   /// What of it the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
@@ -121,15 +136,17 @@ class World {
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Rules& rules() const { return rules_; }
-  /// What arrives at a point of the light of that number, if nothing is in the way.
-  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from) const {
-    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_); });
+  /// What arrives at a point of the light of that number, if nothing is in the way: from the place of the
+  /// light that `u` chooses, two numbers from 0 up to 1.
+  std::optional<Illumination> illuminate(std::size_t light, const Vec3& from, const Vec2& u = kCenter) const {
+    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_, u); });
+  }
+  bool lightHasSize(std::size_t light) const {
+    return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  /// What a camera ray sees that meets nothing.
-  Color background(const Ray& ray) const {
-    return background_.at(background_.colors.size() > 1 ? 1 - camera_.heightOf(ray.direction) : 0);
-  }
+  /// What rays see that meet nothing.
+  const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
@@ -180,11 +197,17 @@ class World {
   [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
                                         Statistics& statistics, VisitFound visit) const;
 
+  /// The direction in which u grows.
+  Vec3 along(const Hit& hit) const;
+
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
   template <class Visit>
   void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
                         const Visit& visit) const;
+
+  /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
+  void focusOnMiddle();
 
   struct Forms;  ///< complete in world_queries.cpp
   /// Takes the forms out of the shapes of all objects, to lie side by side.
@@ -211,14 +234,20 @@ class World {
     return std::any_of(materials.material, materials.material + materials.count,
                        [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
   }
-  PlaceBsdf shade(std::uint32_t object, const MaterialMix& materials, const SurfacePoint& surface) const {
+  PlaceBsdf shade(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
+                  const SurfacePoint& surface, const Differentials* arrived) const {
     if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
-    return PlaceBsdf(mixedAt(object, materials, surface));
+    return PlaceBsdf(mixedAt(object, part, materials, surface, arrived));
   }
-  [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, const MaterialMix& materials,
-                                 const SurfacePoint& surface) const;
+  [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
+                                 const SurfacePoint& surface, const Differentials* arrived) const;
+
+  SurfaceSlopes slopes(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface) const;
+  TexturePlace place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                     const Differentials* arrived) const;
 
   std::vector<Surface> surfaces_;  ///< of the scene's materials
+  bool wantsFootprints_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
@@ -226,7 +255,7 @@ class World {
   std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where they may be nested
   Color ambient_;
   CameraFrame camera_;
-  Background background_;
+  Outside outside_;
   Box3 bounds_;
 };
 

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <type_traits>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "geometry/shape.h"
 #include "scene/conventions.h"
@@ -24,6 +26,12 @@ template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
 constexpr std::array<std::string_view, 1> kNames<IntegratorKind>{"whitted"};
+template <>
+constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
+                                                             "halton", "sobol",  "blue"};
+template <>
+constexpr std::array<std::string_view, 5> kNames<FilterKind>{"box", "tent", "gaussian", "mitchell",
+                                                             "blackman-harris"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<Like>{"uw",  "uw2009", "uw2001", "ut",
                                                        "ubc", "uw1998", "usc"};
@@ -54,6 +62,8 @@ constexpr std::array<std::string_view, 2> kNames<Tone>{"clamp", "stretch"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"};
 template <>
+constexpr std::array<std::string_view, 4> kNames<EnvironmentKind>{"auto", "lat-long", "angular", "cube"};
+template <>
 constexpr std::array<std::string_view, 5> kNames<Pass>{"depth", "normal", "id", "uv", "position"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
@@ -81,7 +91,7 @@ std::span<const std::string_view> namesOf() {
     return kNames<Enum>;
 }
 
-constexpr std::string_view kNone = "none";  // of a set
+constexpr std::string_view kNone = "none";  // of a set; also no file
 
 // --- values from and to text --------------------------------------------------------------------------
 
@@ -145,6 +155,11 @@ void parse(const Option& option, std::string_view text, Region& value) {
   value = region;
 }
 
+void parse(const Option& option, std::string_view text, FilePath& value) {
+  if (text.empty()) refuse(option, "the name of a file, or none", text);
+  value.path = text == kNone ? "" : text;
+}
+
 /// The value of that name, if there is one.
 template <class Enum>
 std::optional<Enum> named(std::string_view text) {
@@ -187,6 +202,7 @@ void parse(const Option& option, std::string_view text, EnumSet<Enum>& value) {
 std::string format(double value) { return toText(value); }
 std::string format(int value) { return std::to_string(value); }
 std::string format(bool value) { return value ? "on" : "off"; }
+std::string format(const FilePath& value) { return value.path.empty() ? std::string(kNone) : value.path; }
 std::string format(const Region& r) {
   return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
          std::to_string(r.y1);
@@ -234,6 +250,8 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::real;
   else if constexpr (std::is_same_v<T, Region>)
     return Option::Kind::region;
+  else if constexpr (std::is_same_v<T, FilePath>)
+    return Option::Kind::file;
   else if constexpr (kIsSet<T>)
     return Option::Kind::choices;
   else
@@ -300,7 +318,8 @@ const std::array kTable{
     row<&Settings::spp>(
         {.name = "spp",
          .group = "Picture",
-         .help = "camera rays per pixel, on a regular grid of 1, 4, 9, 16 ... (the next square)",
+         .help =
+             "camera rays per pixel; grid, jittered and stratified take 1, 4, 9, 16 ... (the next square)",
          .source = "courses: -a (3 x 3) and -A (1)",
          .least = 1,
          .most = 65536,
@@ -314,6 +333,68 @@ const std::array kTable{
                           .least = -1e9,
                           .most = 1e9,
                           .unit = "seconds"}),
+    row<&Settings::sampling>({.name = "sampling",
+                              .group = "Sampling",
+                              .help = "how the samples of a pixel are spread over pixel, lens and lights",
+                              .source = "Cook 1986; docs/sampling.md",
+                              .extra = true}),
+    row<&Settings::seed>({.name = "seed",
+                          .group = "Sampling",
+                          .help = "another number gives other noise",
+                          .source = "",
+                          .least = 0,
+                          .most = 1e9}),
+    row<&Settings::filter>({.name = "filter",
+                            .group = "Sampling",
+                            .help = "how samples count by their distance from a pixel's centre",
+                            .source = "Mitchell and Netravali 1988; docs/sampling.md",
+                            .extra = true}),
+    row<&Settings::filterRadius>({.name = "filter-radius",
+                                  .group = "Sampling",
+                                  .help = "how far the filter reaches; 0 is its usual radius",
+                                  .source = "",
+                                  .least = 0,
+                                  .most = 16,
+                                  .unit = "pixels"}),
+    row<&Settings::lightSamples>(
+        {.name = "light-samples",
+         .group = "Sampling",
+         .help = "rays that every sample sends to each light with a size; more make its shadows smoother",
+         .source = "Cook, Porter and Carpenter 1984",
+         .least = 1,
+         .most = 1024,
+         .unit = "rays"}),
+    row<&Settings::aperture>({.name = "aperture",
+                              .group = "Lens",
+                              .help = "diameter of the lens: what is not in focus blurs; 0 is a pinhole",
+                              .source = "Cook, Porter and Carpenter 1984; docs/lens.md",
+                              .least = 0,
+                              .most = 1e9,
+                              .unit = "units",
+                              .extra = true}),
+    row<&Settings::focus>({.name = "focus",
+                           .group = "Lens",
+                           .help = "distance along the view at which things are sharp; 0 is that of what the "
+                                   "middle of the picture shows",
+                           .source = "docs/lens.md",
+                           .repeats = Repeats::world,
+                           .least = 0,
+                           .most = 1e30,
+                           .unit = "units"}),
+    row<&Settings::blades>(
+        {.name = "blades",
+         .group = "Lens",
+         .help = "corners of the lens opening, the shape of blurred lights; below 3 it is round",
+         .source = "docs/lens.md",
+         .least = 0,
+         .most = 100}),
+    row<&Settings::bladeAngle>({.name = "blade-angle",
+                                .group = "Lens",
+                                .help = "turns the corners of the lens opening",
+                                .source = "",
+                                .least = -360,
+                                .most = 360,
+                                .unit = "degrees"}),
     row<&Settings::integrator>({.name = "integrator",
                                 .group = "Tracing",
                                 .help = "how light is found; whitted is recursive ray tracing",
@@ -365,6 +446,51 @@ const std::array kTable{
                           .help = "leave out all objects of these kinds",
                           .source = "British Columbia, whose own pictures lack the conics",
                           .repeats = Repeats::world}),
+    row<&Settings::backdrop>(
+        {.name = "backdrop",
+         .group = "Background",
+         .help =
+             "picture behind everything, stretched over the whole picture; only rays of the camera see it",
+         .source = "docs/environment.md",
+         .repeats = Repeats::world}),
+    row<&Settings::environment>(
+        {.name = "environment",
+         .group = "Background",
+         .help = "picture all around the scene, seen by camera rays and in mirrors and glass: a file, or a "
+                 "folder with the six faces of a cube",
+         .source = "Blinn and Newell 1976; Austin's cube maps",
+         .repeats = Repeats::world}),
+    row<&Settings::environmentKind>(
+        {.name = "environment-kind",
+         .group = "Background",
+         .help = "how the environment shows all directions; auto judges by its shape and name",
+         .source = "docs/environment.md",
+         .repeats = Repeats::world}),
+    row<&Settings::environmentRotation>(
+        {.name = "environment-rotation",
+         .group = "Background",
+         .help = "turns what is all around about the axis y, to the left as seen from inside",
+         .source = "",
+         .repeats = Repeats::world,
+         .least = -360,
+         .most = 360,
+         .unit = "degrees"}),
+    row<&Settings::environmentBrightness>({.name = "environment-brightness",
+                                           .group = "Background",
+                                           .help = "factor on what is all around",
+                                           .source = "",
+                                           .repeats = Repeats::world,
+                                           .least = 0,
+                                           .most = 1e6}),
+    row<&Settings::environmentBlur>(
+        {.name = "environment-blur",
+         .group = "Background",
+         .help = "each direction of the environment shows the mean of those within this angle",
+         .source = "Miller and Hoffman 1984",
+         .repeats = Repeats::world,
+         .least = 0,
+         .most = 90,
+         .unit = "degrees"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",
@@ -561,7 +687,9 @@ static_assert(std::tuple_size_v<decltype(kTable)> == fieldCount<>(),
 
 void apply(Settings& settings, const Choice& choice) {
   try {
-    findOption(choice.option).assign(settings, choice.value);
+    const Option& option = findOption(choice.option);
+    const bool beside = option.kind == Option::Kind::file && choice.value != kNone && !choice.value.empty();
+    option.assign(settings, beside ? besideFile(choice.place.file, choice.value) : choice.value);
   } catch (const Error& error) {
     if (choice.place.file.empty()) throw;
     Message message = error.messages().front();
@@ -602,6 +730,13 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
       if (choice.option != "like") apply(settings, choice);
   }
   return settings;
+}
+
+bool sameValue(const Option& option, const Settings& a, const Settings& b) {
+  const std::string x = option.get(a), y = option.get(b);
+  return x == y || (option.kind == Option::Kind::file && x != kNone && y != kNone &&
+                    sameFile(std::filesystem::absolute(x).lexically_normal(),
+                             std::filesystem::absolute(y).lexically_normal()));
 }
 
 std::vector<Choice> changedOptions(const Settings& settings) {

@@ -15,7 +15,7 @@ namespace trace {
 enum class Repeats { nothing, tone, picture, world, scene };
 
 struct Option {
-  enum class Kind { boolean, integer, real, choice, choices, region };
+  enum class Kind { boolean, integer, real, choice, choices, region, file };
 
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
@@ -49,9 +49,12 @@ struct Choice {
 };
 
 /// Applies layers of choices in order: a later layer overrides an earlier one. Within a layer `like` comes
-/// first, whatever its position, and sets every option of the group Conventions.
-/// Throws Error with the choice's place.
+/// first, whatever its position, and sets every option of the group Conventions. A file that a scene names
+/// lies beside the scene. Throws Error with the choice's place.
 Settings resolve(std::initializer_list<std::span<const Choice>> layers);
+
+/// Has the option one value in both? Other spellings of a file's name count as that file.
+bool sameValue(const Option& option, const Settings& a, const Settings& b);
 
 /// Options whose values differ from the defaults, as (name, value).
 std::vector<Choice> changedOptions(const Settings& settings);

@@ -12,6 +12,7 @@
 #include "math/transform.h"
 #include "scene/input_files.h"
 #include "scene/options.h"
+#include "scene/surroundings.h"
 #include "shading/background.h"
 #include "shading/cameras/camera.h"
 #include "shading/lights/light.h"
@@ -63,6 +64,7 @@ struct Scene {
   std::vector<Unrendered> unrendered;
   std::vector<UnusedMaterial> unusedMaterials;
   InputFiles inputs;  ///< what it was read from
+  Surroundings surroundings;
 
   bool operator==(const Scene&) const = default;
 };

@@ -3,15 +3,21 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
+#include <string>
+
 #include "base/enum_set.h"
+#include "image/pixel_filter.h"
 #include "image/tone.h"
 #include "shading/cameras/camera.h"
+#include "shading/environment_map.h"
 #include "shading/rules.h"
 
 namespace trace {
 
 enum class Accel { bvh, none };
 enum class IntegratorKind { whitted };
+/// How the samples of a pixel are spread: a row of render/sampler.cpp.
+enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
 /// Whose rules hold where the courses and years differ: a row of conventions.cpp.
 enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
@@ -46,6 +52,12 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
+/// A file, or a folder of files, as the program opens it; "" for none.
+struct FilePath {
+  std::string path;
+  bool operator==(const FilePath&) const = default;
+};
+
 struct Settings {
   // Picture
   int width = 400;
@@ -53,6 +65,17 @@ struct Settings {
   Region region{};
   int spp = 1;
   Real time = 0;
+  // Sampling
+  SampleKind sampling = SampleKind::grid;
+  int seed = 0;
+  FilterKind filter = FilterKind::box;
+  Real filterRadius = 0;
+  int lightSamples = 1;
+  // Lens
+  Real aperture = 0;
+  Real focus = 0;
+  int blades = 0;
+  Real bladeAngle = 0;
   // Tracing
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
@@ -61,6 +84,13 @@ struct Settings {
   int wavelengths = 1;
   bool varnish = false;
   EnumSet<ShapeKind> omit{};
+  // Background
+  FilePath backdrop{};
+  FilePath environment{};
+  EnvironmentKind environmentKind = EnvironmentKind::automatic;
+  Real environmentRotation = 0;
+  Real environmentBrightness = 1;
+  Real environmentBlur = 0;
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;
@@ -95,6 +125,10 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
+
+inline Lens lensOf(const Settings& s) {
+  return {s.aperture / 2, s.focus, s.blades, s.bladeAngle * kPi / 180};
+}
 
 inline Rules rulesOf(const Settings& s) {
   return {s.highlight, s.shininessScale, s.mirrorDefault, s.diffuseSides, s.limitAttenuation};

@@ -1,8 +1,9 @@
-// What camera rays see that meet nothing: flat bands of colour across the picture. Mirrored and refracted
-// rays that meet nothing see black.
+// What is seen where nothing is met, as the scene says it: bands of colour across the picture, which only
+// camera rays see, or a sky all around, which every ray sees.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -15,22 +16,38 @@ namespace trace {
 struct Background {
   static constexpr std::string_view kKeyword = "background";
   static constexpr std::string_view kHelp =
-      "bands of colour behind everything, from the top of the picture down";
+      "bands of colour behind everything, from the top of the picture down; or a sky all around";
 
   std::vector<Color> colors;  ///< from the top downward; none: black
   /// Where each band but the last ends, as a share of the picture's height from the top, ascending; none: all
   /// bands are equally high.
   std::vector<Real> limits;
+  std::vector<Color> gradient;   ///< colours all around, from straight down to straight up; none: no gradient
+  std::vector<Real> elevations;  ///< of each, in degrees above the horizon, ascending; none: equally spaced
+  Real turbidity = 0;            ///< of a sky by day (shading/daylight.h); 0: none
+  Vec3 sun{1, 1, 1};             ///< the direction to it
+  Real skyBrightness = 0.05;     ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
+  Color ground{0.2, 0.2, 0.2};   ///< below the horizon of a sky by day
 
   static constexpr auto fields() {
     return std::tuple{
         Field{"colors", &Background::colors, "", 0, kNoLimit, "of the bands, from the top; none is black"},
         Field{"limits", &Background::limits, "", 0, 1,
-              "where each band but the last ends, a share of the height from the top; none: equal bands"}};
+              "where each band but the last ends, a share of the height from the top; none: equal bands"},
+        Field{"gradient", &Background::gradient, "", 0, kNoLimit,
+              "colours all around, from straight down to straight up, seen in mirrors and glass too"},
+        Field{"elevations", &Background::elevations, "degrees", -90, 90,
+              "where each colour of the gradient is, above the horizon; none: equally spaced"},
+        Field{"turbidity", &Background::turbidity, "", 0, 10,
+              "of a sky by day: 2 clear, 6 hazy; 0 is no such sky"},
+        Field{"sun", &Background::sun, "", -kNoLimit, kNoLimit, "the direction to the sun of that sky"},
+        Field{"sky_brightness", &Background::skyBrightness, "", 0, kNoLimit,
+              "factor from its luminance, in kcd/m^2, to colours"},
+        Field{"ground", &Background::ground, "", 0, kNoLimit, "the colour below its horizon"}};
   }
   bool operator==(const Background&) const = default;
 
-  /// At a share of the picture's height from the top.
+  /// Of the bands, at a share of the picture's height from the top.
   Color at(Real fromTop) const {
     if (colors.empty()) return Color(0);
     const auto last = static_cast<Real>(colors.size() - 1);
@@ -39,6 +56,23 @@ struct Background {
             ? fromTop * (last + 1)
             : static_cast<Real>(std::upper_bound(limits.begin(), limits.end(), fromTop) - limits.begin());
     return colors[static_cast<std::size_t>(band > 0 ? std::min(band, last) : 0)];
+  }
+
+  /// Of the gradient, at an elevation in degrees. Precondition: there is a gradient, with as many elevations
+  /// as colours or none.
+  Color gradientAt(Real elevation) const {
+    const auto last = static_cast<Real>(gradient.size() - 1);
+    Real place = (elevation + 90) / 180 * last;
+    if (!elevations.empty()) {
+      const auto above = std::upper_bound(elevations.begin(), elevations.end(), elevation);
+      place = static_cast<Real>(above - elevations.begin()) - 1;
+      if (above != elevations.begin() && above != elevations.end())
+        place += (elevation - above[-1]) / (above[0] - above[-1]);
+    }
+    place = std::clamp(place, 0.0, last);
+    const auto below = static_cast<std::size_t>(place);
+    const Real share = place - std::floor(place);
+    return share > 0 ? lerp(share, gradient[below], gradient[below + 1]) : gradient[below];
   }
 };
 

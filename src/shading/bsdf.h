@@ -1,50 +1,80 @@
 // What a place of a surface does with light: the material models under the conventions of a render.
 //
-// A material says what a person wrote; its Bsdf is what light meets. Each model has both
-// (shading/materials/phong.h). Directions point away from the surface and are unit vectors.
+// A material says what a person wrote; its Bsdf is what light meets. Each model has both, in one header of
+// shading/materials/. The contract of all functions here is in shading/scattering.h.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <variant>
 
 #include "base/match.h"
 #include "shading/material.h"
+#include "shading/scattering.h"
 
 namespace trace {
 
-using Bsdf = std::variant<PhongBsdf>;  ///< in the order of MaterialModel
+struct MixedParts;
 
-inline Bsdf bsdfOf(const MaterialModel& model, const Rules& rules) {
-  return match(model, [&](const auto& said) -> Bsdf { return said.at(rules); });
-}
+/// Parts of different models, by weight: each is asked by itself.
+struct MixedBsdf : WhittedTerms {
+  std::shared_ptr<const MixedParts> parts;
 
+  bool scatters() const;
+  bool mirrorIsExact() const;
+  Color mirrorWeight(Real cosine) const;
+  Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const;
+  Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const;
+  std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
+                                   Transport transport) const;
+  Real density(const Frame& frame, const Vec3& toEye, const Vec3& toLight) const;
+};
+
+template <class Models>
+struct BsdfVariant;
+template <class... Model>
+struct BsdfVariant<std::variant<Model...>> {
+  using Type = std::variant<typename Model::Bsdf..., MixedBsdf>;
+};
+/// Those of the models in the order of MaterialModel, and the mixed one.
+using Bsdf = BsdfVariant<MaterialModel>::Type;
+
+Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
 /// Of a place on the material, with its textures.
-inline Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& rules) {
-  return match(material.model, [&](auto said) -> Bsdf {
-    applyTextures(said, material.textures, place);
-    return said.at(rules);
-  });
-}
+Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& rules);
 
 inline const WhittedTerms& whitted(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) -> const WhittedTerms& { return model; });
 }
 
-/// What of light from `toLight` goes toward `toEye`, the cosine to the normal included.
-inline Scatter scatter(const Bsdf& bsdf, const Vec3& normal, const Vec3& toLight, const Vec3& toEye) {
-  return match(bsdf, [&](const auto& model) { return model.scatter(normal, toLight, toEye); });
+/// What of light from `toLight` goes toward `toEye` in Whitted's equation, the cosine to the normal included.
+Scatter scatterOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye);
+inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
+  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->scatter(frame.normal, toLight, toEye);
+  return scatterOfOthers(bsdf, frame, toLight, toEye);
 }
+
+/// The weight of the mirrored ray, of which and the normal `cosine` is. Of a surface that is not smooth it
+/// stands, where an integrator sends no ray into the lobe around it, for the core of that lobe.
+Color mirrorWeight(const Bsdf& bsdf, Real cosine);
+/// False if `evaluate` has all that is mirrored.
+bool mirrorIsExact(const Bsdf& bsdf);
+
+/// f |cos(toLight)|, of what is spread over directions.
+Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
+               Transport transport = Transport::radiance);
+/// A direction chosen by three numbers from 0 to 1. Nothing where nothing is scattered to the eye.
+std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
+                                 Transport transport = Transport::radiance);
+/// Of that choice, per solid angle.
+Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
 
 /// Lamps can be seen on it.
-inline bool scatters(const Bsdf& bsdf) {
-  return match(bsdf, [](const auto& model) { return model.scatters(); });
-}
+bool scatters(const Bsdf& bsdf);
+/// It asks for Frame::along.
+bool hasGrain(const Bsdf& bsdf);
 
-/// Parts of one model, by weight.
-inline Bsdf mix(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]) {
-  return match(a, [&](const auto& first) -> Bsdf {
-    using Kind = std::remove_cvref_t<decltype(first)>;
-    return mix(first, std::get<Kind>(b), std::get<Kind>(c), weight);
-  });
-}
+/// Parts by weight: of one model their values are mixed, of several what they scatter.
+Bsdf mix(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]);
 
 }  // namespace trace

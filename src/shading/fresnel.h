@@ -1,9 +1,10 @@
-// How much light a smooth surface between two media mirrors, by Fresnel's formulas (Born and Wolf, Principles
-// of Optics, 1.5.3).
+// Fresnel's formulas: the share of unpolarised light that a smooth surface mirrors. Cosines are those of the
+// light to the normal, in the medium before the surface.
 #pragma once
 
 #include <cmath>
 
+#include "math/color.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -11,25 +12,55 @@ namespace trace {
 /// Shares mirrored of light that swings across the plane of incidence (s) and in it (p).
 struct Reflectance {
   Real s, p;
-  Real mean() const { return (s + p) / 2; }  ///< of unpolarised light
 };
 
-/// Between two dielectrics. `cosine` is that of the ray to the normal, in the medium before the surface; the
-/// indices are those before and behind. 1 under total internal reflection.
+/// Between two media that do not absorb, of these indices of refraction (Born and Wolf, Principles of Optics,
+/// section 1.5.2). 1 under total internal reflection, where equality with the critical angle counts; 0 where
+/// the indices are equal.
 inline Reflectance reflectanceDielectric(Real cosine, Real etaBefore, Real etaBehind) {
-  const Real in = max(0, min(1, cosine));
   if (etaBefore == etaBehind) return {0, 0};
-  const Real ratio = etaBefore / etaBehind, squared = 1 - ratio * ratio * (1 - in * in);
-  if (squared < 0) return {1, 1};
-  const Real out = std::sqrt(squared);
-  const Real s = (etaBefore * in - etaBehind * out) / (etaBefore * in + etaBehind * out);
-  const Real p = (etaBehind * in - etaBefore * out) / (etaBehind * in + etaBefore * out);
+  cosine = max(0, min(1, cosine));
+  const Real ratio = etaBefore / etaBehind, squared = 1 - ratio * ratio * (1 - cosine * cosine);
+  if (!(squared > 0)) return {1, 1};
+  const Real behind = std::sqrt(squared);
+  const Real s = (etaBefore * cosine - etaBehind * behind) / (etaBefore * cosine + etaBehind * behind);
+  const Real p = (etaBehind * cosine - etaBefore * behind) / (etaBehind * cosine + etaBefore * behind);
   return {s * s, p * p};
 }
-
-/// The share of unpolarised light that is mirrored.
+/// The mean of both.
 inline Real fresnelDielectric(Real cosine, Real etaBefore, Real etaBehind) {
-  return reflectanceDielectric(cosine, etaBefore, etaBehind).mean();
+  const Reflectance r = reflectanceDielectric(cosine, etaBefore, etaBehind);
+  return (r.s + r.p) / 2;
+}
+
+/// From air or vacuum at a conductor of the complex index eta + i k, exactly (Born and Wolf, section 14.2; in
+/// real numbers as in pbrt, 3rd ed., section 8.2.1).
+inline Real fresnelConductor(Real cosine, Real eta, Real k) {
+  const Real c = max(0, min(1, cosine)), cc = c * c, ss = 1 - cc, e = eta * eta, kk = k * k;
+  const Real t = e - kk - ss;
+  const Real root = std::sqrt(t * t + 4 * e * kk);  // a^2 + b^2
+  const Real a = std::sqrt(max(0, (root + t) / 2));
+  const Real s = (root + cc - 2 * a * c) / (root + cc + 2 * a * c);
+  const Real p = s * (cc * root + ss * ss - 2 * a * c * ss) / (cc * root + ss * ss + 2 * a * c * ss);
+  return (s + p) / 2;
+}
+inline Color fresnelConductor(Real cosine, const Color& eta, const Color& k) {
+  return {fresnelConductor(cosine, eta.r, k.r), fresnelConductor(cosine, eta.g, k.g),
+          fresnelConductor(cosine, eta.b, k.b)};
+}
+
+/// Schlick's approximation (Eurographics 1994), from what is mirrored of light along the normal.
+inline Real schlickWeight(Real cosine) {
+  const Real c = 1 - max(0, min(1, cosine)), cc = c * c;
+  return cc * cc * c;
+}
+inline Color schlick(Real cosine, const Color& alongNormal) {
+  return lerp(schlickWeight(cosine), alongNormal, Color(1));
+}
+/// What a smooth surface in air mirrors of light along its normal.
+inline Real mirroredAlongNormal(Real index) {
+  const Real r = (index - 1) / (index + 1);
+  return r * r;
 }
 
 }  // namespace trace

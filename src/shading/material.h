@@ -1,24 +1,76 @@
 // THE list of material models, and a material as a scene keeps it.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "base/match.h"
+#include "shading/materials/ashikhmin_shirley.h"
+#include "shading/materials/cel.h"
+#include "shading/materials/coated.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/cook_torrance.h"
+#include "shading/materials/gooch.h"
+#include "shading/materials/hair.h"
+#include "shading/materials/lambert.h"
+#include "shading/materials/oren_nayar.h"
 #include "shading/materials/phong.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/schlick_brdf.h"
+#include "shading/materials/velvet.h"
+#include "shading/materials/ward.h"
 #include "shading/texture.h"
 
 namespace trace {
 
-using MaterialModel = std::variant<Phong>;
+using MaterialModel = std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
+                                   Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Cel, Gooch>;
+
+/// The model of that keyword, with its defaults; null if there is none.
+inline std::optional<MaterialModel> modelCalled(std::string_view keyword) {
+  std::optional<MaterialModel> model;
+  forEachType<MaterialModel>([&]<class M>(M*) {
+    if (M::kKeyword == keyword) model = M{};
+  });
+  return model;
+}
+
+inline std::vector<std::string_view> modelKeywords() {
+  std::vector<std::string_view> words;
+  forEachType<MaterialModel>([&]<class M>(M*) { words.push_back(M::kKeyword); });
+  return words;
+}
+
+inline std::string_view keywordOf(const MaterialModel& model) {
+  return match(model, [](const auto& m) { return m.kKeyword; });
+}
 
 struct Material {
+  static constexpr std::string_view kKeyword = "material";
+
   std::string name;
   MaterialModel model;
   std::vector<FieldTexture> textures{};  ///< of its model's fields
   bool operator==(const Material&) const = default;
 };
+
+/// Keywords of colours that models have in common: what a surface gives off, its share of the ambient light,
+/// and what it looks like, which is `color` where it is no diffuse reflectance.
+inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
+                                  kColor = "color";
+/// color = change(color) for those of the keywords that the model has.
+void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
+                  const std::function<Color(const Color&)>& change);
+
+/// Fields of the same keyword and type keep their values; the others get the defaults of model `to`.
+MaterialModel converted(const MaterialModel& from, const MaterialModel& to);
+/// The same of a material, whose textures stay where there still is a field for them.
+Material withModel(Material material, const MaterialModel& to);
 
 /// Changes every picture of the material's textures: change(Pixels&).
 template <class Change>

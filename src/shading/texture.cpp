@@ -1,5 +1,6 @@
 #include "shading/texture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,7 +15,9 @@ struct Texture::Data {
 namespace {
 
 Affine patternFromObject(const TexturePlacement& p) {
-  const auto turn = [&](const Vec3& axis, Real degrees) { return Affine::rotation(axis, degrees * kPi / 180); };
+  const auto turn = [&](const Vec3& axis, Real degrees) {
+    return Affine::rotation(axis, degrees * kPi / 180);
+  };
   const Affine placed = Affine::translation(p.translate) * turn({0, 0, 1}, p.rotate.z) *
                         turn({0, 1, 0}, p.rotate.y) * turn({1, 0, 0}, p.rotate.x) * Affine::scaling(p.scale);
   return invertible(placed) ? inverse(placed) : Affine{};
@@ -29,11 +32,6 @@ TexturePlace moved(const TexturePlace& p, const Affine& m) {
           .uvY = step(p.uvY),
           .pointX = linear(m, p.pointX),
           .pointY = linear(m, p.pointY)};
-}
-
-/// IEC 61966-2-1.
-Real linearOf(Real srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace
@@ -59,9 +57,29 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
   return match(node.model, [&](const auto& model) {
     if (node.inputs.empty()) return model.at(place);
     auto own = model;
-    applyTextures(own, node.inputs, place);
-    return own.at(place);
+    if constexpr (requires { own.pattern(place); }) {
+      for (const FieldTexture& t : node.inputs)
+        if (t.field != "a" && t.field != "b") applyTexture(own, t, place);
+      const Real pattern = own.pattern(place);
+      for (const FieldTexture& t : node.inputs)
+        if ((t.field == "a" && pattern < 1) || (t.field == "b" && pattern > 0)) applyTexture(own, t, place);
+      return own.shade(pattern);
+    } else {
+      applyTextures(own, node.inputs, place);
+      return own.at(place);
+    }
   });
+}
+
+bool wantsFootprint(const Texture& texture) {
+  const bool itself = match(texture->model, [](const auto& model) {
+    if constexpr (requires { model.wantsFootprint(); })
+      return model.wantsFootprint();
+    else
+      return false;
+  });
+  return itself || std::any_of(texture->inputs.begin(), texture->inputs.end(),
+                               [](const FieldTexture& input) { return wantsFootprint(input.texture); });
 }
 
 std::string summary(const Texture& texture) {
@@ -78,9 +96,8 @@ Texel ImageMap::texelAt(const TexturePlace& place) const {
   const auto& m = transform;
   const Vec2 uv{m[0] * place.uv.x + m[1] * place.uv.y + m[2], m[3] * place.uv.x + m[4] * place.uv.y + m[5]};
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
-  Texel texel = file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds});
-  if (srgb) texel.color = {linearOf(texel.color.r), linearOf(texel.color.g), linearOf(texel.color.b)};
-  return texel;
+  const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };
+  return file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds, srgb, step(place.uvX), step(place.uvY)});
 }
 
 Color ImageMap::at(const TexturePlace& place) const {

@@ -2,24 +2,45 @@
 //
 // Each is one header in shading/textures/: a struct with kKeyword, kHelp, fields() and
 //   Color at(const TexturePlace&) const;
-// which gives a finite colour at a finite place.
+// which gives a finite colour at a finite place. One that has colours a and b says how they are mixed
+// instead,
+//   Real pattern(const TexturePlace&) const;    0 is a, 1 is b
+//   Color shade(Real pattern) const;
+// so that a texture in place of one is not asked where only the other is seen.
+// One that looks at the footprint adds
+//   bool wantsFootprint() const;
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/match.h"
 #include "math/transform.h"
 #include "shading/texture_place.h"
+#include "shading/textures/brick.h"
+#include "shading/textures/cells.h"
 #include "shading/textures/checker.h"
+#include "shading/textures/clouds.h"
+#include "shading/textures/formula.h"
+#include "shading/textures/gradient.h"
+#include "shading/textures/granite.h"
 #include "shading/textures/image_map.h"
+#include "shading/textures/marble.h"
+#include "shading/textures/mix.h"
+#include "shading/textures/noise.h"
+#include "shading/textures/ramp.h"
+#include "shading/textures/spots.h"
+#include "shading/textures/wood.h"
 
 namespace trace {
 
-using TextureModel = std::variant<ImageMap, Checker>;
+using TextureModel = std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
+                                  Clouds, Cells, Ramp, Mix, Formula>;
 
 /// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
 /// and v is moved there, as if they were x and y.
@@ -80,10 +101,23 @@ inline const Texture* textureOf(const std::vector<FieldTexture>& textures, std::
   return nullptr;
 }
 
+/// Gives the field this texture. The list is in the order of the alphabet.
+inline void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture) {
+  const auto at =
+      std::find_if(textures.begin(), textures.end(), [&](const FieldTexture& t) { return t.field >= field; });
+  if (at != textures.end() && at->field == field)
+    at->texture = std::move(texture);
+  else
+    textures.insert(at, {std::string(field), std::move(texture)});
+}
+
 /// A picture on a field.
 inline Texture pictureTexture(std::string file, Place place = {}) {
   return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
 }
+
+/// It, or a texture in it, looks at how large a part of the surface a place stands for.
+bool wantsFootprint(const Texture& texture);
 
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);
@@ -91,18 +125,21 @@ std::string summary(const Texture& texture);
 /// What a number takes of a colour.
 constexpr Real luminance(const Color& c) { return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b; }
 
-/// Multiplies the fields that have textures by them.
+/// Multiplies the field that has the texture by it.
+template <class Struct>
+void applyTexture(Struct& to, const FieldTexture& t, const TexturePlace& place) {
+  forEachField<Struct>([&](const auto& f) {
+    auto& value = to.*f.member;
+    if constexpr (requires { value.r; }) {
+      if (f.keyword == t.field) value *= t.texture.at(place);
+    } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>) {
+      if (f.keyword == t.field) value *= luminance(t.texture.at(place));
+    }
+  });
+}
 template <class Struct>
 void applyTextures(Struct& to, const std::vector<FieldTexture>& textures, const TexturePlace& place) {
-  for (const FieldTexture& t : textures)
-    forEachField<Struct>([&](const auto& f) {
-      auto& value = to.*f.member;
-      if constexpr (requires { value.r; }) {
-        if (f.keyword == t.field) value *= t.texture.at(place);
-      } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>) {
-        if (f.keyword == t.field) value *= luminance(t.texture.at(place));
-      }
-    });
+  for (const FieldTexture& t : textures) applyTexture(to, t, place);
 }
 
 /// The same texture with every picture in it, however deep, changed: change(Pixels&).

@@ -1,6 +1,8 @@
 #include "studio/actions.h"
 
 #include <imgui.h>
+// For the keyboard's way through menus.
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -84,6 +86,11 @@ constexpr std::array kTable{
     Action{"File", "Close reference", 0, false, false, "compare no more",
            [](Studio& s) { s.workspace.closeReference(), s.picture.view = View::picture; }, hasReference,
            nullptr},
+    Action{"File", "Background image...", 0, false, false, "choose a picture to be seen behind everything",
+           [](Studio& s) { chooseFile(s, findOption("backdrop")); }, hasScene, nullptr},
+    Action{"File", "Environment map...", 0, false, false,
+           "choose a picture all around: a map, or one of the six faces of a cube",
+           [](Studio& s) { chooseFile(s, findOption("environment")); }, hasScene, nullptr},
     Action{"File", "Save scene", 'S', true, false, "write the scene, as edited, to its .ray file", saveScene,
            hasScene, nullptr},
     Action{"File", "Save scene as...", 'S', true, true, "write the scene, as edited, to another .ray file",
@@ -92,10 +99,9 @@ constexpr std::array kTable{
            hasPicture, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
-    Action{"Edit", "Undo", 'Z', true, false, "take the last change back",
-           [](Studio& s) { s.workspace.undo(); },
+    Action{"Edit", "Undo", 'Z', true, false, "take the last change back", undo,
            [](const Studio& s) { return !s.workspace.undoName().empty(); }, nullptr},
-    Action{"Edit", "Redo", 'Y', true, false, "make the change again", [](Studio& s) { s.workspace.redo(); },
+    Action{"Edit", "Redo", 'Y', true, false, "make the change again", redo,
            [](const Studio& s) { return s.workspace.document.canRedo(); }, nullptr},
     Action{"Edit", "Duplicate", 'D', true, false, "the selected object once more", duplicateSelected,
            canDuplicate, nullptr},
@@ -180,6 +186,32 @@ void recentMenu(Studio& studio) {
   ImGui::EndMenu();
 }
 
+/// Left and right in an open menu, where no entry takes them, open the one beside it, round the bar. Called
+/// at the end of a menu.
+void goToNextMenu(Studio& studio, std::string_view menu) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool left = context.NavMoveDir == ImGuiDir_Left, right = context.NavMoveDir == ImGuiDir_Right;
+  const ImGuiWindow* own = ImGui::GetCurrentWindow();
+  const ImGuiWindow* at = context.NavWindow;
+  while (at && at != own && (at->Flags & ImGuiWindowFlags_ChildMenu))
+    at = at->ParentWindow;  // right in a submenu
+  if (at != own || (!left && !right) || !ImGui::NavMoveRequestButNoResultYet()) return;
+  std::vector<const char*> bar;
+  for (const Action& action : kTable)
+    if (bar.empty() || std::string_view(bar.back()) != action.menu) bar.push_back(action.menu);
+  const auto here = static_cast<std::size_t>(std::find(bar.begin(), bar.end(), menu) - bar.begin());
+  studio.menuToOpen = bar[(here + (left ? bar.size() - 1 : 1)) % bar.size()];
+  ImGui::NavMoveRequestCancel();
+}
+
+/// The help of an entry that the cursor is on, beside the menu, so that it hides no other entry.
+void menuTooltip(const char* help) {
+  if (!ImGui::IsItemHovered()) return;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
+  ImGui::SetNextWindowPos({right + ImGui::GetStyle().ItemSpacing.x, ImGui::GetItemRectMin().y});
+  ImGui::SetTooltip("%s", help);
+}
+
 void closeOnEscape(const Studio& studio) {
   if (studio.pressed(kEscape)) ImGui::CloseCurrentPopup();
 }
@@ -213,11 +245,12 @@ void drawHelp(Studio& studio) {
     for (const Panel& panel : panels())
       line(std::string("Alt+") + static_cast<char>(panel.key), std::string(panel.name),
            std::string(panel.help));
-    line("F10, Alt+F", "Open a menu", "Alt with its first letter; arrows, Enter and Esc go on");
+    line("F10, Alt+F", "Open a menu",
+         "Alt with its first letter; left and right go to the next; Esc closes it");
     line("wheel", "Zoom", "in the picture at the cursor; in the 3D view");
     line("drag", "Move", "the picture with the right or middle button");
     line("Ctrl+click", "Type a number", "on any slider; Enter takes it, Esc does not");
-    line("Tab, arrows", "Go to a control", "Enter or Space uses it, Esc goes back");
+    line("Tab, arrows", "Go to a control", "Enter or Space uses it, Esc leaves a field");
     ImGui::EndTable();
   }
   ImGui::EndPopup();
@@ -260,6 +293,13 @@ void drawLeaving(Studio& studio) {
 
 }  // namespace
 
+void chooseFile(Studio& studio, const Option& option) {
+  const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
+  const std::string near = now == "none" ? studio.workspace.document.file() : now;
+  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near, pictureSuffixes(),
+                     [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
+}
+
 std::span<const Action> actions() { return kTable; }
 
 std::string keyText(const Action& action) {
@@ -280,10 +320,10 @@ std::string keyText(const Action& action) {
 void drawMenu(Studio& studio) {
   takeKeys(studio);
   if (!ImGui::BeginMainMenuBar()) return;
-  const std::string asked = std::exchange(studio.menuToOpen, "");
+  if (const std::string asked = std::exchange(studio.menuToOpen, ""); !asked.empty())
+    ImGui::OpenPopup(asked.c_str()), showKeyboardCursor();
   for (std::size_t i = 0; i < kTable.size();) {
     const char* menu = kTable[i].menu;
-    if (asked == menu) ImGui::OpenPopup(menu), showKeyboardCursor();
     const bool open = ImGui::BeginMenu(menu);
     if (!open) landmark("menu " + std::string(menu));
     for (; i < kTable.size() && std::string_view(kTable[i].menu) == menu; ++i) {
@@ -293,7 +333,7 @@ void drawMenu(Studio& studio) {
       if (ImGui::MenuItem(action.name, keyText(action).c_str(), checked, action.enabled(studio)))
         action.run(studio);
       landmark("action " + std::string(action.name));
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", action.help);
+      menuTooltip(action.help);
       if (action.key == 'O') recentMenu(studio);
     }
     if (!open) continue;
@@ -304,6 +344,7 @@ void drawMenu(Studio& studio) {
         if (ImGui::MenuItem(panel.name.data(), key.c_str())) studio.goTo(std::string(panel.name));
       }
     }
+    goToNextMenu(studio, menu);
     ImGui::EndMenu();
   }
   const std::string& file = studio.workspace.document.file();

@@ -20,6 +20,8 @@ struct Action {
 };
 
 std::span<const Action> actions();
+/// Opens the file dialog for an option that names a file.
+void chooseFile(Studio& studio, const Option& option);
 /// "Ctrl+Shift+S", or "".
 std::string keyText(const Action& action);
 

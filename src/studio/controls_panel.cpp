@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "scene/conventions.h"
 #include "scene/option_words.h"
+#include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/panels.h"
@@ -26,6 +27,7 @@ std::string rangeText(const Option& option) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::region:
       return "x0,y0,x1,y1 in pixels from the top left; nothing for the whole picture";
+    case Option::Kind::file: return "a file, typed or chosen; nothing for none";
     case Option::Kind::choice:
     case Option::Kind::choices: {
       std::string text = option.kind == Option::Kind::choices ? "none or any of: " : "";
@@ -118,7 +120,21 @@ std::optional<std::string> editRegion(const std::string& value) {
   return typedRegion(text);
 }
 
-std::optional<std::string> edit(const Option& option, const std::string& value) {
+/// The name, to be typed, and a button that opens the dialog.
+std::optional<std::string> editFile(Studio& studio, const Option& option, const std::string& value) {
+  const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - button - gap);
+  std::string text = value == "none" ? "" : value;
+  const bool typed = editText("##value", text, "no file");
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("...", {button, 0})) chooseFile(studio, option);
+  landmark("choose " + std::string(option.name));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a file");
+  if (!typed) return {};
+  return text.empty() ? "none" : text;
+}
+
+std::optional<std::string> edit(Studio& studio, const Option& option, const std::string& value) {
   switch (option.kind) {
     case Option::Kind::boolean: {
       bool on = value == "on";
@@ -130,6 +146,7 @@ std::optional<std::string> edit(const Option& option, const std::string& value) 
     case Option::Kind::choice: return editChoice(option, value);
     case Option::Kind::choices: return editChoices(option, value);
     case Option::Kind::region: return editRegion(value);
+    case Option::Kind::file: return editFile(studio, option, value);
   }
   return {};
 }
@@ -150,7 +167,7 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   ImGui::TableNextColumn();
   const float resetWidth = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-resetWidth - ImGui::GetStyle().ItemInnerSpacing.x);
-  const std::optional<std::string> given = edit(option, value);
+  const std::optional<std::string> given = edit(studio, option, value);
   landmark("option " + name);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(studio, option);
   const unsigned id = ImGui::GetID("edit");

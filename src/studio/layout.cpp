@@ -103,6 +103,7 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, floa
 
 void drawStudio(Studio& studio) {
   forgetLandmarks();
+  keepKeyboard(studio);
   followScene(studio);
   if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
   drawMenu(studio);
@@ -133,6 +134,7 @@ void drawStudio(Studio& studio) {
     splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high}, layout.right, all.x, -1);
   if (low > 0) splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar}, layout.bottom, all.y, -1);
   drawDialogs(studio);
+  noteKeyboard(studio);
   std::vector<Message> remarks;
   for (std::string& remark : takeRemarks())
     remarks.push_back({.severity = Message::Severity::warning, .what = std::move(remark)});

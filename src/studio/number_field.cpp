@@ -1,12 +1,13 @@
 #include "studio/number_field.h"
 
 #include <imgui.h>
-// For GetItemID and TempInputIsActive, which tell that a slider takes text.
+// For what is typed into a slider: Dear ImGui's own field drops letters without a word.
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -30,11 +31,10 @@ struct Settled {
   bool typed = false;
 };
 
-/// What the widget made of the last item's value: `shown`, if it says `changed`.
+/// What the widget made of the value: `shown`, if it says `changed`.
 template <class Value>
-Settled<Value> settle(const Value& shown, bool changed, bool typing) {
+Settled<Value> settle(ImGuiID id, const Value& shown, bool changed, bool typing) {
   static TypedValue<Value> typed;
-  const ImGuiID id = ImGui::GetItemID();
   std::optional<Value> now;
   if (changed) now = shown;
   if (!typing && !typed.holds(id)) return {std::move(now), false};
@@ -50,33 +50,91 @@ std::string rangeText(const NumberLook& look, bool whole) {
   return above ? toText(look.most) + " or less" : number;
 }
 
+void remark(const NumberLook& look, bool whole, const std::string& found, const std::string& became) {
+  remarks().push_back(std::string(look.name) + (look.name.empty() ? "" : ": ") + "expected " +
+                      rangeText(look, whole) + ", found " + found + "; " + became);
+}
+
 /// The typed number as it is taken, with a remark if that is not as it was typed; nothing if it is not.
 std::optional<double> taken(double typed, const NumberLook& look, bool whole) {
   double now = whole ? std::round(typed) : typed;
   if (look.clamped) now = std::clamp(now, look.least, look.most);
   const bool any = std::isfinite(now);
   if (!any || now != typed)
-    remarks().push_back(std::string(look.name) + (look.name.empty() ? "" : ": ") + "expected " +
-                        rangeText(look, whole) + ", found " + toText(typed) +
-                        (any ? "; the nearest is " + toText(now) : "; not taken"));
+    remark(look, whole, toText(typed), any ? "the nearest is " + toText(now) : "not taken");
   if (!any) return {};
   return now;
 }
 
-bool edit(const char* id, double& value, const NumberLook& look, bool whole) {
+/// The number that was typed; nothing, with a remark, if it is none.
+std::optional<double> numberIn(const std::string& typed, const NumberLook& look, bool whole) {
+  const std::size_t first = typed.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  const std::string text = typed.substr(first, typed.find_last_not_of(" \t") + 1 - first);
+  const std::optional<ParsedNumber> number = parseNumber(text);
+  if (number && number->length == text.size()) return taken(number->value, look, whole);
+  remark(look, whole, '"' + text + '"', "not taken");
+  return {};
+}
+
+/// A slider that takes text, in place of Dear ImGui's own field.
+Settled<std::string> typeNumber(const char* label, ImGuiID id) {
+  constexpr int kMostCharacters = 32;  // as Dear ImGui's own field, which begins what goes on here
+  static ImGuiID owner = 0;
+  static char text[kMostCharacters];
+  const char* before = ImGui::GetCurrentContext()->InputTextState.InitialTextA.Data;
+  if (std::exchange(owner, id) != id) std::snprintf(text, sizeof text, "%s", before);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImRect box(at, {at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight()});
+  ImGui::ItemSize(box, ImGui::GetStyle().FramePadding.y);
+  if (!ImGui::ItemAdd(box, id, &box, ImGuiItemFlags_Inputable)) return {};
+  ImGui::TempInputText(box, id, label, text, kMostCharacters, ImGuiInputTextFlags_AutoSelectAll);
+  const std::string now = text;
+  const bool typing = ImGui::TempInputIsActive(id), changed = now != std::string(before);
+  if (!typing) owner = 0;
+  return settle(id, now, changed, typing);
+}
+
+/// The format, with fewer digits if the number would not fit into the field.
+std::string fitting(const std::string& format, double value, float width) {
+  const std::size_t digits = format.find("%.");
+  if (digits == std::string::npos || format.substr(digits + 3, 1) != "g") return format;
+  std::string shorter = format;
+  for (char& count = shorter[digits + 2]; count > '1'; --count) {
+    char text[64];
+    std::snprintf(text, sizeof text, shorter.c_str(), value);
+    if (ImGui::CalcTextSize(text).x <= width) break;
+  }
+  return shorter;
+}
+
+bool edit(const char* label, double& value, const NumberLook& look, bool whole) {
+  const ImGuiID id = ImGui::GetID(label);
+  const auto take = [&](const std::optional<double>& now) {
+    if (!now || *now == value || !std::isfinite(*now)) return false;
+    value = *now;
+    return true;
+  };
+  const auto takeTyped = [&](const Settled<std::string>& typed) {
+    return typed.value && take(numberIn(*typed.value, look, whole));
+  };
+  if (ImGui::TempInputIsActive(id)) return takeTyped(typeNumber(label, id));
   // Dear ImGui takes no infinite bounds.
   const double least = std::max(look.least, -1e300), most = std::min(look.most, 1e300);
-  const ImGuiSliderFlags flags = look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+  const std::string format =
+      fitting(look.format, value, ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2);
+  const ImGuiSliderFlags flags = (look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
+                                 (format == look.format ? 0 : ImGuiSliderFlags_NoRoundToFormat);
   double shown = value;
-  const bool changed = look.speed > 0 ? ImGui::DragScalar(id, ImGuiDataType_Double, &shown, look.speed,
-                                                          &least, &most, look.format.c_str(), flags)
-                                      : ImGui::SliderScalar(id, ImGuiDataType_Double, &shown, &least, &most,
-                                                            look.format.c_str(), flags);
-  Settled<double> now = settle(shown, changed, ImGui::TempInputIsActive(ImGui::GetItemID()));
-  if (now.value && now.typed) now.value = taken(*now.value, look, whole);
-  if (!now.value || *now.value == value || !std::isfinite(*now.value)) return false;
-  value = *now.value;
-  return true;
+  const bool changed = look.speed > 0 ? ImGui::DragScalar(label, ImGuiDataType_Double, &shown, look.speed,
+                                                          &least, &most, format.c_str(), flags)
+                                      : ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least,
+                                                            &most, format.c_str(), flags);
+  if (format != look.format && ImGui::IsItemHovered() && !ImGui::IsItemActive())
+    ImGui::SetTooltip("%s", toText(value).c_str());
+  const Settled<std::string> typed = settle(id, std::string(), false, ImGui::TempInputIsActive(id));
+  if (typed.typed) return takeTyped(typed);
+  return changed && take(shown);
 }
 
 }  // namespace
@@ -118,7 +176,7 @@ bool editNumbersInRow(double* values, int count, const NumberLook& look) {
 bool editText(const char* id, std::string& value, const char* hint) {
   std::string shown = value;
   const bool changed = ImGui::InputTextWithHint(id, hint, &shown);
-  Settled<std::string> now = settle(shown, changed, ImGui::IsItemActive());
+  Settled<std::string> now = settle(ImGui::GetItemID(), shown, changed, ImGui::IsItemActive());
   if (!now.value || *now.value == value) return false;
   value = std::move(*now.value);
   return true;

@@ -40,6 +40,9 @@ struct RaysView {
   OrbitCamera orbit;
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
+  std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
+  std::vector<std::uint32_t> walls;      ///< of the room that the scene's camera stands in; see app/room.h
+  bool roomOpened = true;                ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;

@@ -30,10 +30,13 @@ void main() {
 // Lit from the eye and a little from above, on both sides.
 const std::string kSurfaceFragment = std::string("#version 330 core") + SeeThrough::kDeclarations + R"(
 in vec3 place, facing;
-uniform vec3 eye;
+uniform vec3 eye, inside;
+uniform bool wall;
 uniform vec4 colour;
 out vec4 result;
 void main() {
+  vec3 across = cross(dFdx(place), dFdy(place));  // as app/room.h has it
+  if (wall && dot(across, eye - place) * dot(across, inside - place) < 0) discard;
   peel();
   vec3 n = normalize(facing), v = normalize(eye - place);
   if (dot(n, v) < 0) n = -n;
@@ -125,7 +128,7 @@ struct SceneDrawer::State {
   unsigned plain = 0, texture = 0;                         // the result
   int width = 0, height = 0;
   std::array<float, 16> matrix{};
-  Vec3 eye;
+  Vec3 eye, inside;
   SeeThrough seeThrough;
   std::optional<SpaceDrawing> shown;
   std::uint64_t drawn = 0;
@@ -219,7 +222,7 @@ ImTextureID SceneDrawer::show(SpaceDrawing drawing) {
 void SceneDrawer::State::draw(const SpaceDrawing& d) {
   resize(d.width, d.height);
   for (std::size_t i = 0; i < 16; ++i) matrix[i] = static_cast<float>(d.matrix[i / 4][i % 4]);
-  eye = d.eye;
+  eye = d.eye, inside = d.inside;
   glBindFramebuffer(GL_FRAMEBUFFER, smooth);
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
@@ -261,13 +264,17 @@ void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
   if (parts.empty()) return;
   use(surface);
   seeThrough.useIn(surface);
-  glUniform3f(glGetUniformLocation(surface, "eye"), static_cast<float>(eye.x), static_cast<float>(eye.y),
-              static_cast<float>(eye.z));
+  const auto place = [&](const char* name, const Vec3& p) {
+    glUniform3f(glGetUniformLocation(surface, name), static_cast<float>(p.x), static_cast<float>(p.y),
+                static_cast<float>(p.z));
+  };
+  place("eye", eye), place("inside", inside);
   glBindVertexArray(surfaceArray);
-  const int colour = glGetUniformLocation(surface, "colour");
+  const int colour = glGetUniformLocation(surface, "colour"), wall = glGetUniformLocation(surface, "wall");
   for (const DrawSurface& part : parts) {
     glUniform4f(colour, static_cast<float>(part.colour.r), static_cast<float>(part.colour.g),
                 static_cast<float>(part.colour.b), part.opacity);
+    glUniform1i(wall, part.wall);
     glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
   }
 }

@@ -30,6 +30,7 @@ struct DrawSurface {
   std::size_t first, count;
   Color colour;
   float opacity;
+  bool wall = false;  ///< not drawn where it parts the eye from SpaceDrawing::inside
   bool operator==(const DrawSurface&) const = default;
 };
 
@@ -47,7 +48,7 @@ struct SpaceDrawing {
   int width = 0, height = 0;
   std::array<float, 4> background{};
   Matrix4 matrix{};
-  Vec3 eye{};
+  Vec3 eye{}, inside{};
   std::vector<DrawSurface> solid{}, clear{}, wires{};  ///< clear: others show through
   std::optional<DrawPicture> picture{};
   std::vector<DrawLine> lines{};

@@ -7,6 +7,7 @@
 
 #include "app/edits.h"
 #include "app/placing.h"
+#include "app/scene_changes.h"
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "studio/field_editor.h"
@@ -37,6 +38,13 @@ void change(Studio& studio, const std::string& what, Apply&& apply) {
   studio.workspace.document.edit(what, std::move(scene), continues);
 }
 
+/// The whole of the last row of the list.
+void scrollIntoView() {
+  const float top = ImGui::GetWindowPos().y + ImGui::GetWindowContentRegionMin().y + ImGui::GetScrollY();
+  const float bottom = ImGui::GetWindowPos().y + ImGui::GetWindowContentRegionMax().y + ImGui::GetScrollY();
+  if (ImGui::GetItemRectMin().y < top || ImGui::GetItemRectMax().y > bottom) ImGui::SetScrollHereY();
+}
+
 // --- the tree -----------------------------------------------------------------------------------------
 
 void entry(Studio& studio, Selected kind, std::size_t index, const std::string& name) {
@@ -45,7 +53,7 @@ void entry(Studio& studio, Selected kind, std::size_t index, const std::string& 
   if (ImGui::Selectable(name.c_str(), selected)) studio.selected = kind, studio.selectedIndex = index;
   landmark("entry " + std::string(Studio::kSelectedNames[static_cast<int>(kind)]) + " " +
            std::to_string(index));
-  if (selected && studio.revealSelected && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+  if (selected && studio.revealSelected) scrollIntoView();
   ImGui::PopID();
 }
 
@@ -153,15 +161,25 @@ void editMaterial(Studio& studio) {
   Material material = scene.materials[index];
   const std::string name = nameOf(material, index);
   match(material.model, [&](const auto& model) { heading(studio, name, model.kHelp, {}); });
-  std::size_t users = 0;
-  for (const Object& object : scene.objects) users += object.material == index;
+  const std::size_t users = usersOf(scene, static_cast<std::uint32_t>(index));
   ImGui::TextDisabled("used by %zu %s", users, users == 1 ? "object" : "objects");
+  landmark("used by " + std::to_string(users));
   const auto changed = [&](const std::string& what) {
     change(studio, what, [&](Scene& next) { next.materials[index] = material; });
   };
   if (!beginFields("material")) return;
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
+  const std::vector<std::string_view> models = modelKeywords();
+  std::size_t chosen = material.model.index();
+  fieldName("model", "how the surface scatters light; fields that both models have keep their values");
+  ImGui::PushID("model");
+  const bool otherModel = editChoice(models.data(), models.size(), chosen);
+  ImGui::PopID();
+  if (otherModel) {
+    material = withModel(std::move(material), *modelCalled(models[chosen]));
+    changed(name + ": model " + std::string(models[chosen]));
+  }
   match(material.model, [&](auto& model) {
     const auto before = model;
     editFields(model, [&](std::string_view key) {
@@ -212,8 +230,8 @@ void drawScene(Studio& studio) {
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", what.c_str());
   };
-  step("Undo", studio.workspace.undoName(), [&] { studio.workspace.undo(); });
-  step("Redo", document.redoName(), [&] { studio.workspace.redo(); });
+  step("Undo", studio.workspace.undoName(), [&] { undo(studio); });
+  step("Redo", document.redoName(), [&] { redo(studio); });
 
   const Scene& scene = document.scene();
   ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true,
@@ -227,6 +245,7 @@ void drawScene(Studio& studio) {
   branch(studio, Selected::material, "materials", scene.materials.size(),
          [&](std::size_t i) { return nameOf(scene.materials[i], i); });
   ImGui::EndChild();
+  landmark("list");
   studio.revealSelected = false;
 
   // Undo and deleting may leave the selection beyond the end.

@@ -86,128 +86,184 @@ std::string state(const Studio& studio) {
     text << "file " << std::filesystem::path(workspace.document.file()).filename().string() << "\nedited "
          << (workspace.document.edited() ? "yes" : "no") << "\n";
   text << "undo " << workspace.undoName() << "\n";
-  for (const auto& [name, at] : landmarks())
+  for (const auto& [name, at] : landmarks()) {
     text << "at " << std::lround((at[0] + at[2]) / 2) << " " << std::lround((at[1] + at[3]) / 2) << " "
-         << name << "\n";
+         << name << "\nbox";
+    for (const float side : at) text << " " << std::lround(side);
+    text << " " << name << "\n";
+  }
   return text.str();
 }
 
-/// `run` returns false to be called again after the next frame.
+using Words = std::vector<std::string>;
+
+const Action& actionOf(const Words& words) {
+  const std::string name = joined(words);
+  for (const Action& action : actions())
+    if (name == action.name) return action;
+  throw Error(Fault::usage, "no menu has an entry \"" + name + "\"");
+}
+
+const Panel& panelOf(const Words& words) {
+  const std::string name = joined(words);
+  for (const Panel& panel : panels())
+    if (name == panel.name) return panel;
+  throw Error(Fault::usage, "no panel is called \"" + name + "\"");
+}
+
+View viewOf(const std::string& word) {
+  const int number = whole(word);
+  if (number < 0 || number > 5) throw Error(Fault::usage, "expected 0 to 5, found " + word);
+  return static_cast<View>(number);
+}
+
+Studio::Selected kindOf(const std::string& word) {
+  const auto& names = Studio::kSelectedNames;
+  const auto kind = std::find(std::begin(names), std::end(names), word);
+  if (kind == std::end(names))
+    throw Error(Fault::usage, "expected camera, background, object, light, material or none, found " + word);
+  return static_cast<Studio::Selected>(kind - std::begin(names));
+}
+
+void checkNumbers(const Words& words) {
+  for (const std::string& word : words) whole(word);
+}
+void checkPicture(const Words& words) { pictureFormatFor(words[0]); }
+void checkTab(const Words& words) {
+  if (words[0] != "Tree" && words[0] != "Ray" && words[0] != "Difference")
+    throw Error(Fault::usage, "expected Tree, Ray or Difference, found " + words[0]);
+}
+void checkOption(const Words& words) {
+  Settings scratch;
+  findOption(words[0]).assign(scratch, words[1]);
+}
+
+/// `run` returns false to be called again after the next frame. `check`, if any, throws an Error if the
+/// arguments are wrong whatever the window shows.
 struct Command {
   const char* name;
   const char* arguments;
   std::size_t least, most;  // number of arguments
   const char* help;
-  bool (*run)(Studio&, const std::vector<std::string>&);
+  bool (*run)(Studio&, const Words&);
+  void (*check)(const Words&) = nullptr;
 };
 
 constexpr std::array kTable{
     Command{"open", "FILE", 1, 1, "open a scene",
-            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.open(a[0]), true; }},
+            [](Studio& s, const Words& a) { return s.workspace.open(a[0]), true; }},
     Command{"drop", "FILE", 1, 1, "drop a file onto the window: a scene, or a picture to compare with",
-            [](Studio& s, const std::vector<std::string>& a) { return s.window.drop(a[0]), true; }},
-    Command{
-        "reference", "FILE", 1, 1, "compare with a picture",
-        [](Studio& s, const std::vector<std::string>& a) { return s.workspace.openReference(a[0]), true; }},
-    Command{
-        "set", "OPTION VALUE", 2, 2, "choose an option",
-        [](Studio& s, const std::vector<std::string>& a) { return s.workspace.choose(a[0], a[1]), true; }},
+            [](Studio& s, const Words& a) { return s.window.drop(a[0]), true; }},
+    Command{"reference", "FILE", 1, 1, "compare with a picture",
+            [](Studio& s, const Words& a) { return s.workspace.openReference(a[0]), true; }},
+    Command{"set", "OPTION VALUE", 2, 2, "choose an option",
+            [](Studio& s, const Words& a) { return s.workspace.choose(a[0], a[1]), true; }, checkOption},
     Command{"wait", "", 0, 0, "until the picture and the view in space are finished",
-            [](Studio& s, const std::vector<std::string>&) {
+            [](Studio& s, const Words&) {
               const auto state = s.workspace.render.state();
               if (state.phase == BackgroundRender::Phase::failed) fail(s.workspace);
               return !state.working() && !s.workspace.stale() && !s.rays.modelTask.busy();
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
-            [](Studio& s, const std::vector<std::string>& a) {
-              const std::string name = joined(a);
-              for (const Action& action : actions())
-                if (name == action.name) return action.run(s), true;
-              throw Error(Fault::usage, "no menu has an entry \"" + name + "\"");
-            }},
+            [](Studio& s, const Words& a) { return actionOf(a).run(s), true; },
+            [](const Words& a) { actionOf(a); }},
     Command{"panel", "NAME...", 1, 3, "bring a panel to the front",
-            [](Studio& s, const std::vector<std::string>& a) {
-              const std::string name = joined(a);
-              for (const Panel& panel : panels())
-                if (name == panel.name) return s.show(name), true;
-              throw Error(Fault::usage, "no panel is called \"" + name + "\"");
-            }},
+            [](Studio& s, const Words& a) { return s.show(std::string(panelOf(a).name)), true; },
+            [](const Words& a) { panelOf(a); }},
     Command{"view", "NUMBER", 1, 1,
             "0 picture, 1 reference, 2 side by side, 3 swipe, 4 difference, 5 false colour",
-            [](Studio& s, const std::vector<std::string>& a) {
-              s.picture.view = static_cast<View>(std::clamp(whole(a[0]), 0, 5));
+            [](Studio& s, const Words& a) {
+              s.picture.view = viewOf(a[0]);
               return true;
-            }},
+            },
+            [](const Words& a) { viewOf(a[0]); }},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return s.picture.goTo(whole(a[0]), whole(a[1])), true;
-            }},
+            [](Studio& s, const Words& a) { return s.picture.goTo(whole(a[0]), whole(a[1])), true; },
+            checkNumbers},
     Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
-            [](Studio& s, const std::vector<std::string>& a) {
+            [](Studio& s, const Words& a) {
               const std::vector<BadSample> bad = s.workspace.render.result().badSamples;
               if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= bad.size())
                 throw Error(Fault::usage, "the render has no bad sample " + a[0]);
               return showBadSample(s, bad[static_cast<std::size_t>(whole(a[0]))]), true;
-            }},
+            },
+            checkNumbers},
     Command{"select", "KIND NUMBER", 2, 2,
             "in the panel Scene: camera, background, object, light, material or none, from 0",
-            [](Studio& s, const std::vector<std::string>& a) {
-              const auto kind =
-                  std::find(std::begin(Studio::kSelectedNames), std::end(Studio::kSelectedNames), a[0]);
-              if (kind == std::end(Studio::kSelectedNames))
-                throw Error(Fault::usage,
-                            "expected camera, background, object, light, material or none, found " + a[0]);
-              s.select(static_cast<Studio::Selected>(kind - std::begin(Studio::kSelectedNames)),
-                       static_cast<std::size_t>(std::max(0, whole(a[1]))));
+            [](Studio& s, const Words& a) {
+              s.select(kindOf(a[0]), static_cast<std::size_t>(std::max(0, whole(a[1]))));
               return true;
-            }},
+            },
+            [](const Words& a) { kindOf(a[0]), whole(a[1]); }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",
-            [](Studio& s, const std::vector<std::string>&) { return !s.workspace.inspector.busy(); }},
+            [](Studio& s, const Words&) { return !s.workspace.inspector.busy(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
-            [](Studio& s, const std::vector<std::string>&) {
+            [](Studio& s, const Words&) {
               return s.workspace.inspector.pin(!s.workspace.inspector.pinned()), true;
             }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
-            [](Studio& s, const std::vector<std::string>& a) {
+            [](Studio& s, const Words& a) {
               if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= s.rays.rays)
                 throw Error(Fault::usage, "the pixel has no ray " + a[0]);
               s.rays.selected = whole(a[0]);
               return true;
-            }},
+            },
+            checkNumbers},
     Command{"step", "NUMBER", 1, 1, "go so many rays on in the order of tracing, or back if it is negative",
-            [](Studio& s, const std::vector<std::string>& a) { return stepRays(s, whole(a[0])), true; }},
+            [](Studio& s, const Words& a) { return stepRays(s, whole(a[0])), true; }, checkNumbers},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
-            [](Studio& s, const std::vector<std::string>&) { return showBoxes(s), true; }},
+            [](Studio& s, const Words&) { return showBoxes(s), true; }},
     Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
-            [](Studio& s, const std::vector<std::string>& a) { return s.raysTab = a[0], true; }},
+            [](Studio& s, const Words& a) { return s.raysTab = a[0], true; }, checkTab},
     Command{"save", "FILE", 1, 1, "write the picture",
-            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.savePicture(a[0]), true; }},
+            [](Studio& s, const Words& a) { return s.workspace.savePicture(a[0]), true; }, checkPicture},
     Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
-            [](Studio& s, const std::vector<std::string>& a) { return s.workspace.saveScene(a[0]), true; }},
+            [](Studio& s, const Words& a) { return s.workspace.saveScene(a[0]), true; }},
     Command{"screenshot", "FILE [PART...]", 1, 9, "write what the window shows, or a part that `state` names",
-            [](Studio& s, const std::vector<std::string>& a) {
+            [](Studio& s, const Words& a) {
               const Picture all = fromBytes(s.window.screenshot());
               return writePicture(a[0], a.size() > 1 ? part(all, joined(a, 1)) : all), true;
-            }},
+            },
+            checkPicture},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
-            [](Studio& s, const std::vector<std::string>& a) { return writeFile(a[0], state(s)), true; }},
+            [](Studio& s, const Words& a) { return writeFile(a[0], state(s)), true; }},
     Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen",
-            [](Studio& s, const std::vector<std::string>& a) {
-              return std::filesystem::exists(a[0]) && s.window.quiet();
-            }},
+            [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); }},
 };
+
+const Command& commandOf(const Words& words) {
+  for (const Command& command : kTable) {
+    if (words[0] != command.name) continue;
+    if (words.size() - 1 < command.least || words.size() - 1 > command.most)
+      throw Error(Fault::usage, std::string("expected ") + command.name + " " + command.arguments);
+    return command;
+  }
+  throw Error(Fault::usage, "unknown command \"" + words[0] + "\"");
+}
+
+Words argumentsOf(const Words& words) { return {words.begin() + 1, words.end()}; }
 
 }  // namespace
 
 Script::Script(const std::string& file) {
+  std::vector<Message> wrong;
   std::istringstream text(readFile(file));
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
     std::istringstream words(line.substr(0, line.find('#')));
     Line next{{file, number, 1, line}, {}};
     for (std::string word; words >> word;) next.words.push_back(word);
-    if (!next.words.empty()) lines_.push_back(std::move(next));
+    if (next.words.empty()) continue;
+    try {
+      if (const Command& command = commandOf(next.words); command.check)
+        command.check(argumentsOf(next.words));
+    } catch (const Error& error) {
+      wrong.push_back(error.messages().front());
+      wrong.back().place = next.place;
+    }
+    lines_.push_back(std::move(next));
   }
+  if (!wrong.empty()) throw Error(Fault::usage, std::move(wrong));
 }
 
 bool Script::step(Studio& studio) {
@@ -221,16 +277,9 @@ bool Script::step(Studio& studio) {
   const Line& line = lines_[failed && next_ > 0 ? next_ - 1 : next_];
   try {
     if (failed) fail(workspace);
-    for (const Command& command : kTable) {
-      if (line.words[0] != command.name) continue;
-      const std::vector<std::string> rest(line.words.begin() + 1, line.words.end());
-      if (rest.size() < command.least || rest.size() > command.most)
-        throw Error(Fault::usage, std::string("expected ") + command.name + " " + command.arguments);
-      waits_ = !command.run(studio, rest);
-      if (!waits_) ++next_, framesToWait_ = kSettle;
-      return true;
-    }
-    throw Error(Fault::usage, "unknown command \"" + line.words[0] + "\"");
+    waits_ = !commandOf(line.words).run(studio, argumentsOf(line.words));
+    if (!waits_) ++next_, framesToWait_ = kSettle;
+    return true;
   } catch (const Error& error) {
     Message message = error.messages().front();
     message.place = line.place;

@@ -10,7 +10,7 @@ namespace trace::studio {
 
 class Script {
  public:
-  /// Throws Error with file and line.
+  /// Throws Error with every mistake that shows before anything runs, by file and line.
   explicit Script(const std::string& file);
 
   /// Called after each frame: does the next command, or waits for what the last one began. False at the end.

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "app/scene_changes.h"
 #include "base/match.h"
 #include "studio/landmarks.h"
 #include "studio/object_editor.h"
@@ -20,7 +21,32 @@ bool holds(const std::vector<Thing>& list, const Studio& studio) {
   return studio.selectedIndex < list.size();
 }
 
+template <class Thing>
+void followList(Studio& studio, Selected kind, const std::vector<Thing>& before,
+                const std::vector<Thing>& after) {
+  if (const auto came = oneMore(before, after)) return studio.select(kind, *came);
+  const auto gone = oneMore(after, before);
+  if (!gone || studio.selected != kind || studio.selectedIndex < *gone) return;
+  if (studio.selectedIndex == *gone)
+    studio.selected = Selected::none, studio.selectedIndex = 0;
+  else
+    --studio.selectedIndex;
+}
+
+void go(Studio& studio, void (Workspace::*way)()) {
+  if (!studio.workspace.document.isOpen()) return;
+  const std::shared_ptr<const Scene> before = studio.workspace.document.sharedScene();
+  (studio.workspace.*way)();
+  const std::shared_ptr<const Scene> after = studio.workspace.document.sharedScene();
+  if (before == after) return;
+  followList(studio, Selected::object, before->objects, after->objects);
+  followList(studio, Selected::light, before->lights, after->lights);
+}
+
 }  // namespace
+
+void undo(Studio& studio) { go(studio, &Workspace::undo); }
+void redo(Studio& studio) { go(studio, &Workspace::redo); }
 
 std::string entryName(const Object& object) {
   return object.name.empty() ? withLine(nameOf("", object.shape), object.place) : object.name;

@@ -19,6 +19,11 @@ bool canDuplicate(const Studio& studio);
 /// The copy of an object, which is selected then.
 void duplicateSelected(Studio& studio);
 
+/// Takes the last change back, or makes it again. An object or a light that comes is selected; if one goes,
+/// what was selected stays so.
+void undo(Studio& studio);
+void redo(Studio& studio);
+
 /// A button that the second click of a double click does not press: it stands where another thing's button
 /// was.
 bool buttonOnce(const char* label, bool small = false);

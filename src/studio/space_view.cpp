@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/room.h"
 #include "studio/landmarks.h"
 #include "studio/rays_view.h"
 #include "studio/space_lines.h"
@@ -52,14 +53,23 @@ void updateOrbit(Studio& studio) {
   view.orbitFile = session->scene().file;
 }
 
+void updateWalls(Studio& studio) {
+  RaysView& view = studio.rays;
+  const auto session = studio.workspace.render.session();
+  if (!session || view.wallsOf.lock() == session) return;
+  view.walls = wallsAround(session->world(), session->scene().camera.position, frameOf(session->scene()));
+  view.wallsOf = session;
+}
+
 void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
   constexpr float kWire = 0.5f;
   if (view.surfaces == Surfaces::none) return;
   for (const ScenePart& part : view.model.parts) {
     const float own = static_cast<float>(part.opacity);
     DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
+    surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
     if (view.surfaces == Surfaces::wireframe) {
-      surface.opacity = kWire;
+      surface.opacity = kWire, surface.wall = false;
       drawing.wires.push_back(surface);
     } else {
       (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
@@ -143,9 +153,10 @@ void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 lo
   const auto session = studio.workspace.render.session();
   if (!session) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  Statistics statistics;
-  const auto found = session->world().closest(
-      frame.ray({(mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y}), Faces::both, statistics);
+  const RaysView& view = studio.rays;
+  const auto found = closestShown(
+      session->world(), frame.ray({(mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y}),
+      view.roomOpened ? view.walls : std::vector<std::uint32_t>{}, session->scene().camera.position);
   if (found && found->object < studio.workspace.document.scene().objects.size())
     studio.select(Studio::Selected::object, found->object);
 }
@@ -174,6 +185,7 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("axes: x red, y green, z blue", &view.axesShown);
   ImGui::Checkbox("bounding boxes", &view.boundsShown);
   ImGui::Checkbox("normals of surfaces", &view.normalsShown);
+  ImGui::Checkbox("into closed rooms, from outside", &view.roomOpened);
   ImGui::Checkbox("normals at hits", &view.hitNormalsShown);
   ImGui::Checkbox("pinned rays", &view.pinnedShown);
   ImGui::Checkbox("hierarchy boxes of the selected ray", &view.hierarchyShown);
@@ -234,6 +246,7 @@ void drawSpace(Studio& studio) {
   drawSwitches(studio);
   updateModel(studio);
   updateOrbit(studio);
+  updateWalls(studio);
   const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   if (size.x < 16 || size.y < 16) return;
   ImGui::InvisibleButton("space", size,
@@ -263,6 +276,7 @@ void drawSpace(Studio& studio) {
                        .background = {background.x, background.y, background.z, 1},
                        .matrix = matrix,
                        .eye = local.eye,
+                       .inside = (camera.eye - view.model.origin) / view.model.scale,
                        .hidden = kHidden};
   addSurfaces(view, drawing);
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));

@@ -21,6 +21,39 @@ void showKeyboardCursor() {
   context.NavDisableHighlight = false, context.NavDisableMouseHover = true;
 }
 
+void keepKeyboard(Studio& studio) {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  const Studio::Keyboard& before = studio.keyboard;
+  // Dear ImGui goes out of a panel with Esc, and nowhere.
+  ImGuiWindow* window = ImGui::FindWindowByID(before.window);
+  const bool left = context.NavId != before.item && !before.popup && context.OpenPopupStack.Size == 0;
+  if (studio.pressed(KeyPress::kEscape) && left && before.item && window) {
+    ImGui::FocusWindow(window);
+    const std::array<float, 4>& at = before.place;
+    ImGui::SetNavID(before.item, ImGuiNavLayer_Main, 0, {at[0], at[1], at[2], at[3]});
+    context.NavDisableHighlight = before.hidden;
+  }
+  // Nor does Tab know where it is, but in a field that takes text: 0 means that it begins at the first.
+  if (context.NavMoveScoringItems && (context.NavMoveFlags & ImGuiNavMoveFlags_Tabbing) &&
+      context.NavTabbingDir == 0 && context.NavId != 0)
+    context.NavTabbingDir = 1;
+}
+
+void noteKeyboard(Studio& studio) {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  // Where the keyboard is, is no field: then Tab goes to the first.
+  if (context.NavMoveScoringItems && (context.NavMoveFlags & ImGuiNavMoveFlags_Tabbing) &&
+      context.NavTabbingDir == 1 && context.NavTabbingCounter < 0)
+    context.NavTabbingCounter = 1;
+  studio.keyboard = {};
+  studio.keyboard.popup = context.OpenPopupStack.Size > 0;
+  studio.keyboard.hidden = context.NavDisableHighlight;
+  if (!context.NavWindow || context.NavLayer != ImGuiNavLayer_Main) return;
+  const ImRect& at = context.NavWindow->NavRectRel[ImGuiNavLayer_Main];
+  studio.keyboard.item = context.NavId, studio.keyboard.window = context.NavWindow->ID;
+  studio.keyboard.place = {at.Min.x, at.Min.y, at.Max.x, at.Max.y};
+}
+
 void enterPresses() {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (context.IO.NavVisible && !context.IO.WantTextInput && context.ActiveId == 0)

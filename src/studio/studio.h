@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -45,10 +46,16 @@ struct Studio {
   std::string menuToOpen;  ///< by its name, for the keyboard
   FileDialog dialog;
   std::vector<KeyPress> keys;  ///< of this frame
-  std::uint64_t frames = 0;    ///< drawn so far
-  Workspace::Pulse pulse{};    ///< as the last frame showed it
-  bool modelling = false;      ///< the view in space gets new triangles
-  std::string sceneFile;       ///< that the selection and the views belong to
+  struct Keyboard {            ///< where it was at the end of the last frame
+    unsigned item = 0, window = 0;
+    std::array<float, 4> place{};  ///< in the window
+    bool popup = false;            ///< one was open
+    bool hidden = true;            ///< the frame around it
+  } keyboard;
+  std::uint64_t frames = 0;  ///< drawn so far
+  Workspace::Pulse pulse{};  ///< as the last frame showed it
+  bool modelling = false;    ///< the view in space gets new triangles
+  std::string sceneFile;     ///< that the selection and the views belong to
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.
@@ -87,6 +94,11 @@ struct Studio {
 
 /// What belonged to the scene before is forgotten when another is opened: the chosen pixel, the selection.
 void followScene(Studio& studio);
+
+/// Esc leaves the keyboard where it was, and Tab goes on from there. Called before anything is drawn.
+void keepKeyboard(Studio& studio);
+/// Called when all is drawn.
+void noteKeyboard(Studio& studio);
 
 /// The frame around what the keyboard is at is shown, as after an arrow key.
 void showKeyboardCursor();

@@ -29,7 +29,7 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   std::size_t rays = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
-      for (int k = 0; k < gridSize(session.settings()) * gridSize(session.settings()); ++k) {
+      for (int k = 0; k < samplesOf(session.settings()); ++k) {
         const Explanation e = session.explain(x, y, k);
         const Color& sample = e.samples[static_cast<std::size_t>(k)];
         if (!sameBits(e.pixel, picture.at(x, y)) || !sameBits(e.tree.nodes[0].radiance, sample) ||
@@ -74,6 +74,7 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::choices:
       return {std::string(option.choices.front()), std::string(option.choices.back())};
     case Option::Kind::region: return {};
+    case Option::Kind::file: return {test::sourceFolder() + "/scenes/pictures/dusk.png"};
   }
   return {};
 }

@@ -191,6 +191,44 @@ TEST(SceneModel, PartsOfASolidHaveTheirOwnMaterials) {
   }
 }
 
+TEST(SceneModel, HasTheColoursThatThePictureHasInWhiteLight) {
+  Phong plain, mirror, glass, black;
+  plain.diffuse = plain.ambient = {0.1, 0.3, 0.6}, plain.specular = Color(0.5);
+  mirror.reflective = Color(0.9);
+  glass.transmissive = {0.5, 0.9, 0.5};
+  Scene scene;
+  for (const Phong& phong : {plain, mirror, glass, black}) addObject(scene, Sphere{}, {}, phong);
+  const SceneModel model = SceneModeler{}.model(scene);
+  ASSERT_EQ(model.parts.size(), 4u);
+  const Color& shown = model.parts[0].color;
+  EXPECT_NEAR(shown.r, 0.1, 0.04);
+  EXPECT_NEAR(shown.g, 0.3, 0.04);
+  EXPECT_NEAR(shown.b, 0.6, 0.04);
+  EXPECT_GT(model.parts[1].color.g, 0.3);  // what has no colour of its own is seen nevertheless
+  EXPECT_GT(model.parts[2].color.g, model.parts[2].color.r);
+  EXPECT_GT(model.parts[3].color.g, 0);
+}
+
+TEST(SceneModel, CurvedEdgesOfSolidsAreSmooth) {
+  Scene scene;
+  scene.materials.resize(2);
+  const Vec3 centers[] = {{0, 0, 0}, {0.4, 0.4, 0.6}};
+  Difference bowl;  // with a thin rim, near which both surfaces pass through the same cells
+  bowl.objects = Operands({{"", Sphere{}, {}, 0}, {"", Sphere{}, Affine::translation(centers[1]), 1}});
+  scene.objects.push_back({"", bowl, {}, 0, {}});
+  const SceneModel model = SceneModeler{}.model(scene);
+  ASSERT_EQ(model.parts.size(), 2u);
+  Real farthest = 0;
+  for (const ScenePart& part : model.parts)
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+      const float* c = &model.corners[i * 6];
+      const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;
+      const Vec3& center = centers[part.first == 0 ? 0 : 1];
+      farthest = std::max(farthest, std::abs(length(p - center) - 1));
+    }
+  EXPECT_LT(farthest, 0.02);
+}
+
 TEST(SceneModel, IsFramedOnWhatCanBeShownTogether) {
   for (const Real far : {1e12, 1e30, 1e300, -1e300, 1e308}) {
     Scene scene;

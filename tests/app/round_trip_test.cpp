@@ -63,8 +63,8 @@ TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
     for (LightSource& source : edited.lights)
       match(source.light, [](auto& light) { light.color = light.color * 0.7; });
     for (Material& material : edited.materials) {
-      Phong& phong = *std::get_if<Phong>(&material.model);
-      phong.diffuse = phong.diffuse * 0.8, phong.shininess += 3;
+      changeColors(material.model, {kDiffuse, kColor}, [](const Color& color) { return color * 0.8; });
+      if (Phong* phong = std::get_if<Phong>(&material.model)) phong->shininess += 3;
     }
     edited.choices = changedOptions(resolve({edited.choices}));
     const auto files = writeEdited(read, edited, file, messages);

@@ -253,5 +253,55 @@ TEST_F(Stop, NoProgressIfNotWanted) {
   }
 }
 
+// --- grade ---------------------------------------------------------------------------------------------
+
+class StopGrade : public Stop {
+ protected:
+  void SetUp() override {
+    Stop::SetUp();
+    std::filesystem::create_directories(path("scenes"));
+    std::filesystem::create_directories(path("ref"));
+    write("scenes/a.ray", kWhite);
+    write("scenes/b.ray", kPanes);
+    write("scenes/c.ray", kWhite);
+    for (const char* name : {"a", "b", "c"}) writePicture(path("ref/" + std::string(name) + ".png"), Picture(8, 8));
+  }
+  static std::vector<std::string> words(std::vector<std::string> more) {
+    std::vector<std::string> all{"grade", "scenes", "--reference", "ref", "--render", "-w", "8", "-r", "60", "-o",
+                                 "page.html"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::string page() const { return readFile(path("page.html")); }
+
+  static constexpr const char* kWhite = "SBT-raytracer 1.0\nsphere { material = { emissive = (1, 1, 1); } }";
+};
+
+TEST_F(StopGrade, TimeLimitKeepsWhatWasCompared) {
+  const Run r = run(words({"--time-limit", "1"}));
+  EXPECT_EQ(r.code, 5) << r.err;
+  EXPECT_NE(r.out.find("not reached  b.png"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("beyond       a.png"), std::string::npos) << r.out;
+  EXPECT_NE(r.err.find("2 of 3 pairs not reached: the time limit of 1 s is over"), std::string::npos) << r.err;
+  EXPECT_NE(page().find("not reached"), std::string::npos);
+}
+
+TEST_F(StopGrade, SceneLimitGoesOnWithTheNext) {
+  const Run r = run(words({"--scene-limit", "1"}));
+  EXPECT_EQ(r.code, 6) << r.err;
+  EXPECT_NE(r.out.find("b.png: it takes longer than the 1 s of --scene-limit"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("beyond      c.png"), std::string::npos) << r.out;
+}
+
+TEST_F(StopGrade, CtrlCKeepsWhatWasCompared) {
+  Program program(folder(), words({}));
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // it is in the second scene for ever
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 4) << program.err();
+  EXPECT_NE(program.err().find("2 of 3 pairs not reached: stopped by the user"), std::string::npos)
+      << program.err();
+  EXPECT_NE(page().find("not reached"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trace::test

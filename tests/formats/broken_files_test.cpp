@@ -411,7 +411,7 @@ TEST(BrokenFiles, Inventor) {
                    "IndexedFaceSet { coordIndex [ 0, 1, 2, -1 ] materialIndex [ 9 ] }"),
        "warning corners use materials, colours or texture coordinates that are not there"},
       {"a.wrl", vrml1("Texture2 { filename \"wood.png\" } Sphere { }"),
-       "warning the texture \"wood.png\" is not rendered"},
+       "warning the texture \"wood.png\" cannot be read"},
       {"a.iv", iv("Texture2 { image 1 1 3 0xff0000 } Sphere { }"),
        "warning the texture \"Texture2 (inside the file)\""},
       {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture ImageTexture { url \"wood.png\" } }"),
@@ -477,7 +477,7 @@ TEST(BrokenFiles, Obj) {
       {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
       {"map_d holes.png", "warning the texture \"holes.png\" is not rendered yet"},
       {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
-       "warning the textures \"a.png\", \"b.png\", \"c.png\" and \"d.png\" cannot be read"},
+       "warning the textures \"a.png\", \"b.png\", \"d.png\" and \"c.png\" cannot be read"},
   };
   for (const auto& [line, expected] : materials) {
     writeFile(folder.path() + "/a.mtl", std::string("newmtl gold\n") + line + "\n");

@@ -27,7 +27,7 @@ void expectDocumented(const std::string& text) {
 }
 
 TEST(Docs, NameEveryNodeAndField) {
-  const std::string text = page("ray-format.md") + page("shapes.md");
+  const std::string text = page("ray-format.md") + page("shapes.md") + page("materials.md");
   for (const ShapeType& type : shapeTypes()) {
     const std::string node = "`" + std::string(type.keyword) + "`";
     EXPECT_NE(text.find(node), std::string::npos) << node;

@@ -61,7 +61,7 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
       {"material = { diffuse = (1, 2, 3, 4); }",
        "2:24: diffuse: expected (red, green, blue), found (1, 2, 3, 4)"},
       {"material = { diffuse = (1, 2, x); }", "2:24: diffuse: expected (red, green, blue), found (1, 2, x)"},
-      {"material = { diffuse = map(3); }", "2:24: diffuse: expected (red, green, blue), found map(3)"},
+      {"material = { diffuse = map(3); }", "2:24: map: expected map(\"file\") or map(\"file\", constant), found map(3)"},
       {"material = { shininess = (1); }", "2:26: shininess: expected a number, found (1)"},
       {"material = { gennormals; }",
        "2:14: material: expected a field, as in diffuse = (1, 1, 1), found \"gennormals\""},

@@ -348,14 +348,15 @@ TEST(RayFormat, KeepsMapsByField) {
   const Scene scene = load(text).scene;
   const Material& first = scene.materials[scene.objects[0].material];
   EXPECT_EQ(first.textures, (std::vector<FieldTexture>{{"diffuse", rayfile::mappedPicture("a.bmp")},
-                                                       {"specular", rayfile::mappedPicture("b.png")},
-                                                       {"shininess", rayfile::mappedPicture("c.png")}}));
+                                                       {"shininess", rayfile::mappedPicture("c.png")},
+                                                       {"specular", rayfile::mappedPicture("b.png")}}));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(1));
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
   EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
   EXPECT_EQ(warningsOf(text),
-            "");  // the files are looked for when the whole scene is read
+            "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
+            "file or directory [a checker of magenta and black shows instead]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------
@@ -526,17 +527,29 @@ TEST(RayFormat, RepairsNormalsAndDropsTrianglesWithoutArea) {
             "2:10: polymesh: nothing of it can be seen, for it has no faces");
 }
 
+TEST(RayFormat, ReadsTheAreaLightsOfStudents) {
+  for (const char* size : {"bottom_radius", "light_radius", "radius"}) {
+    const Scene scene = load("area_light { position = (0, 4, 0); color = (1, 1, 0.5); " + std::string(size) +
+                             " = 0.5; constant_attenuation_coeff = 2; }")
+                            .scene;
+    const auto& light = std::get<PointLight>(scene.lights.at(0).light);
+    EXPECT_EQ(light.radius, 0.5);
+    EXPECT_EQ(light.constant, 2);
+    EXPECT_TRUE(scene.unrendered.empty());
+  }
+}
+
 // --- what is not rendered, and what is unknown --------------------------------------------------------
 
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
-      "area_light { position = (0, 0, 1); }\narea_light { }\n"
+      "warn_light { position = (0, 0, 1); }\nwarn_light { }\n"
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(
       warningsOf(text),
-      "2:1: \"area_light\" is not rendered yet (2 times, first here)\n"
+      "2:1: \"warn_light\" is not rendered yet (2 times, first here)\n"
       "4:20: \"metaball\" is not rendered yet [Trace has metaballs { threshold = 0.5; balls = ((x, y, z, "
       "radius, strength), ...); }]\n"
       "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
@@ -544,8 +557,8 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "6:23: \"bump_mapping\" is not rendered yet\n"
       "6:63: \"marble\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
-  EXPECT_EQ(loaded.scene.unrendered[0].kind, "area_light");
-  EXPECT_EQ(loaded.scene.unrendered[0].text, "area_light { position = (0, 0, 1); }");
+  EXPECT_EQ(loaded.scene.unrendered[0].kind, "warn_light");
+  EXPECT_EQ(loaded.scene.unrendered[0].text, "warn_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
             "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nmetaball { a = 1; })");

@@ -12,6 +12,7 @@
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/sphere.h"
 #include "mesh_helpers.h"
+#include "support/materials.h"
 #include "support/paths.h"
 #include "support/shapes.h"
 #include "support/shared.h"
@@ -139,16 +140,10 @@ TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
     });
     scene.lights.push_back({light, {}});
   });
-  forEachField<Phong>([&](const auto& f) {
-    Phong phong;
-    auto& member = phong.*f.member;
-    if constexpr (requires { member.r; })
-      member = {0.1, 0.2, 1.0 / 7};
-    else
-      member = static_cast<std::remove_reference_t<decltype(member)>>(0.3);
-    scene.materials.push_back({std::string(f.keyword), phong, {}});
+  for (const test::NamedModel& m : test::variedModels()) {
+    scene.materials.push_back({m.name, m.model, {}});
     scene.objects.push_back({"", Sphere{}, {}, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
-  });
+  }
   expectRoundTrip(scene, "every field");
 }
 

@@ -9,20 +9,52 @@
 namespace trace {
 namespace {
 
+Settings with(const GeneratorRow& row, int spp) {
+  Settings settings{.spp = spp};
+  settings.sampling = row.kind;
+  return settings;
+}
+
 TEST(Sampler, GridLiesAtTheCellsOfThePixel) {
   const SampleRules rules({.spp = 4}, {10, 5});
   ASSERT_EQ(rules.samples(), 4);
-  EXPECT_EQ(Sampler(rules, 0, 4, 0).film(), (Vec2{0, 0}));  // the lower left corner
-  EXPECT_EQ(Sampler(rules, 3, 4, 1).film(), (Vec2{0.35, 0}));
-  EXPECT_EQ(Sampler(rules, 3, 4, 2).film(), (Vec2{0.3, 0.1}));
+  EXPECT_EQ(Sampler(rules, 0, 4, 0).film().place, (Vec2{0, 0}));  // the lower left corner
+  EXPECT_EQ(Sampler(rules, 3, 4, 1).film().place, (Vec2{0.35, 0}));
+  EXPECT_EQ(Sampler(rules, 3, 4, 2).film().place, (Vec2{0.3, 0.1}));
   Settings border{.spp = 4};
   border.pixelPosition = PixelPosition::border;
-  EXPECT_EQ(Sampler(SampleRules(border, {10, 5}), 9, 0, 3).film(), (Vec2{1, 1}));
+  EXPECT_EQ(Sampler(SampleRules(border, {10, 5}), 9, 0, 3).film().place, (Vec2{1, 1}));
+}
+
+TEST(Sampler, TheTableIsInTheOrderOfItsKinds) {
+  for (std::size_t g = 0; g < generators().size(); ++g) {
+    EXPECT_EQ(static_cast<std::size_t>(generators()[g].kind), g);
+    EXPECT_EQ(samplesOf(with(generators()[g], 5)), generators()[g].square ? 9 : 5);
+  }
+}
+
+TEST(Sampler, SamplesLieInTheirPixel) {
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, 16), {10, 5});
+    Real x = 0, y = 0;
+    for (int k = 0; k < 16; ++k) {
+      const FilmSample sample = Sampler(rules, 3, 1, k).film();
+      EXPECT_EQ(sample.weight, 1);
+      EXPECT_GE(sample.place.x, 0.3) << row.name;
+      EXPECT_LT(sample.place.x, 0.4) << row.name;
+      EXPECT_GE(sample.place.y, 0.6) << row.name;
+      EXPECT_LT(sample.place.y, 0.8) << row.name;
+      x += sample.place.x / 16, y += sample.place.y / 16;
+    }
+    if (row.kind == SampleKind::random || row.kind == SampleKind::grid) continue;
+    EXPECT_NEAR(x, 0.35, 0.01) << row.name;
+    EXPECT_NEAR(y, 0.7, 0.02) << row.name;
+  }
 }
 
 TEST(Sampler, NumbersAreFunctionsOfWhereTheyAreDrawn) {
-  for (std::size_t g = 0; g < generators().size(); ++g) {
-    const SampleRules rules({.spp = 16}, {100, 100});
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, 16), {100, 100});
     std::set<Real> seen;
     for (int x = 0; x < 4; ++x)
       for (int y = 0; y < 4; ++y)
@@ -36,8 +68,54 @@ TEST(Sampler, NumbersAreFunctionsOfWhereTheyAreDrawn) {
             seen.insert(number);
           }
         }
-    EXPECT_EQ(seen.size(), 4u * 4 * 4 * 4) << generators()[g].name;
+    EXPECT_EQ(seen.size(), 4u * 4 * 4 * 4) << row.name;
+    Settings other = with(row, 16);
+    other.seed = 1;
+    EXPECT_NE(Sampler(SampleRules(other, {100, 100}), 0, 0, 0).next(), Sampler(rules, 0, 0, 0).next()) << row.name;
   }
+}
+
+// What a pixel's samples estimate: the area of a quarter disk, over many pixels. Chance has a variance of
+// 0.1685 / n.
+TEST(Sampler, EvenPairsEstimateBetterThanChance) {
+  constexpr int kSamples = 16, kPixels = 1000;
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, kSamples), {1000, 1});
+    Real square = 0, mean = 0;
+    for (int x = 0; x < kPixels; ++x) {
+      Real inside = 0;
+      for (int k = 0; k < kSamples; ++k) {
+        const Vec2 u = Sampler(rules, x, 0, k).branch(5).next2();
+        inside += u.x * u.x + u.y * u.y < 1;
+      }
+      const Real error = inside / kSamples - kPi / 4;
+      mean += error / kPixels, square += error * error / kPixels;
+    }
+    const Real byChance = kPi / 4 * (1 - kPi / 4) / kSamples;
+    EXPECT_NEAR(mean, 0, 0.006) << row.name;
+    if (row.kind == SampleKind::random)
+      EXPECT_NEAR(square, byChance, 0.15 * byChance);
+    else
+      EXPECT_LT(square, 0.5 * byChance) << row.name;
+  }
+}
+
+// Blue noise: the mean of a pixel and its neighbours is better than that of as many strangers.
+TEST(Sampler, BlueNeighboursMakeUpForEachOther) {
+  const auto errorOfBlocks = [](SampleKind kind) {
+    Settings settings{.spp = 1};
+    settings.sampling = kind;
+    const SampleRules rules(settings, {64, 64});
+    Real square = 0;
+    for (int block = 0; block < 256; ++block) {
+      Real sum = 0;
+      for (int i = 0; i < 16; ++i)
+        sum += Sampler(rules, block % 16 * 4 + i % 4, block / 16 * 4 + i / 4, 0).branch(2).next();
+      square += (sum / 16 - 0.5) * (sum / 16 - 0.5) / 256;
+    }
+    return square;
+  };
+  EXPECT_LT(errorOfBlocks(SampleKind::blue), 0.2 * errorOfBlocks(SampleKind::sobol));
 }
 
 TEST(Sampler, ABranchIsMovedByNothing) {

@@ -502,5 +502,30 @@ TEST(Whitted, VertexMaterialsAreMixed) {
   EXPECT_NEAR(color.b, 0.5, 1e-15);
 }
 
+// --- lights with a size ---------------------------------------------------------------------------------
+
+TEST(Whitted, TheMiddleOfAPenumbraSeesHalfOfTheLamp) {
+  Scene scene;
+  Phong white;
+  white.diffuse = Color(1);
+  addObject(scene, Square{}, Affine::scaling({20, 20, 1}), white);
+  addObject(scene, Square{}, at(5, 0, 2) * Affine::scaling({10, 10, 1}), {});  // its edge is over x = 0
+  PointLight lamp{.position = {0, 0, 4}, .color = Color(1), .constant = 1, .quadratic = 0};
+  lamp.radius = 1;
+  scene.lights.push_back({lamp, {}});
+  Settings settings;
+  settings.spp = settings.lightSamples = 16;
+  const auto seen = [&](Real x) {
+    const Vec3 to = normalize(Vec3{x, 0, 0} - Vec3{-3, 0, 1});
+    return trace(scene, {{-3, 0, 1}, to}, settings).r;
+  };
+  const Real cosine = (1 + std::sqrt(1 - 1.0 / 16)) / 2;  // the mean over the lamp
+  settings.lightSamples = 1024;
+  EXPECT_NEAR(seen(0), cosine / 2, 0.01);
+  EXPECT_NEAR(seen(-1.6), cosine * 4 / std::sqrt(16 + 1.6 * 1.6), 0.02) << "it is all seen";
+  EXPECT_EQ(seen(1.6), 0) << "nothing of it is seen";
+  EXPECT_LT(seen(0.3), seen(0));
+}
+
 }  // namespace
 }  // namespace trace::test

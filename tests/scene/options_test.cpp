@@ -20,6 +20,7 @@ std::vector<std::string> someValues(const Option& option) {
       return {last, first + "," + last, "none"};
     }
     case Option::Kind::region: return {"1,2,30,40", "0,0,0,0"};
+    case Option::Kind::file: return {"pictures/a b.png", "/x.hdr", "none", "../y"};
     default: return {option.get({}), std::to_string(static_cast<int>(option.least) + 1)};
   }
 }
@@ -47,6 +48,7 @@ TEST(Options, TextRoundTrips) {
 TEST(Options, BadValuesAreRefusedByNameAndChangeNothing) {
   for (const Option& option : options())
     for (const char* bad : {"", "banana", "nan", "inf", "1e99", "-1e99", "1;2"}) {
+      if (option.kind == Option::Kind::file && *bad) continue;  // files may be called anything
       Settings settings;
       try {
         option.assign(settings, bad);
@@ -59,6 +61,29 @@ TEST(Options, BadValuesAreRefusedByNameAndChangeNothing) {
       }
       EXPECT_EQ(settings, Settings{});
     }
+}
+
+TEST(Options, AFileThatASceneNamesLiesBesideIt) {
+  const Place place{.file = "folder/scene.ray"};
+  const std::vector<Choice> scene{{"environment", "sky.hdr", place}, {"backdrop", "/tmp/b.png", place}};
+  const Settings settings = resolve({scene});
+  EXPECT_EQ(settings.environment.path, "folder/sky.hdr");
+  EXPECT_EQ(settings.backdrop.path, "/tmp/b.png");
+  const std::vector<Choice> commandLine{{"environment", "sky.hdr", {}}, {"backdrop", "none", {}}};
+  EXPECT_EQ(resolve({scene, commandLine}).environment.path, "sky.hdr");
+  EXPECT_EQ(resolve({scene, commandLine}).backdrop.path, "");
+  const std::vector<Choice> none{{"environment", "none", place}};
+  EXPECT_EQ(resolve({none}).environment.path, "");
+}
+
+TEST(Options, OneFileBySeveralNamesIsOneValue) {
+  Settings a, b;
+  a.environment.path = "./sky.hdr", b.environment.path = "sky.hdr";
+  EXPECT_TRUE(sameValue(findOption("environment"), a, b));
+  b.environment.path = "other.hdr";
+  EXPECT_FALSE(sameValue(findOption("environment"), a, b));
+  b.environment.path = "";
+  EXPECT_FALSE(sameValue(findOption("environment"), a, b));
 }
 
 TEST(Options, ARowChangesItsOwnFieldOnly) {

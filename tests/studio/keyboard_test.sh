@@ -52,8 +52,10 @@ press F10
 is popup open "F10 opens a menu"
 is focused 'action Open scene...' "the keyboard is at its first entry"
 pressUntil Down 'action Open reference...'
-pressUntil Right 'menu Edit'
+press Right
+is focused 'action Undo' "Right opens the next menu"
 press Escape
+is popup none "Esc closes it"
 press alt+h
 is focused 'action Keys and mouse' "Alt with its first letter opens a menu"
 press Return

@@ -49,6 +49,25 @@ code=0
 [[ $code == 1 ]] || fail "a script that fails ends with exit code $code"
 grep -q 'script:1' log || fail "a script that fails does not name its line"
 
+# A script is looked at whole before it begins: all that is wrong in it is said, and nothing was done.
+cat >script <<'END'
+save early.png
+set depth deep
+# set nothing 1
+flip
+action Undo it
+pixel 1
+select sphere 0
+view 9
+screenshot window.txt
+END
+code=0
+"$studio" scene.ray --script script >log 2>&1 || code=$?
+[[ $code == 2 ]] || fail "a script with mistakes ends with exit code $code, not 2"
+for line in 2 4 5 6 7 8 9; do grep -q "script:$line:" log || fail "the mistake in line $line is not told"; done
+for line in 1 3; do ! grep -q "script:$line:" log || fail "line $line is no mistake"; done
+[[ ! -e early.png ]] || fail "a script with mistakes did something"
+
 # The view in space shows the same whatever the order of the objects: what is nearer hides, or shows through.
 head='SBT-raytracer 1.0
 camera { position = (0, 0, 8); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
@@ -67,6 +86,25 @@ for scene in forward backward; do
 done
 (($(stat -c %s forward.png) > 3000)) || fail "the view in space shows almost nothing"
 cmp forward.png backward.png || fail "the view in space depends on the order of the objects in the file"
+
+# A closed room around the camera is seen into from outside, whatever its walls are made of.
+head='SBT-raytracer 1.0
+camera { position = (0, 0, 3); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }
+scale(0.7, sphere { material = { diffuse = (0.9, 0, 0) } })'
+echo "$head scale(8, box { material = { diffuse = (0, 0, 0.5) } })" >box.ray
+{ echo "$head"
+  for turn in '0, 1, 0, 0' '0, 1, 0, 1.5708' '0, 1, 0, 3.1416' '0, 1, 0, -1.5708' '1, 0, 0, 1.5708' '1, 0, 0, -1.5708'; do
+    echo "rotate($turn, translate(0, 0, 4, scale(8, 8, 1, square { material = { diffuse = (0, 0, 0.5) } })))"
+  done; } >walls.ray
+for scene in box walls; do
+  printf '%s\n' wait 'set width 64' wait "screenshot $scene.png space" >script
+  "$studio" $scene.ray --script script >log 2>&1 || fail "the view in space of $scene.ray cannot be shown"
+  if command -v convert >/dev/null; then
+    red="$(convert $scene.png -channel R -separate -threshold 30% -format '%[fx:mean]' info:)"
+    awk "BEGIN { exit !($red > 0.001) }" || fail "the room of $scene.ray is closed: $red of it is red"
+  fi
+done
 
 # Frames are drawn when something changed, and the view in space only when it did itself.
 cat >script <<'END'

@@ -175,7 +175,7 @@ class Reader {
     phong.shininess = m.shininess;
     phong.index = extras.ior.value_or(kGlass);
     Material material{"", phong, {}};
-    if (extras.texture) material.textures.push_back({"diffuse", pictureTexture(*extras.texture)});
+    if (extras.texture) setTexture(material.textures, "diffuse", pictureTexture(*extras.texture));
     scene_.materials.push_back(std::move(material));
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }

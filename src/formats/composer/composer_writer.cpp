@@ -68,6 +68,13 @@ class Writer {
     lamp.dropOffRate = light.exponent / kShininessScale, lamp.cutOffAngle = light.angle * kPi / 180;
     file_.lamps.push_back(lamp);
   }
+  void add(const RectangleLight& light) {
+    warn("rectangle lights become points, which do not fade with the distance");
+    const Vec3 across = cross(light.u, light.v);
+    file_.lamps.push_back({.kind = cf::Lamp::Kind::point,
+                           .position = light.position,
+                           .color = light.color * (length(across) / kPi)});
+  }
   /// It is in the materials; see material().
   void add(const AmbientLight&) {}
 

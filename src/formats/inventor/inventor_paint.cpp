@@ -28,7 +28,7 @@ Material Paint::material(std::size_t i) const {
   }
   phong.transmissive = Color(through);
   Material result{"", phong, {}};
-  if (!texture.empty()) result.textures.push_back({"diffuse", pictureTexture(texture)});
+  if (!texture.empty()) setTexture(result.textures, "diffuse", pictureTexture(texture));
   return result;
 }
 

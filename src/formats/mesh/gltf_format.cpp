@@ -509,7 +509,7 @@ class GltfReader {
   void addMap(Material& material, const char* field, int texture) {
     const tinygltf::Image* image = imageOf(texture);
     if (image && !image->uri.empty() && !image->uri.starts_with("data:"))
-      return material.textures.push_back({field, pictureTexture(image->uri, place_)});
+      return setTexture(material.textures, field, pictureTexture(image->uri, place_));
     noteTexture(texture);
   }
 

@@ -69,7 +69,7 @@ Material toMaterial(const tinyobj::material_t& mtl) {
                                                              {"emissive", mtl.emissive_texname},
                                                              {"shininess", mtl.specular_highlight_texname}};
   for (const auto& [field, picture] : maps)
-    if (!picture.empty()) material.textures.push_back({field, pictureTexture(picture)});
+    if (!picture.empty()) setTexture(material.textures, field, pictureTexture(picture));
   return material;
 }
 

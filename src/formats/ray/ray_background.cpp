@@ -1,6 +1,7 @@
 #include "formats/ray/ray_background.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
@@ -26,6 +27,15 @@ Background readBackground(Findings& findings, const Item& block) {
                               std::to_string(background.colors.size()));
   if (!std::is_sorted(limits.begin(), limits.end()))
     findings.error(block, "background: expected limits that ascend, from the top of the picture down");
+  const std::vector<Real>& elevations = background.elevations;
+  if (!elevations.empty() && elevations.size() != background.gradient.size())
+    findings.error(block, "background: expected an elevation for each color of the gradient, found " +
+                              std::to_string(elevations.size()) + " and " +
+                              std::to_string(background.gradient.size()));
+  if (std::adjacent_find(elevations.begin(), elevations.end(), std::greater_equal<>()) != elevations.end())
+    findings.error(block, "background: expected elevations that ascend, from -90 to 90 degrees");
+  if (background.turbidity > 0 && !(length(background.sun) > 0))
+    findings.error(block, "background: expected a direction to the sun, found (0, 0, 0)");
   for (const Color& color : background.colors)
     if (color.r < 0 || color.g < 0 || color.b < 0)
       findings.warn(block, "background: expected colors of at least 0, found a number below");

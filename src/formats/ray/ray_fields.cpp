@@ -50,6 +50,21 @@ bool read(Findings& findings, std::string_view name, const Item& value, Pixels& 
   return true;
 }
 
+bool read(Findings& findings, std::string_view name, const Item& value, FormulaText& to) {
+  std::string text;
+  if (!read(findings, name, value, text)) return false;
+  try {
+    to = FormulaText(std::move(text));
+    return true;
+  } catch (const Error& error) {
+    findings.error(value, std::string(name) + ": " + error.messages().front().what,
+                   error.messages().front().hint);
+    return false;
+  }
+}
+
+std::string written(const FormulaText& value, int digits) { return written(value.text(), digits); }
+
 std::string written(const Pixels& value, int digits) { return written(value.file, digits); }
 
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {

@@ -17,6 +17,7 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/textures/formula.h"
 #include "shading/textures/image_map.h"
 
 namespace trace::rayfile {
@@ -38,6 +39,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
 bool read(Findings& findings, std::string_view name, const Item& value, Heights& to);
 /// The name of a picture, which is read when the whole scene is.
 bool read(Findings& findings, std::string_view name, const Item& value, Pixels& to);
+bool read(Findings& findings, std::string_view name, const Item& value, FormulaText& to);
 
 /// What read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
@@ -48,6 +50,7 @@ std::string written(const Color& value, int digits);
 std::string written(const std::string& value, int digits);
 std::string written(const Heights& value, int digits);
 std::string written(const Pixels& value, int digits);
+std::string written(const FormulaText& value, int digits);
 inline std::string written(const EnumValue& value, int) { return std::string(value.name()); }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string written(Enum value, int digits) {
@@ -173,10 +176,11 @@ void checkRange(Findings& findings, std::string_view owner, const Field& f, cons
 
 /// Warns if the field of that keyword is outside its range; the value stays.
 template <class Struct>
-void checkRange(Findings& findings, const Struct& target, const Item& field) {
+void checkRange(Findings& findings, const Struct& target, const Item& field,
+                std::string_view owner = Struct::kKeyword) {
   const std::string_view key = canonical(field.key());
   forEachField<Struct>([&](const auto& f) {
-    if (f.keyword == key) checkRange(findings, Struct::kKeyword, f, target.*f.member, field);
+    if (f.keyword == key) checkRange(findings, owner, f, target.*f.member, field);
   });
 }
 void checkRange(Findings& findings, const Shape& target, const Item& field);

@@ -10,8 +10,8 @@ namespace trace::rayfile {
 namespace {
 
 /// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
-constexpr std::array<std::string_view, 24> kRelatives{
-    "area_light",  "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
+constexpr std::array<std::string_view, 23> kRelatives{
+    "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
     "environment", "fog",       "hyperbolic",   "map",          "map_points", "marble",
     "metaball",    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh",
     "shape_light", "skybox",    "texture",      "warn_light",   "warn_model", "wood"};

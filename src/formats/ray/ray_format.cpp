@@ -22,6 +22,7 @@
 #include "formats/ray/ray_objects.h"
 #include "formats/ray/ray_settings.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/textures.h"
 
 namespace trace {
 namespace rayfile {
@@ -52,6 +53,7 @@ class Reader {
     warnOfDarkness();
     messages_.throwIfFailed();
   }
+  const TextureReader& textures() { return materials_.textures(); }
 
  private:
   // --- the file ---
@@ -74,7 +76,7 @@ class Reader {
   void topLevel(const Item& item) {
     if (item.is(Kind::entry)) return topLevelEntry(item);
     if (item.is(Kind::call)) {
-      if (item.key() == Phong::kKeyword) return objects_.namedMaterial(item);
+      if (item.key() == Material::kKeyword) return objects_.namedMaterial(item);
       if (item.key() == Camera::kKeyword) return camera(item);
       if (item.key() == kSettings) return readSettings(findings_, item);
       if (item.key() == Background::kKeyword) return background(item);
@@ -85,7 +87,7 @@ class Reader {
 
   void topLevelEntry(const Item& item) {
     if (item.key() == kTexture) return materials_.textures().define(item.value());
-    if (item.key() != Phong::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
+    if (item.key() != Material::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
     findings_.sureSignOf2005();
     materials_.current = materials_.read(item.value(), materials_.current);
   }
@@ -148,6 +150,24 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
   rayfile::settleKeys(syntax, time);
   rayfile::Reader(syntax, scene, messages, time, nullptr).read();
   return scene;
+}
+
+std::vector<Texture> readNamedTextures(const std::string& file, std::string_view bytes, Messages& messages,
+                                       Real time) {
+  Scene scene;
+  scene.file = file;
+  rayfile::Syntax syntax(file, bytes);
+  rayfile::settleKeys(syntax, time);
+  rayfile::Reader reader(syntax, scene, messages, time, nullptr);
+  reader.read();
+  Scene shown;  // of one material for each texture
+  shown.file = file;
+  for (const auto& [name, texture] : reader.textures().named())
+    shown.materials.push_back({.name = name, .model = {}, .textures = {{"diffuse", texture}}});
+  loadTextures(shown, messages);
+  std::vector<Texture> textures;
+  for (const Material& material : shown.materials) textures.push_back(material.textures.front().texture);
+  return textures;
 }
 
 }  // namespace trace

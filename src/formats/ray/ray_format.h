@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/scene.h"
@@ -21,5 +22,9 @@ bool changesWithTime(const std::string& file, std::string_view bytes);
 /// The scene at `time`, in seconds (ray_keys.h). Throws Error(Fault::scene) with up to twenty errors; one, if
 /// the syntax is wrong.
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
+
+/// The textures of the file that have names, used or not, with their pictures loaded. Throws as readRay().
+std::vector<Texture> readNamedTextures(const std::string& file, std::string_view bytes, Messages& messages,
+                                       Real time = 0);
 
 }  // namespace trace

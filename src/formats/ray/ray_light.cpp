@@ -1,9 +1,11 @@
 #include "formats/ray/ray_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "base/match.h"
 #include "base/text.h"
@@ -13,11 +15,16 @@
 namespace trace::rayfile {
 namespace {
 
+/// What students called a point light with a size, and that size.
+constexpr std::string_view kAreaLight = "area_light";
+constexpr std::array<std::string_view, 3> kRadius{"bottom_radius", "light_radius", "area"};
+
 /// Calls visit(a null pointer to the type) for the type of light with that keyword; false if none has
 /// it.
 template <class Visit>
 bool withLight(std::string_view keyword, Visit&& visit) {
   bool found = false;
+  if (keyword == kAreaLight) keyword = PointLight::kKeyword;
   forEachType<Light>([&]<class T>(T* type) {
     if (T::kKeyword != keyword) return;
     found = true;
@@ -54,6 +61,11 @@ void read(Findings& findings, const Item& call) {
   for (const Item item : *block) {
     if (!isField(findings, item, L::kKeyword)) continue;
     repeats.note(item);
+    if constexpr (std::is_same_v<L, PointLight>)
+      if (call.key() == kAreaLight && std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
+        rayfile::read(findings, item.key(), item.value(), light.radius);
+        continue;
+      }
     if (!assignField(findings, light, item)) {
       findings.unknownField(L::kKeyword, item, keywords<L>({"colour"}));
       continue;

@@ -20,19 +20,32 @@ std::size_t mixed(std::size_t hash, std::size_t more) {
   return (hash ^ more) * 0x9e3779b97f4a7c15u + (hash >> 29);
 }
 
-std::size_t hashOf(const Material& material, const Phong& phong) {
-  std::size_t hash = std::hash<std::string>{}(material.name);
+std::size_t hashOf(const Material& material) {
+  std::size_t hash = mixed(std::hash<std::string>{}(material.name), material.model.index());
   for (const FieldTexture& t : material.textures)
     hash = mixed(hash, std::hash<std::string>{}(t.field + summary(t.texture)));
   const auto add = [&](double number) { hash = mixed(hash, std::hash<double>{}(number)); };
-  forEachField<Phong>([&](const auto& f) {
-    const auto& value = phong.*f.member;
-    if constexpr (requires { value.r; })
-      add(value.r), add(value.g), add(value.b);
-    else
-      add(static_cast<double>(value));
+  match(material.model, [&]<class Model>(const Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      const auto& value = model.*f.member;
+      if constexpr (requires { value.r; })
+        add(value.r), add(value.g), add(value.b);
+      else
+        add(static_cast<double>(value));
+    });
   });
   return hash;
+}
+
+/// The names in a sentence: "a, b or c".
+std::string list(const std::vector<std::string_view>& names, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0                  ? ""
+             : i + 1 == names.size() ? " " + std::string(last) + " "
+                                     : ", ") +
+            std::string(names[i]);
+  return text;
 }
 
 }  // namespace
@@ -40,7 +53,6 @@ std::size_t hashOf(const Material& material, const Phong& phong) {
 /// A material block being read.
 struct Materials::Block {
   Material material;
-  Phong phong;
   bool gaveReflective = false;
   std::optional<Item> shininess;
 };
@@ -66,17 +78,18 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     return inherited;
   }
 
-  Block block{inherited, phongOf(inherited), false, {}};
+  Block block{inherited, false, {}};
   block.material.name.clear();
-  RepeatedFields repeats(findings_, Phong::kKeyword);
+  if (const std::optional<Item> model = modelOf(value)) chooseModel(block, *model);
+  RepeatedFields repeats(findings_, Material::kKeyword);
   for (const Item item : value) {
     if (item.keyed()) repeats.note(item);
     field(block, item);
   }
-  warnOfInheritedGlass(value, inherited);
-  block.material.model = block.phong;
-  if (block.shininess && !isBlack(block.phong.specular))
-    findings_.noteShininess(*block.shininess, block.phong.shininess);
+  const Phong* phong = std::get_if<Phong>(&block.material.model);
+  if (phong) warnOfInheritedGlass(value, inherited);
+  if (phong && block.shininess && !isBlack(phong->specular))
+    findings_.noteShininess(*block.shininess, phong->shininess);
   markUsed(inherited.name);
   NotedMaterial result = noted(std::move(block.material), value, inherited);
   if (result.name.empty()) return result;
@@ -102,28 +115,80 @@ NotedMaterial Materials::noted(Material material, const Item& block, const Noted
   return result;
 }
 
+std::optional<Item> Materials::modelOf(const Item& block) {
+  for (const Item item : block)
+    if (item.keyed() && item.key() == kModel) return item.value();
+  return {};
+}
+
+/// The fields that the block starts from and the other model has stay; the rest are the model's defaults.
+void Materials::chooseModel(Block& block, const Item& value) {
+  const std::vector<std::string_view> known = modelKeywords();
+  std::string word;
+  if (value.is(Kind::word)) word = value.text();
+  if (const auto model = modelCalled(word)) {
+    block.material = withModel(std::move(block.material), *model);
+    return;
+  }
+  std::string hint = didYouMean(word, known);
+  findings_.expected(value, kModel, "the name of a shading model",
+                     hint.empty() ? "there are " + list(known, "and") : std::move(hint));
+}
+
 void Materials::field(Block& block, const Item& field) {
   if (!field.keyed()) return findings_.expected(field, "material", "a field, as in diffuse = (1, 1, 1)");
   const std::string_view key = field.key();
+  if (key == kModel) return;  // chosen before
   if (key == "name") {
     rayfile::read(findings_, key, field.value(), block.material.name);
     return;
   }
   if (key == kLibrary) return fromLibrary(block, field.value());
-  if (key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
-    block.gaveReflective = false, block.phong.mirrorsSpecular = true;
+  Phong* phong = std::get_if<Phong>(&block.material.model);
+  if (phong && key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
+    block.gaveReflective = false, phong->mirrorsSpecular = true;
     return;
   }
   if (!pattern(block, field)) {
-    if (!textures_.assign(block.phong, block.material.textures, field))
-      return findings_.unknownField(Phong::kKeyword, field, keywords<Phong>({"name", kLibrary}));
-    if (key == "index" && block.phong.index == 0)
-      findings_.warn(field, "index of material: expected a number above 0, found 0",
-                     "air has 1, water 1.33, glass 1.5");
+    const bool known = match(block.material.model, [&](auto& model) {
+      return textures_.assign(model, block.material.textures, field, Material::kKeyword);
+    });
+    if (!known) return unknownField(block, field);
+    match(block.material.model, [&](const auto& model) {
+      if constexpr (requires { model.index; })
+        if (key == "index" && model.index == 0)
+          findings_.warn(field, "index of material: expected a number above 0, found 0",
+                         "air has 1, water 1.33, glass 1.5");
+    });
     if (key == "shininess" && field.value().is(Kind::number)) block.shininess = field;
   }
-  if (key == "reflective") block.gaveReflective = true, block.phong.mirrorsSpecular = false;
-  if (key == "specular" && !block.gaveReflective) block.phong.mirrorsSpecular = true;
+  if (!phong) return;
+  if (key == "reflective") block.gaveReflective = true, phong->mirrorsSpecular = false;
+  if (key == "specular" && !block.gaveReflective) phong->mirrorsSpecular = true;
+}
+
+/// Files of the courses have fields that no program knows any more; who names a model means it.
+void Materials::unknownField(const Block& block, const Item& field) {
+  const std::string_view key = field.key();
+  match(block.material.model, [&]<class Model>(const Model&) {
+    if (!std::is_same_v<Model, Phong>)
+      return findings_.error(
+          field,
+          "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
+          "it has " + list(keywords<Model>({"name"}), "and"));
+    std::vector<std::string_view> having;
+    forEachType<MaterialModel>([&]<class Other>(Other*) {
+      forEachField<Other>([&](const auto& f) {
+        if (f.keyword == key) having.push_back(Other::kKeyword);
+      });
+    });
+    if (having.empty())
+      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", kModel, kLibrary}));
+    findings_.warn(field,
+                   "unknown field \"" + std::string(key) +
+                       "\" of material is ignored: it is one of model = " + list(having, "or"),
+                   "say which model, before the field");
+  });
 }
 
 /// Starts the block as a copy of a material of the library; its name stays.
@@ -139,7 +204,7 @@ void Materials::fromLibrary(Block& block, const Item& value) {
     return;
   }
   block.material.textures.clear();
-  block.phong = phongOf(*found);
+  block.material.model = found->model;
 }
 
 /// Is the field given by a pattern that Trace does not render? White shows where it goes.
@@ -147,11 +212,13 @@ bool Materials::pattern(Block& block, const Item& field) {
   const Item value = field.value();
   if (!value.is(Kind::call) || textures_.isTexture(value) || !isRelative(value.key())) return false;
   bool known = false;
-  forEachField<Phong>([&](const auto& f) {
-    if (f.keyword != field.key()) return;
-    known = true;
-    auto& constant = block.phong.*f.member;
-    if constexpr (requires { constant.r; }) constant = Color(1);
+  match(block.material.model, [&]<class Model>(Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      if (f.keyword != field.key()) return;
+      known = true;
+      auto& constant = model.*f.member;
+      if constexpr (requires { constant.r; }) constant = Color(1);
+    });
   });
   if (known) findings_.notRendered(value.key(), value, {});
   return known;
@@ -196,7 +263,7 @@ std::uint32_t Materials::index(const NotedMaterial& material) {
 std::uint32_t Materials::index(const Material& material) {
   markUsed(material.name);
   std::vector<Material>& all = findings_.scene().materials;
-  const std::size_t hash = hashOf(material, phongOf(material));
+  const std::size_t hash = hashOf(material);
   const auto [first, last] = byHash_.equal_range(hash);
   for (auto found = first; found != last; ++found)
     if (all[found->second] == material) return found->second;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -19,6 +20,8 @@ namespace trace::rayfile {
 /// `library = water` makes a block start from that material (shading/substances.h), in place of what it
 /// inherits.
 inline constexpr std::string_view kLibrary = "library";
+/// The field of a material that says its shading model.
+inline constexpr std::string_view kModel = "model";
 
 class Materials {
  public:
@@ -42,8 +45,11 @@ class Materials {
 
  private:
   struct Block;
+  static std::optional<Item> modelOf(const Item& block);
+  void chooseModel(Block& block, const Item& value);
   void field(Block& block, const Item& field);
   void fromLibrary(Block& block, const Item& value);
+  void unknownField(const Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);

@@ -22,7 +22,7 @@ namespace trace::rayfile {
 
 std::vector<std::string_view> knownWords() {
   std::vector<std::string_view> words{
-      "trimesh",          "mesh", Camera::kKeyword, Phong::kKeyword, Background::kKeyword, kSettings,
+      "trimesh",          "mesh", Camera::kKeyword, Material::kKeyword, Background::kKeyword, kSettings,
       Particles::kKeyword};
   for (const ShapeType& type : shapeTypes()) words.push_back(type.keyword);
   addLightWords(words);
@@ -57,7 +57,7 @@ void ObjectReader::group(const Item& block, const Affine& worldFromObject) {
   if (!nested) return;
   const NotedMaterial outside = materials_.current;
   for (const Item item : block) {
-    if (!item.keyed() || item.key() != Phong::kKeyword)
+    if (!item.keyed() || item.key() != Material::kKeyword)
       object(item, worldFromObject);
     else if (item.is(Kind::call))
       namedMaterial(item);
@@ -90,7 +90,7 @@ void ObjectReader::otherNode(const Item& call, const Affine& worldFromObject) {
   const std::string_view key = call.key();
   if (key == Particles::kKeyword) return particles(call, worldFromObject);
   const bool topLevelOnly = isLight(key) || key == Camera::kKeyword || key == Background::kKeyword ||
-                            key == kSettings || key == Phong::kKeyword;
+                            key == kSettings || key == Material::kKeyword;
   if (topLevelOnly)
     findings_.error(call, "expected an object, found " + describe(call),
                     std::string(key) + " belongs to the top of a file, outside of transforms and groups");
@@ -131,7 +131,7 @@ void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& bloc
     if (ofObjects && (isObject(item) || isListOfObjects(item))) continue;
     if (!isField(findings_, item, call.key())) continue;
     repeats.note(item);
-    if (item.key() == Phong::kKeyword) {
+    if (item.key() == Material::kKeyword) {
       material = materials_.read(item.value(), materials_.current);
     } else if (item.key() == "name") {
       rayfile::read(findings_, "name", item.value(), name);

@@ -23,7 +23,7 @@ const ShapeType* shapeType(const Item& item) {
   return item.is(Kind::call) ? findShapeType(canonical(item.key())) : nullptr;
 }
 
-bool saysMaterial(const Item& item) { return item.keyed() && item.key() == Phong::kKeyword; }
+bool saysMaterial(const Item& item) { return item.keyed() && item.key() == Material::kKeyword; }
 
 }  // namespace
 

@@ -14,11 +14,8 @@ namespace trace::rayfile {
 namespace {
 
 void tint(Material& material, const Color& color) {
-  Phong phong = phongOf(material);
-  phong.emissive = phong.emissive * color;
-  phong.ambient = phong.ambient * color;
-  phong.diffuse = phong.diffuse * color;
-  material.model = phong;
+  changeColors(material.model, {kEmissive, kAmbient, kDiffuse, kColor},
+               [&](const Color& own) { return own * color; });
 }
 
 }  // namespace
@@ -36,7 +33,7 @@ void ObjectReader::particles(const Item& call, const Affine& worldFromObject) {
       shown.push_back(item);
     } else if (!isField(findings_, item, call.key())) {
       continue;
-    } else if (item.key() == Phong::kKeyword) {
+    } else if (item.key() == Material::kKeyword) {
       material = materials_.read(item.value(), materials_.current);
     } else if (assignField(findings_, system, item)) {
       checkRange(findings_, system, item);

@@ -249,7 +249,8 @@ std::string moved(const std::string& text, const std::string& from, const std::s
     const Item item(syntax, static_cast<std::uint32_t>(i));
     if (!item.keyed()) continue;
     const std::string_view key = item.key();
-    if (item.is(Kind::entry) && (key == "file" || key == "objfile")) see(item.value());
+    const bool names = key == "file" || key == "objfile" || key == "backdrop" || key == "environment";
+    if (item.is(Kind::entry) && names) see(item.value());
     if (item.is(Kind::call) && key == "map" && item.value().count() > 0) see(*item.value().begin());
   }
   return edits.text();

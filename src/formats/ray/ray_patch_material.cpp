@@ -46,9 +46,17 @@ bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.tex
 
 }  // namespace
 
+MaterialEdits::MaterialEdits(TextEdits& edits, const Notes& notes,
+                             std::vector<std::optional<Material>> wanted)
+    : edits_(edits), notes_(notes), wanted_(std::move(wanted)) {
+  const auto isOther = [](const Material& m) { return !std::holds_alternative<Phong>(m.model); };
+  for (const Notes::Block& block : notes_.blocks) hasModels_ |= isOther(block.material);
+  for (const std::optional<Material>& material : wanted_) hasModels_ |= material && isOther(*material);
+}
+
 void MaterialEdits::want(const Item& call, std::uint32_t has, const Material& was, const Material& material) {
   const bool other = has >= wanted_.size() || !wanted_[has] || !(*wanted_[has] == material);
-  const std::optional<Item> own = fieldOf(call.value(), Phong::kKeyword);
+  const std::optional<Item> own = fieldOf(call.value(), Material::kKeyword);
   if (own) {
     if (other) instead_.insert_or_assign(own->value().offset(), material);
     return;
@@ -126,73 +134,89 @@ void MaterialEdits::use(const Notes::Use& use) {
   define(wanted);
 }
 
-/// What the block says if its text stays and what it inherits from is `from`.
+/// What the block says if its text stays and what it inherits from is `from`. If that is of another model,
+/// and the block names none, the block keeps what it said.
 Material MaterialEdits::followed(const Item& block, const Material& from, const Material& was) const {
+  if (from.model.index() != was.model.index() && !fieldOf(block, kModel)) return was;
   Material result = was;
-  Phong phong = phongOf(was);
-  Mirror mirror{phongOf(from).mirrorsSpecular};
-  for (const Item item : block)
-    if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
-  phong.mirrorsSpecular = mirror.specular;
+  result.model = converted(from.model, was.model);
   std::erase_if(result.textures, [&](const FieldTexture& t) { return !fieldOf(block, t.field); });
-  forEachField<Phong>([&](const auto& f) {
-    const std::optional<Item> given = fieldOf(block, f.keyword);
-    if (given && !namesSpecular(given->value())) return;
-    phong.*f.member = phongOf(from).*f.member;
-    if (const Texture* texture = textureOf(from.textures, f.keyword))
-      result.textures.push_back({std::string(f.keyword), *texture});
+  match(result.model, [&]<class Model>(Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      const std::optional<Item> given = fieldOf(block, f.keyword);
+      if (given && !namesSpecular(given->value()))
+        model.*f.member = std::get<Model>(was.model).*f.member;
+      else if (const Texture* texture = textureOf(from.textures, f.keyword))
+        setTexture(result.textures, f.keyword, *texture);
+    });
+    if constexpr (requires { model.mirrorsSpecular; }) {
+      Mirror mirror{model.mirrorsSpecular};
+      for (const Item item : block)
+        if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
+      model.mirrorsSpecular = mirror.specular;
+    }
   });
-  result.model = phong;
   return result;
 }
 
 void MaterialEdits::changeBlock(const Item& block, const Material& from, const Material& was,
                                 const Material& wanted) {
+  if (was.model.index() != wanted.model.index()) return edits_.replace(block, blockText(from, wanted, false));
   if (const std::optional<Item> name = fieldOf(block, "name"); name && was.name != wanted.name) {
     if (wanted.name.empty())
       edits_.erase(*name);
     else
       edits_.change(name->value(), written(wanted.name, 0));
   }
-  forEachField<Phong>([&](const auto& f) {
-    const std::optional<Item> given = fieldOf(block, f.keyword);
-    const auto value = phongOf(wanted).*f.member;
-    if (given && !(value == phongOf(was).*f.member))
-      edits_.change(given->value(), valueText(wanted, f.keyword, value));
+  match(wanted.model, [&]<class Model>(const Model& model) {
+    forEachField<Model>([&](const auto& f) {
+      const std::optional<Item> given = fieldOf(block, f.keyword);
+      const auto& value = model.*f.member;
+      if (given && !(value == std::get<Model>(was.model).*f.member))
+        edits_.change(given->value(), valueText(wanted, f.keyword, value));
+    });
   });
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
 }
 
 /// The fields that a block lacks which starts as a copy of `from` and is to say `wanted`.
 MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& from, const Material& wanted,
-                                             bool all) {
+                                             bool all) const {
   Fields fields;
-  Mirror mirror{phongOf(from).mirrorsSpecular};
   const auto given = [&](std::string_view key) { return block && fieldOf(*block, key); };
   if (!wanted.name.empty() && !given("name")) fields.push_back("name = " + written(wanted.name, 0));
-  if (block)
-    for (const Item item : *block)
-      if (item.keyed()) {
-        const bool changed = !(phongOf(from).reflective == phongOf(wanted).reflective);
-        mirror.meet(canonical(item.key()), namesSpecular(item.value()) && !changed);
-      }
-  const auto add = [&](std::string_view key, const std::string& value) {
-    fields.push_back(std::string(key) + " = " + value);
-    mirror.meet(key, value == "specular");
-  };
-  forEachField<Phong>([&](const auto& f) {
-    if (given(f.keyword)) return;
-    const auto value = phongOf(wanted).*f.member;
-    if (all || !(value == phongOf(from).*f.member) || !sameTexture(from, wanted, f.keyword))
-      add(f.keyword, valueText(wanted, f.keyword, value));
+  const bool otherModel = from.model.index() != wanted.model.index();
+  if (!given(kModel) && (otherModel || (all && hasModels_)))
+    fields.push_back(std::string(kModel) + " = " + std::string(keywordOf(wanted.model)));
+  const Material start = withModel(from, wanted.model);
+  match(wanted.model, [&]<class Model>(const Model& model) {
+    const Model& before = std::get<Model>(start.model);
+    Mirror mirror{false};
+    if constexpr (requires { model.mirrorsSpecular; }) {
+      mirror.specular = before.mirrorsSpecular;
+      const bool changed = !(before.reflective == model.reflective);
+      if (block)
+        for (const Item item : *block)
+          if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()) && !changed);
+    }
+    const auto add = [&](std::string_view key, const std::string& value) {
+      fields.push_back(std::string(key) + " = " + value);
+      mirror.meet(key, value == "specular");
+    };
+    forEachField<Model>([&](const auto& f) {
+      if (given(f.keyword)) return;
+      const auto& value = model.*f.member;
+      if (all || !(value == before.*f.member) || !sameTexture(start, wanted, f.keyword))
+        add(f.keyword, valueText(wanted, f.keyword, value));
+    });
+    if constexpr (requires { model.mirrorsSpecular; })
+      if (mirror.specular != model.mirrorsSpecular)
+        add("reflective", mirror.specular ? valueText(wanted, "reflective", model.reflective) : "specular");
   });
-  if (mirror.specular != phongOf(wanted).mirrorsSpecular)
-    add("reflective",
-        mirror.specular ? valueText(wanted, "reflective", phongOf(wanted).reflective) : "specular");
   return fields;
 }
 
-std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) {
+std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) const {
   std::string text = "{ ";
   for (const std::string& field : missing(nullptr, from, wanted, whole)) text += field + "; ";
   return text + "}";

@@ -16,8 +16,7 @@ namespace trace::rayfile {
 class MaterialEdits {
  public:
   /// `wanted`: what each of the scene's materials is to become.
-  MaterialEdits(TextEdits& edits, const Notes& notes, std::vector<std::optional<Material>> wanted)
-      : edits_(edits), notes_(notes), wanted_(std::move(wanted)) {}
+  MaterialEdits(TextEdits& edits, const Notes& notes, std::vector<std::optional<Material>> wanted);
 
   /// The object of this call, which has the material `was` of that index, is to have this one.
   void want(const Item& call, std::uint32_t has, const Material& was, const Material& material);
@@ -29,7 +28,7 @@ class MaterialEdits {
   /// The value of `material = ` for something at the end of the file. `whole`: nothing is inherited.
   std::string text(const Material& material, bool whole);
   /// The value of `material = `, whatever is around it.
-  static std::string fullText(const Material& material) { return blockText({}, material, true); }
+  std::string fullText(const Material& material) const { return blockText({}, material, true); }
 
  private:
   using Fields = std::vector<std::string>;
@@ -46,8 +45,8 @@ class MaterialEdits {
   void changeBlock(const Item& block, const Material& from, const Material& was, const Material& wanted);
   Material followed(const Item& block, const Material& from, const Material& was) const;
   const Material& now(const NotedMaterial& material) const;
-  static Fields missing(const Item* block, const Material& from, const Material& wanted, bool all);
-  static std::string blockText(const Material& from, const Material& wanted, bool whole);
+  Fields missing(const Item* block, const Material& from, const Material& wanted, bool all) const;
+  std::string blockText(const Material& from, const Material& wanted, bool whole) const;
 
   TextEdits& edits_;
   const Notes& notes_;
@@ -58,6 +57,7 @@ class MaterialEdits {
   std::vector<Material> now_;  ///< what the blocks say when all is changed
   std::map<std::string, Material> named_;
   std::set<std::size_t> seen_;
+  bool hasModels_ = false;  ///< some material is not Phong's, so that what stands around may not be
 };
 
 }  // namespace trace::rayfile

@@ -1,6 +1,7 @@
 #include "formats/ray/ray_patch_view.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "base/text.h"
@@ -85,9 +86,11 @@ void changeBackground(TextEdits& edits, const Background& from, const Background
   if (from == to) return;
   const std::vector<Item> blocks = blocksOf(edits.syntax(), Background::kKeyword);
   if (blocks.empty()) {
-    std::string text =
-        std::string(Background::kKeyword) + " { " + fieldText("colors", written(to.colors, 0)) + ";";
-    if (!to.limits.empty()) text += " " + fieldText("limits", written(to.limits, 0)) + ";";
+    std::string text = std::string(Background::kKeyword) + " {";
+    forEachField<Background>([&](const auto& f) {
+      if (to.*f.member != Background{}.*f.member)
+        text += " " + fieldText(f.keyword, written(to.*f.member, 0)) + ";";
+    });
     return edits.addOnTop(text + " }");
   }
   const Item& block = blocks.back();
@@ -145,8 +148,10 @@ class SettingsChange {
 
  private:
   void change(const Option& option) {
-    const std::string value = option.get(to_);
-    if (option.get(resolve({choices_})) == value) return;
+    if (sameValue(option, resolve({choices_}), to_)) return;
+    std::string value = option.get(to_);
+    if (option.kind == Option::Kind::file && value != "none")
+      value = std::filesystem::absolute(value).lexically_normal().string();
     choices_.push_back({std::string(option.name), value, {}});
     std::optional<Item> field;
     for (const Item& block : blocks_)

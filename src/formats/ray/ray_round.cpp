@@ -135,7 +135,7 @@ class Round {
     Object inside = is;
     if (outer != Affine{} && invertible(outer)) inside.worldFromObject = inverse(outer) * is.worldFromObject;
     std::string text = writtenObject(
-        to_, inside, [&](std::uint32_t i, bool) { return MaterialEdits::fullText(to_.materials.at(i)); });
+        to_, inside, [&](std::uint32_t i, bool) { return materials_.fullText(to_.materials.at(i)); });
     while (text.back() == '\n') text.pop_back();
     const Item whole = placed.whole();
     edits_.replace(whole, text);
@@ -237,7 +237,7 @@ class Round {
   std::string operandText(const Operand& operand) const {
     std::string text =
         writtenObject(to_, {operand.name, operand.shape, operand.wholeFromOperand, operand.material, {}},
-                      [&](std::uint32_t i, bool) { return MaterialEdits::fullText(to_.materials.at(i)); });
+                      [&](std::uint32_t i, bool) { return materials_.fullText(to_.materials.at(i)); });
     while (text.back() == '\n') text.pop_back();
     return text;
   }

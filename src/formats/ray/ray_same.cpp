@@ -61,7 +61,7 @@ bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y
 bool sameSettings(const Scene& a, const Scene& b) {
   const Settings x = resolve({a.choices}), y = resolve({b.choices});
   return std::all_of(options().begin(), options().end(), [&](const Option& option) {
-    return option.repeats == Repeats::nothing || option.get(x) == option.get(y);
+    return option.repeats == Repeats::nothing || sameValue(option, x, y);
   });
 }
 

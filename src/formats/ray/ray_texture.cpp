@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "formats/ray/ray_student_textures.h"
 
 namespace trace::rayfile {
 namespace {
@@ -47,11 +48,13 @@ Texture mappedPicture(std::string file, Place place) {
 bool TextureReader::isTexture(const Item& value) const {
   if (isFile(value)) return true;
   if (!value.is(Kind::call)) return false;
-  return value.key() == kMap || value.key() == kTexture || withModel(value.key(), [](const auto&) {});
+  return value.key() == kMap || value.key() == kTexture ||
+         withModel(textureKeyword(value.key()), [](const auto&) {});
 }
 
 std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
   const auto picture = [&](const Item& word) {
+    findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(word.text())));
     return mappedPicture(std::string(word.text()), findings_.syntax().shortPlace(value.offset()));
   };
   if (isFile(value)) return Scaled{picture(value), {}, true};
@@ -87,7 +90,8 @@ std::optional<Texture> TextureReader::named(const Item& word) {
 
 std::optional<Texture> TextureReader::block(const Item& call) {
   TextureNode node;
-  const bool known = call.is(Kind::call) && withModel(call.key(), [&](auto model) { node.model = model; });
+  const bool known = call.is(Kind::call) && withModel(textureKeyword(call.key()),
+                                                      [&](auto model) { node.model = std::move(model); });
   if (!known) {
     findings_.expected(call, kTexture, "a texture, as in checker { }",
                        call.is(Kind::call) ? didYouMean(call.key(), textureKinds()) : std::string());
@@ -95,10 +99,18 @@ std::optional<Texture> TextureReader::block(const Item& call) {
   }
   const std::optional<Item> fields = blockOf(findings_, call);
   if (!fields) return {};
+  if (!std::holds_alternative<Marble>(node.model) || !readStudentMarble(findings_, *fields, node))
+    readFields(*fields, node);
+  Texture texture(std::move(node));
+  if (!texture->name.empty()) named_.insert_or_assign(texture->name, texture);
+  return texture;
+}
+
+void TextureReader::readFields(const Item& block, TextureNode& node) {
   match(node.model, [&](auto& model) {
     using Model = std::remove_cvref_t<decltype(model)>;
     RepeatedFields repeats(findings_, Model::kKeyword);
-    for (const Item field : *fields) {
+    for (const Item field : block) {
       if (!isField(findings_, field, Model::kKeyword)) continue;
       repeats.note(field);
       if (field.key() == kName)
@@ -108,9 +120,6 @@ std::optional<Texture> TextureReader::block(const Item& call) {
                                keywords<Model>({"name", "scale", "rotate", "translate"}));
     }
   });
-  Texture texture(std::move(node));
-  if (!texture->name.empty()) named_.insert_or_assign(texture->name, texture);
-  return texture;
 }
 
 void TextureReader::define(const Item& value) {

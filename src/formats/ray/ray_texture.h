@@ -33,9 +33,13 @@ class TextureReader {
   /// Reads `field` into the member of that keyword, or the texture that stands there into `textures`. False
   /// if Struct has no such field.
   template <class Struct>
-  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field);
+  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field,
+              std::string_view owner = Struct::kKeyword);
 
   bool isTexture(const Item& value) const;
+
+  /// All that have names so far.
+  const std::map<std::string, Texture, std::less<>>& named() const { return named_; }
 
  private:
   struct Scaled {
@@ -46,6 +50,7 @@ class TextureReader {
   /// Nothing, after a report, if it cannot be had.
   std::optional<Scaled> read(const Item& value);
   std::optional<Texture> block(const Item& call);
+  void readFields(const Item& block, TextureNode& node);
   std::optional<Texture> named(const Item& word);
 
   Findings& findings_;
@@ -53,12 +58,13 @@ class TextureReader {
 };
 
 template <class Struct>
-bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field) {
+bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field,
+                           std::string_view owner) {
   const std::string_view key = canonical(field.key());
   if (!isTexture(field.value())) {
     if (!assignField(findings_, target, field)) return false;
     std::erase_if(textures, [&](const FieldTexture& t) { return t.field == key; });
-    checkRange(findings_, target, field);
+    checkRange(findings_, target, field, owner);
     return true;
   }
   bool known = false;
@@ -70,8 +76,7 @@ bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, 
     if constexpr (std::is_same_v<Value, Color> || std::is_same_v<Value, Real>) {
       const std::optional<Scaled> scaled = read(field.value());
       if (!scaled) return;
-      std::erase_if(textures, [&](const FieldTexture& t) { return t.field == key; });
-      textures.push_back({std::string(key), scaled->texture});
+      setTexture(textures, key, scaled->texture);
       value = Value(1);
       if (scaled->isMap && key == "shininess") value = Value(128);  // as the courses' programs have it
       if (scaled->by) rayfile::read(findings_, key, *scaled->by, value);

@@ -7,14 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <type_traits>
 #include <utility>
 
+#include "base/file.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
 #include "geometry/field_value.h"
@@ -25,9 +28,13 @@ namespace trace {
 namespace rayfile {
 namespace {
 
+namespace fs = std::filesystem;
+
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
+    for (const Material& material : scene.materials)
+      hasModels_ |= !std::holds_alternative<Phong>(material.model);
     for (const Object& object : scene.objects) count(object.shape, object.material);
     nameMaterials();
   }
@@ -114,7 +121,11 @@ class Writer {
       out_ += "material = { };  // what shapes start from\n\n";
     if (scene_.choices.empty()) return;
     out_ += "settings {\n";
-    for (const Choice& choice : scene_.choices) field(choice.option, choice.value);
+    for (const Choice& choice : scene_.choices) {
+      const bool file = findOption(choice.option).kind == Option::Kind::file && choice.value != "none";
+      const fs::path path = file ? besideFile(choice.place.file, choice.value) : "";
+      field(choice.option, file ? fs::absolute(path).lexically_normal().string() : choice.value);
+    }
     out_ += "}\n\n";
   }
 
@@ -125,9 +136,12 @@ class Writer {
   }
 
   void writeBackground() {
-    if (scene_.background == Background{}) return;
+    const Background usual, &is = scene_.background;
+    if (is == usual) return;
     out_ += "background {\n";
-    fields(scene_.background);
+    forEachField<Background>([&](const auto& f) {
+      if (is.*f.member != usual.*f.member) field(f.keyword, is.*f.member);
+    });
     out_ += "}\n\n";
   }
 
@@ -173,6 +187,8 @@ class Writer {
     }
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
+    if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
+      item(kModel, std::string(keywordOf(material.model)));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
     out_ += "}";
   }
@@ -300,13 +316,14 @@ class Writer {
   int digits_;
   MaterialText materialText_;  ///< says materials in another way, if there is one
   bool inWhole_ = false;       ///< what is written is an operand
+  bool hasModels_ = false;     ///< some material is not Phong's: an operand may inherit its model
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
   WrittenTextures writtenTextures_;
-  std::map<std::string, std::uint32_t> named_;     ///< which material a name stands for so far
+  std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 
 }  // namespace

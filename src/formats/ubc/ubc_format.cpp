@@ -255,7 +255,7 @@ class Reader {
   void texture(const Parameter& p, Material& material) {
     if (!p.text) tokens_.fail(p.key, "texture: expected the name of a picture in quotes");
     if (p.text->empty()) return;
-    material.textures.push_back({"diffuse", pictureTexture(std::string(*p.text), tokens_.place(p.key))});
+    setTexture(material.textures, "diffuse", pictureTexture(std::string(*p.text), tokens_.place(p.key)));
   }
 
   void ignored(const Parameter& p, std::string_view owner) {
@@ -395,7 +395,7 @@ class Reader {
         const Color a = color(p);
         lamp.attenuation = {a.r, a.g, a.b};
       } else if (key == "radius") {
-        if (single(p) > 0) areaLight(p);
+        lamp.radius = single(p);
       } else {
         ignored(p, "light");
       }
@@ -407,11 +407,6 @@ class Reader {
       if (c.r < 0 || c.g < 0 || c.b < 0)
         warnings_.warn(tokens_.place(token), "PointLight: expected colours of at least 0, found one below");
     addLamp(scene_, lamp, tokens_.place(token));
-  }
-
-  void areaLight(const Parameter& p) {
-    scene_.unrendered.push_back({"radius", tokens_.place(p.key), "\"radius\" " + toText(p.numbers[0])});
-    messages_.warn(tokens_.place(p.key), "the radius of a light is not rendered yet: its shadows stay sharp");
   }
 
   Tokens tokens_;

@@ -27,6 +27,7 @@ void addLamp(Scene& scene, const Lamp& lamp, const Place& place) {
   light.constant = lamp.attenuation.x, light.linear = lamp.attenuation.y;
   light.quadratic = lamp.attenuation.z;
   if (lamp.attenuation == Vec3{}) light.constant = 1;
+  light.radius = lamp.radius;
   light.extraHighlight = lamp.specular + lamp.diffuse * -1;
   scene.lights.push_back({light, place});
 }

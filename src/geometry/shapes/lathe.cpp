@@ -45,7 +45,7 @@ void TracedLathe::add(const Cubic<2>& curve, std::array<Real, 2> from, std::arra
     const Real u0 = nodes.at[i], u1 = nodes.at[i + 1];
     std::array<Real, 2> next = to;
     if (i + 2 < nodes.count) next = {curve.at(0, u1), curve.at(1, u1)};
-    Arc arc{curve, u0, u1, std::abs(from[0]), from[1], std::abs(next[0]), next[1], 0, 0};
+    Arc arc{curve, u0, u1, std::abs(from[0]), from[1], std::abs(next[0]), next[1], 0, 0, curves_};
     if (arc.z0 > arc.z1) {
       std::swap(arc.u0, arc.u1);
       std::swap(arc.r0, arc.r1);
@@ -61,6 +61,7 @@ void TracedLathe::add(const Cubic<2>& curve, std::array<Real, 2> from, std::arra
     error_ = maxComponent(max(abs(bounds_.low), abs(bounds_.high))) * gammaError(100);
     from = next;
   }
+  ++curves_;
 }
 
 Real TracedLathe::Arc::at(Real z, Real guess) const {
@@ -220,8 +221,8 @@ SurfacePoint TracedLathe::surface(const Ray& ray, const Crossing& crossing) cons
   Vec3 n = normalize(around * rise - Vec3{0, 0, grow}) * outward_;
   if (!isFinite(n)) n = around;
   if (!solid_ && dot(n, ray.direction) > 0) n = -n;
-  const Real part = high > low && !arc.flat() ? u : 0.5;
-  const Real path = (static_cast<Real>(crossing.part) + part) / static_cast<Real>(arcs_.size());
+  const Real along = arc.flat() ? arc.u0 + (arc.u1 - arc.u0) * u : u;
+  const Real path = (arc.number + along) / curves_;
   return {p, {error_, error_, error_}, n, n, SurfaceUv::around(p, std::clamp(path, 0.0, 1.0))};
 }
 

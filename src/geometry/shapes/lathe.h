@@ -54,6 +54,7 @@ class TracedLathe {
     Real u0, u1;  ///< from where it is lowest to where it is highest
     Real r0, z0, r1, z1;
     Real least, most;  ///< distance from the axis, at least and at most
+    int number;        ///< of the curve, along the profile with its caps
     bool flat() const { return z0 == z1; }
     /// Precondition: not flat. Where the arc is at that height.
     Real at(Real z) const { return at(z, 0.5 * (u0 + u1)); }
@@ -65,6 +66,7 @@ class TracedLathe {
                VisitCrossing visit) const;
 
   std::vector<Arc> arcs_;
+  int curves_ = 0;
   Box3 bounds_;
   bool solid_ = true;
   Real outward_ = 1;  ///< the sign of the profile's turning, which says on which side is outside

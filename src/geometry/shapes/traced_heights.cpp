@@ -338,7 +338,12 @@ SurfacePoint TracedHeights::surface(const Ray& ray, const Crossing& crossing) co
     if (capped_) p.z = max(p.z, box_.low.z);
   }
   if (!capped_ && dot(n, ray.direction) > 0) n = -n;
-  return {p, error, n, n, {0.5 + 0.5 * p.x, 0.5 + 0.5 * p.y}};
+  // On the sides v goes up.
+  const bool onSide = crossing.part < kSurface && crossing.part / 2 < 2;
+  const Real across = crossing.part / 2 == 0 && onSide ? p.y : p.x;
+  const Real height = box_.high.z - box_.low.z;
+  const Real v = onSide && height > 0 ? (p.z - box_.low.z) / height : 0.5 + 0.5 * p.y;
+  return {p, error, n, n, {0.5 + 0.5 * across, v}};
 }
 
 }  // namespace trace

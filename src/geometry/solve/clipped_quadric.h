@@ -13,6 +13,7 @@ namespace trace {
 
 struct ClippedQuadric {
   static constexpr int kSide = 6;  ///< part; below: 2 axis + (0 low, 1 high) of the box
+  static constexpr int kBottom = 4, kTop = 5;
 
   Vec3 squares;   ///< A, B, C
   Vec3 products;  ///< D, E, F: half the coefficients of x y, x z, y z
@@ -108,7 +109,7 @@ struct ClippedQuadric {
       error = {size, size, size};
     }
     if (!capped && dot(n, ray.direction) > 0) n = -n;
-    return {p, error, n, n, uv(p)};
+    return {p, error, n, n, uv(p, crossing.part)};
   }
 
  private:
@@ -120,9 +121,14 @@ struct ClippedQuadric {
             products.y * p.x + products.z * p.y + squares.z * p.z};
   }
 
-  /// u goes around z, v up.
-  SurfaceUv uv(const Vec3& p) const {
+  /// u goes around z, v up; on the ends back from the rim to the middle.
+  SurfaceUv uv(const Vec3& p, std::int64_t part) const {
     const Real height = extent.high.z - extent.low.z;
+    if (part == kBottom || part == kTop) {
+      const Real middle = value({0, 0, p.z});
+      const Real outward = middle < 0 ? std::sqrt(std::clamp(1 - value(p) / middle, 0.0, 1.0)) : 0;
+      return SurfaceUv::around(p, part == kBottom ? 1 - outward : outward);
+    }
     return SurfaceUv::around(p, height > 0 ? std::clamp((p.z - extent.low.z) / height, 0.0, 1.0) : 0);
   }
 

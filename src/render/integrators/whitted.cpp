@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/footprint.h"
 #include "render/gather.h"
 #include "shading/dispersion.h"
 #include "shading/fresnel.h"
@@ -17,11 +18,16 @@ struct Path {
   int depth = 0;
   Color weight{1};  ///< the largest share of the pixel that this ray can still make
   Interfaces inside{};
-  Real spread = 0.5;  ///< where the wavelengths of a fan lie: spectralFan()
+  Real spread = 0.5;                             ///< where the wavelengths of a fan lie: spectralFan()
+  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
 };
 
+/// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
+/// rays have the numbers from kRefracted on.
+constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
+
 /// Takes `path` to where the ray gets.
-Color follow(Tracer& tracer, const Ray& ray, Path& path);
+Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler);
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
@@ -49,15 +55,20 @@ Real mirroredShare(Fresnel fresnel, Real cosine, const Indices& indices) {
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`.
-Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path) {
+Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                    const Sampler& sampler) {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
-    if (path.kind == RayKind::camera) sum.add(Term::Kind::background, world.background(ray));
+    if (world.outside().isSeenBy(path.kind))
+      sum.add(Term::Kind::background, world.outside().view(ray.direction, path.kind).color);
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  const PlaceBsdf bsdf = world.shade(*hit);
+  Footprint footprint;  // null where none is wanted
+  if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
+  const PlaceBsdf bsdf = world.shade(*hit, footprint.get());
+  sum.note(*bsdf);
   const WhittedTerms& material = whitted(*bsdf);
   const SurfacePoint& surface = hit->surface;
   // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
@@ -65,10 +76,15 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const bool turned =
       hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
   const Vec3 normal = turned ? -surface.shading : surface.shading;
+  const Frame frame = world.frame(*hit, *bsdf, normal);
   const Real cosine = -dot(ray.direction, normal);
 
-  const Filling body = tracer.filling(*hit, material);
-  const Sides sides = path.inside.at(hit->leaving, body, hit->solid);
+  Filling body;
+  Sides sides;
+  if (material.transmits() || settings.varnish || tracer.records()) {
+    body = tracer.filling(*hit, material);
+    sides = path.inside.at(hit->leaving, body, hit->solid);
+  }
   const Indices indices(sides, path.inside.wavelength, path.inside.nested());
   const bool coated = settings.varnish && !material.transmits() && material.index != 1 && cosine > 0;
   const Real coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
@@ -76,16 +92,25 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   sum.add(Term::Kind::emissive, material.emissive);
   sum.add(Term::Kind::ambient, material.ambient * (1 - coat), world.ambient());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto arriving = world.illuminate(i, surface.point);
-    if (!arriving) continue;
-    Scatter parts = scatter(*bsdf, normal, arriving->toLight, -ray.direction);
-    parts.diffuse *= Color(1 - coat);
-    const Color scattered = arriving->scattered(parts);
-    const Color passed = isBlack(scattered)
-                             ? Color(0)
-                             : tracer.visible(*hit, arriving->toLight, arriving->distance, path.inside);
-    sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
-    if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
+    const auto light = [&](const Vec2& place, Real share) {
+      const auto arriving = world.illuminate(i, surface.point, place);
+      if (!arriving) return;
+      Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
+      parts.diffuse *= Color(1 - coat);
+      const Color scattered = arriving->scattered(parts) * share;
+      const Color passed = isBlack(scattered)
+                               ? Color(0)
+                               : tracer.visible(*hit, arriving->toLight, arriving->distance, path.inside);
+      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
+      if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
+    };
+    if (!world.lightHasSize(i)) {
+      light(kCenter, 1);
+      continue;
+    }
+    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
+    const int rays = settings.lightSamples;
+    for (int n = 0; n < rays; ++n) light(numbers.next2(), 1.0 / rays);
   }
 
   const auto worthwhile = [&](const Path& next) {
@@ -101,38 +126,47 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return Path{kind, path.depth + 1, path.weight * share, path.inside, path.spread};
   };
   sum.note(indices);
-  const bool fresnel = settings.fresnel != Fresnel::constant && material.transmits();
   const SpectralShare whole{path.inside.wavelength, Color(1)};
   std::vector<SpectralShare> fan;
   if (material.transmits() && splits(sides, path, settings))
     fan = spectralFan(settings.wavelengths, path.spread);
   const std::span<const SpectralShare> shares =
       fan.empty() ? std::span(&whole, material.transmits() ? 1 : 0) : std::span(std::as_const(fan));
+  // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
   const auto shareMirrored = [&](const SpectralShare& share) {
     return mirroredShare(settings.fresnel, cosine, Indices(sides, share.nanometres, false));
   };
-  Color mirror = Color(coat) + material.reflective * (1 - coat);
-  if (fresnel) {
-    mirror = Color(0);
+  Color mirror;
+  if (settings.fresnel != Fresnel::constant && material.transmits())
     for (const SpectralShare& share : shares) mirror += share.weight * shareMirrored(share);
-  }
+  else
+    mirror = Color(coat) + mirrorWeight(*bsdf, cosine) * (1 - coat);
   if (!isBlack(mirror)) {
     Path next = onward(RayKind::reflection, mirror);
-    if (worthwhile(next))
+    if (worthwhile(next)) {
+      const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
+      next.differentials = widened.get();
       sum.add(Term::Kind::reflection, mirror,
-              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next));
+              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, sampler.branch(kMirrored)));
+    }
   }
+  std::uint32_t branch = kRefracted;
   bool total = false;
   for (const SpectralShare& share : shares) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
     const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - shareMirrored(share));
     Path next = onward(RayKind::refraction, share.weight * filter);
+    const std::uint32_t number = branch++;
     if (!worthwhile(next)) continue;
     const Real ratio = sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
     if (const auto direction = refracted(ray.direction, normal, ratio)) {
       next.inside.pass(hit->leaving, body, hit->solid);
       next.inside.wavelength = share.nanometres;
-      sum.add(Term::Kind::refraction, share.weight * filter, follow(tracer, hit->leave(*direction), next));
+      const Footprint widened =
+          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
+      next.differentials = widened.get();
+      sum.add(Term::Kind::refraction, share.weight * filter,
+              follow(tracer, hit->leave(*direction), next, sampler.branch(number)));
     } else if (!std::exchange(total, true)) {
       sum.stop(TotalInternalReflection{});
     }
@@ -141,9 +175,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, hit->t));  // Beer's law
 }
 
-Color follow(Tracer& tracer, const Ray& ray, Path& path) {
+Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler) {
   const std::optional<Hit> hit = tracer.cast(ray, path.kind, path.inside);
-  return radianceAlong(tracer, ray, hit, path);
+  return radianceAlong(tracer, ray, hit, path, sampler);
 }
 
 }  // namespace
@@ -152,7 +186,8 @@ Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera
   Path path;
   path.inside = camera.inside;
   path.spread = spreadOf(sampler.sample());
-  return radianceAlong(tracer, camera.ray, camera.hit, path);
+  path.differentials = camera.differentials;
+  return radianceAlong(tracer, camera.ray, camera.hit, path, sampler);
 }
 
 }  // namespace trace

@@ -2,7 +2,7 @@
 
 namespace trace {
 
-CameraFrame frame(const Camera& camera, CameraAxes axes) {
+CameraFrame frame(const Camera& camera, CameraAxes axes, const Lens& lens) {
   Vec3 back = -camera.viewdir, up = camera.updir;
   if (axes == CameraAxes::normalized || axes == CameraAxes::skewed)
     back = normalize(back), up = normalize(up);
@@ -14,7 +14,7 @@ CameraFrame frame(const Camera& camera, CameraAxes axes) {
   }
   const Real height = 2 * std::tan(camera.fov * kPi / 360);
   return {camera.position, -back,       right * (height * camera.aspectratio),
-          up * height,     camera.near, camera.far};
+          up * height,     camera.near, camera.far, lens};
 }
 
 }  // namespace trace

@@ -1,48 +1,24 @@
 // The material of the courses: emission, ambient light, Lambert's diffuse term, a highlight by Phong
-// (CACM 18(6), 1975) or Blinn (SIGGRAPH 1977), and the weights of mirror and refracted rays.
+// (CACM 18(6), 1975) or Blinn (SIGGRAPH 1977), and the weights of mirror and refracted rays. Variant: the
+// highlight is not multiplied by the cosine to the light, as the courses have it.
+// Not reciprocal, for the lack of that cosine. Energy: as `diffuse` and `specular` say; more than arrives is
+// possible.
 #pragma once
 
 #include <algorithm>
 #include <string_view>
 
-#include "base/field.h"
-#include "math/color.h"
-#include "math/vec.h"
-#include "shading/interior.h"
-#include "shading/rules.h"
+#include "shading/scattering.h"
 
 namespace trace {
-
-/// What a surface scatters of a light, in parts.
-struct Scatter {
-  Color diffuse, specular;
-  Color sum() const { return diffuse + specular; }
-};
-
-/// What Whitted's equation asks of a surface besides what it scatters.
-struct WhittedTerms {
-  Color emissive, ambient;
-  Color reflective, transmissive;  ///< weights of the mirrored and of the refracted ray
-  Real index = 1;                  ///< of refraction
-  Real shadow = 1;                 ///< share of a light that a shadow takes away
-  Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
-  Color attenuation{1};            ///< what passes of a unit of length inside
-  Dispersion dispersion;           ///< of the index
-
-  void fill(const Interior& interior, Real index) {
-    priority = interior.priority;
-    attenuation = interior.passesPerUnit();
-    dispersion = {interior.dispersion, interior.abbe, index};
-  }
-  bool transmits() const { return !isBlack(transmissive); }
-  bool mirrors() const { return !isBlack(reflective); }
-};
 
 struct PhongBsdf;
 
 struct Phong : Interior {
-  static constexpr std::string_view kKeyword = "material";
+  static constexpr std::string_view kKeyword = "phong";
   static constexpr std::string_view kHelp = "Phong or Blinn-Phong surface with mirror and glass terms";
+  static constexpr bool kReciprocal = false, kKeepsEnergy = false;
+  using Bsdf = PhongBsdf;
 
   Color emissive, ambient, diffuse, specular, reflective, transmissive;
   Real shininess = 0;  ///< exponent of the highlight
@@ -98,6 +74,8 @@ struct PhongBsdf : WhittedTerms {
   }
 
   bool scatters() const { return !isBlack(diffuse) || !isBlack(specular); }
+  bool mirrorIsExact() const { return true; }
+  Color mirrorWeight(Real) const { return reflective; }
 
   /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
   /// The highlight is not multiplied by N.L.
@@ -117,6 +95,56 @@ struct PhongBsdf : WhittedTerms {
     if (cosHighlight > 0 || shininess == 0)
       scatter.specular = specular * std::pow(std::max(0.0, cosHighlight), shininess);
     return scatter;
+  }
+
+  /// The same where light transport asks: only light on the eye's side of the surface, or either side where
+  /// it is lit from behind.
+  Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport) const {
+    if (!(dot(frame.normal, toEye) > 0) || !(litFromBehind || dot(frame.normal, toLight) > 0))
+      return Color(0);
+    return scatter(frame.normal, toLight, toEye).sum() / kPi;
+  }
+  std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
+                                   Transport transport) const {
+    if (!scatters() || !(dot(frame.normal, toEye) > 0)) return {};
+    const Basis basis = frame.basis();
+    const Vec3 eye = basis.toLocal(toEye);
+    const Real highlightShare = shareOfHighlight();
+    Vec3 light;
+    if (choose >= highlightShare) {
+      light = cosineDirection(u);
+      if (litFromBehind && choose >= (1 + highlightShare) / 2) light.z = -light.z;
+    } else if (highlight == Highlight::blinn) {
+      light = mirroredAt(powerDirection(shininess, u), eye);
+    } else {
+      const Frame mirrored{{-eye.x, -eye.y, eye.z}};
+      light = mirrored.basis().toWorld(powerDirection(shininess, u));
+    }
+    const Vec3 toLight = basis.toWorld(light);
+    const Real density = this->density(frame, toEye, toLight);
+    if (!(density > 0)) return {};
+    return BsdfSample{toLight, evaluate(frame, toEye, toLight, transport) / density, density};
+  }
+  Real density(const Frame& frame, const Vec3& toEye, const Vec3& toLight) const {
+    const Real cosLight = dot(frame.normal, toLight);
+    if (!scatters() || !(dot(frame.normal, toEye) > 0)) return 0;
+    const Real even = litFromBehind ? std::abs(cosLight) / (2 * kPi) : max(0, cosLight) / kPi;
+    Real lobe = 0;
+    if (highlight == Highlight::blinn) {
+      const Vec3 half = halfway(toEye, toLight);
+      const Real facing = dot(half, toEye);
+      lobe = facing > 0 ? powerDensity(shininess, std::abs(dot(half, frame.normal))) / (4 * facing) : 0;
+    } else {
+      lobe = powerDensity(shininess, dot(mirroredAt(frame.normal, toEye), toLight));
+    }
+    return even + (lobe - even) * shareOfHighlight();
+  }
+
+ private:
+  /// How often `sample` chooses the highlight.
+  Real shareOfHighlight() const {
+    const Real even = maxComponent(diffuse), lobe = maxComponent(specular);
+    return lobe > 0 ? lobe / (lobe + even) : 0;
   }
 };
 
@@ -144,6 +172,15 @@ inline PhongBsdf mix(const PhongBsdf& a, const PhongBsdf& b, const PhongBsdf& c,
     m.*f.member = (a.*f.member) * w[0] + (b.*f.member) * w[1] + (c.*f.member) * w[2];
   });
   return m;
+}
+
+/// The nearest to another model.
+inline Phong phongLike(const SurfaceFields& surface, const Color& diffuse, const Color& specular = {},
+                       Real shininess = 0) {
+  Phong phong;
+  phong.emissive = surface.emissive, phong.ambient = surface.ambient, phong.shadow = surface.shadow;
+  phong.diffuse = diffuse, phong.specular = specular, phong.shininess = shininess;
+  return phong;
 }
 
 }  // namespace trace

@@ -1,19 +1,9 @@
 // Two colours in turn, in cubes or, by texture coordinates, in squares.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <string_view>
-
-#include "base/field.h"
-#include "math/color.h"
-#include "shading/texture_place.h"
+#include "shading/textures/pattern.h"
 
 namespace trace {
-
-/// What a pattern lies in.
-enum class TextureSpace { point, uv };
-constexpr std::array<std::string_view, 2> names(TextureSpace) { return {"point", "uv"}; }
 
 struct Checker {
   static constexpr std::string_view kKeyword = "checker";
@@ -23,17 +13,22 @@ struct Checker {
   TextureSpace space = TextureSpace::point;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"a", &Checker::a, "", 0, kNoLimit, "the colour at (0.5, 0.5, 0.5)"},
-                      Field{"b", &Checker::b, "", 0, kNoLimit, "the other"},
-                      Field{"space", &Checker::space, "", -kNoLimit, kNoLimit, "cubes, or squares of u and v"}};
+    return std::tuple{
+        Field{"a", &Checker::a, "", 0, kNoLimit, "the colour at (0.5, 0.5, 0.5)"},
+        Field{"b", &Checker::b, "", 0, kNoLimit, "the other"},
+        Field{"space", &Checker::space, "", -kNoLimit, kNoLimit, "cubes, or squares of u and v"}};
   }
   bool operator==(const Checker&) const = default;
 
-  Color at(const TexturePlace& place) const {
-    const Vec3 p = space == TextureSpace::uv ? Vec3{place.uv.x, place.uv.y, 0} : place.point;
-    const Real sum = std::floor(p.x) + std::floor(p.y) + std::floor(p.z);
-    return sum / 2 == std::floor(sum / 2) ? a : b;
+  Real pattern(const TexturePlace& place) const {
+    const PatternPlace p(place, space);
+    // The product of three waves of 1 and -1, each filtered along its axis.
+    Real even = 1;
+    for (int axis = 0; axis < 3; ++axis) even *= 2 * evenShare(p.at[axis], p.width[axis]) - 1;
+    return (1 - even) / 2;
   }
+  Color shade(Real t) const { return lerp(t, a, b); }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
 };
 
 }  // namespace trace

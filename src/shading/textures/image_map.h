@@ -48,13 +48,16 @@ struct ImageMap {
         Field{"centers_at_ends", &ImageMap::centersAtEnds, "", -kNoLimit, kNoLimit,
               "the outermost texels have their centres at 0 and 1, not their edges"},
         Field{"srgb", &ImageMap::srgb, "", -kNoLimit, kNoLimit,
-              "its numbers are sRGB and are made linear; otherwise they are taken as they are"},
+              "its numbers are sRGB and are made linear, before they are mixed; otherwise they are taken as "
+              "they are"},
         Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
-        Field{"transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
-              "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
+        Field{
+            "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
+            "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
   }
   bool operator==(const ImageMap&) const = default;
 
+  bool wantsFootprint() const { return filter == TexelFilter::trilinear || filter == TexelFilter::ewa; }
   /// Black where nothing is loaded.
   Texel texelAt(const TexturePlace& place) const;
   Color at(const TexturePlace& place) const;

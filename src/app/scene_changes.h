@@ -1,0 +1,26 @@
+// What an edit of a scene means for a list of its things that a window shows: which one came, or went.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace trace {
+
+/// The index in `more` of the one thing that `fewer` has not; nothing if the lists differ otherwise.
+template <class Thing>
+std::optional<std::size_t> oneMore(const std::vector<Thing>& fewer, const std::vector<Thing>& more) {
+  if (more.size() != fewer.size() + 1) return {};
+  const auto at = std::mismatch(fewer.begin(), fewer.end(), more.begin()).second;
+  if (!std::equal(at + 1, more.end(), fewer.begin() + (at - more.begin()))) return {};
+  return static_cast<std::size_t>(at - more.begin());
+}
+
+/// How many objects are of the material, or have a part that is: an object of a solid, a side of a surface.
+std::size_t usersOf(const Scene& scene, std::uint32_t material);
+
+}  // namespace trace

@@ -1,0 +1,169 @@
+// ray texture: a texture as a picture, to be looked at or used as a texture file; without -o, its fields;
+// alone, the list of all.
+//
+// The picture shows u and v, and x and y at z = 0, from (0, 0) at the bottom left.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/budget.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "formats/ray/ray_fields.h"
+#include "formats/ray/ray_format.h"
+#include "image/codec.h"
+#include "shading/texture.h"
+
+namespace trace::cli {
+namespace {
+
+/// Calls visit(Model{}) for each kind.
+template <class Visit>
+void forEachKind(Visit&& visit) {
+  forEachType<TextureModel>([&](auto* type) { visit(std::remove_pointer_t<decltype(type)>{}); });
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size() + 2, width), ' ');
+  return text;
+}
+
+std::string kindsText() {
+  std::string text =
+      "textures: ray texture NAME lists the fields of one, with -o OUT it is written as a picture\n";
+  forEachKind([&](const auto& model) {
+    text += padded("  " + std::string(model.kKeyword), 14) + std::string(model.kHelp) + "\n";
+  });
+  return text;
+}
+
+/// Calls visit(keyword, default, help) for the fields of a texture and of its placement.
+template <class Model, class Visit>
+void forEachRow(const Model& model, Visit&& visit) {
+  const auto rows = [&](const auto& from) {
+    forEachField<std::remove_cvref_t<decltype(from)>>([&](const auto& f) {
+      const std::string value = rayfile::written(from.*f.member, 6);
+      visit(std::string(f.keyword), value.empty() ? "\"\"" : value, std::string(f.help));
+    });
+  };
+  rows(model);
+  rows(TexturePlacement{});
+}
+
+std::string fieldsText(const Texture& texture) {
+  return match(texture->model, [](const auto& model) {
+    std::string text = std::string(model.kKeyword) + ": " + std::string(model.kHelp) + "\n";
+    forEachRow(std::remove_cvref_t<decltype(model)>{},
+               [&](const auto& keyword, const auto& value, const auto& help) {
+                 text += padded("  " + keyword, 16) + padded(value, 24) + help + "\n";
+               });
+    return text;
+  });
+}
+
+/// The file docs/texture-fields.md.
+std::string fieldsMarkdown() {
+  std::string text =
+      "# Fields of textures\n\nMade by `ray texture --markdown`. [textures.md](textures.md) tells how "
+      "textures are used. "
+      "All have `name`, `scale`, `rotate` and\n`translate` too. Where a colour or a number stands, another "
+      "texture may.\n";
+  forEachKind([&](const auto& model) {
+    text += "\n## " + std::string(model.kKeyword) + "\n\n" + std::string(model.kHelp) +
+            ".\n\n| field | default | what |\n|---|---|---|\n";
+    forEachField<std::remove_cvref_t<decltype(model)>>([&](const auto& f) {
+      text += "| `" + std::string(f.keyword) + "` | " + rayfile::written(model.*f.member, 6) + " | " +
+              std::string(f.help) + " |\n";
+    });
+  });
+  return text;
+}
+
+/// One of that kind, in u and v if it can lie there.
+Texture ofKind(const std::string& keyword) {
+  std::optional<Texture> found;
+  std::vector<std::string_view> kinds;
+  forEachKind([&](auto model) {
+    kinds.push_back(model.kKeyword);
+    if (model.kKeyword != keyword) return;
+    if constexpr (requires { model.space; }) model.space = TextureSpace::uv;
+    found = TextureNode{.model = std::move(model)};
+  });
+  if (found) return *found;
+  std::string all;
+  for (const std::string_view kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kind);
+  std::string hint = didYouMean(keyword, kinds);
+  if (hint.empty()) hint = "a texture of a scene is named as in floor.ray:stone";
+  throw Error(Fault::usage, "ray texture: expected " + all + " or SCENE:NAME, found \"" + keyword + "\"",
+              std::move(hint));
+}
+
+Texture ofScene(const std::string& file, const std::string& name, const Console& console) {
+  const Work work("reading the textures");
+  const std::string bytes = readFile(file);
+  if (!recognisesRay(bytes))
+    throw Error(Fault::scene, Place{.file = file}, "expected a .ray file, which has textures with names");
+  Messages messages;
+  const std::vector<Texture> textures = readNamedTextures(file, bytes, messages);
+  for (const Message& message : messages.all())
+    if (message.place.line > 0) console.warnings({&message, 1});  // not that there is nothing else to see
+  std::vector<std::string_view> names;
+  for (const Texture& texture : textures) {
+    if (texture->name == name) return texture;
+    names.push_back(texture->name);
+  }
+  throw Error(Fault::usage, "ray texture: there is no texture \"" + name + "\" in " + file,
+              names.empty() ? "it has none with a name, as in texture = marble { name = stone; }"
+                            : didYouMean(name, names));
+}
+
+/// `across`: how many steps the picture is wide.
+Picture pictureOf(const Texture& texture, int width, int height, Real across) {
+  Picture picture(width, height);
+  const Real step = across / width;
+  const Work work("drawing the texture", height);
+  Job job;
+  parallelChunks(height, 0, job, [&](std::int64_t row, int) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width; ++x) {
+      checkBudget();
+      const Vec2 at{(x + 0.5) * step, (height - y - 0.5) * step};
+      picture.at(x, y) = texture.at({.point = {at.x, at.y, 0},
+                                     .uv = at,
+                                     .uvX = {step, 0},
+                                     .uvY = {0, step},
+                                     .pointX = {step, 0, 0},
+                                     .pointY = {0, step, 0}});
+    }
+  });
+  return picture;
+}
+
+}  // namespace
+
+int textureCommand(const Arguments& arguments, const Console& console) {
+  if (arguments.files.empty() && arguments.output.empty())
+    return printResult(arguments.markdown ? fieldsMarkdown() : kindsText()), kDone;
+  if (arguments.files.size() != 1)
+    throw Error(Fault::usage,
+                "ray texture: expected one texture, found " + std::to_string(arguments.files.size()));
+  const auto [width, height] = arguments.size;
+  if (!arguments.output.empty()) checkEncodable(pictureFormatFor(arguments.output), width, height);
+  const std::string& named = arguments.files.front();
+  const std::size_t colon = named.rfind(':');
+  const bool inScene = colon != std::string::npos;
+  if (inScene) checkDistinct(named.substr(0, colon), arguments.output);
+  if (!arguments.output.empty()) checkWritable(arguments.output);
+  const Texture texture =
+      inScene ? ofScene(named.substr(0, colon), named.substr(colon + 1), console) : ofKind(named);
+  if (arguments.output.empty()) return printResult(fieldsText(texture)), kDone;
+  const Picture picture = pictureOf(texture, width, height, arguments.across.value_or(inScene ? 1 : 4));
+  writePicture(arguments.output, picture, Rounding::nearest);
+  return kDone;
+}
+
+}  // namespace trace::cli

@@ -1,0 +1,91 @@
+// Points that fill a square more evenly than chance does, each a function of its number and a seed.
+#pragma once
+
+#include <cstdint>
+
+#include "math/noise.h"
+#include "math/vec.h"
+
+namespace trace {
+
+constexpr std::uint32_t reversedBits(std::uint32_t v) {
+  v = (v << 16) | (v >> 16);
+  v = ((v & 0x00ff00ffu) << 8) | ((v & 0xff00ff00u) >> 8);
+  v = ((v & 0x0f0f0f0fu) << 4) | ((v & 0xf0f0f0f0u) >> 4);
+  v = ((v & 0x33333333u) << 2) | ((v & 0xccccccccu) >> 2);
+  return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
+}
+
+/// Owen's nested scrambling of base 2: each bit is flipped, or not, by a hash of the bits above it.
+constexpr std::uint32_t owenScrambled(std::uint32_t v, std::uint64_t seed) {
+  // Laine and Karras 2011 with the constants of Vegdahl 2021: in reversed bits every step carries only
+  // upward.
+  v = reversedBits(v);
+  const auto s = static_cast<std::uint32_t>(mixBits(seed));
+  v ^= v * 0x3d20adeau;
+  v += s;
+  v *= (s >> 16) | 1u;
+  v ^= v * 0x05526c56u;
+  v ^= v * 0x53a22864u;
+  return reversedBits(v);
+}
+
+/// The first two dimensions of Sobol's sequence (1967): of any 2^(a+b) points that begin at a multiple, one
+/// lies in each box of 2^-a by 2^-b.
+constexpr std::uint32_t sobolSecond(std::uint32_t i) {
+  std::uint32_t v = 0;
+  for (std::uint32_t direction = 0x80000000u; i; i >>= 1, direction ^= direction >> 1)
+    if (i & 1u) v ^= direction;
+  return v;
+}
+
+/// Point i of that sequence, in an order and with scrambling of the seed's own (Burley, Practical Hash-based
+/// Owen Scrambling, 2020).
+constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {
+  const std::uint32_t k = owenScrambled(i, mixBits(seed ^ 1));
+  return {owenScrambled(reversedBits(k), mixBits(seed ^ 2)) * 0x1p-32,
+          owenScrambled(sobolSecond(k), mixBits(seed ^ 3)) * 0x1p-32};
+}
+
+/// i written in `base` and mirrored at the point (van der Corput 1935), with digits permuted by the seed.
+inline Real radicalInverse(std::uint32_t i, std::uint32_t base, std::uint64_t seed) {
+  Real value = 0, place = 1;
+  std::uint64_t prefix = mixBits(seed);
+  // Until digits no longer count. Each digit is turned by a hash of those before it (Owen 1995, by
+  // rotations).
+  for (int digit = 0; place > 0x1p-40; ++digit) {
+    const std::uint32_t own = i % base;
+    i /= base;
+    place /= base;
+    value += static_cast<Real>((own + prefix % base) % base) * place;
+    prefix = mixBits(prefix ^ (own + 1));
+  }
+  return value < 1 ? value : 1 - 0x1p-53;
+}
+
+/// Point i of Halton's sequence (1960) in bases 2 and 3.
+inline Vec2 haltonPoint(std::uint32_t i, std::uint64_t seed) {
+  return {radicalInverse(i, 2, mixBits(seed ^ 1)), radicalInverse(i, 3, mixBits(seed ^ 2))};
+}
+
+/// Where i goes in a random order of 0, 1, ... count - 1 (Kensler, Correlated Multi-Jittered Sampling, 2013,
+/// section 3).
+constexpr std::uint32_t permuted(std::uint32_t i, std::uint32_t count, std::uint64_t seed) {
+  const auto p = static_cast<std::uint32_t>(mixBits(seed));
+  std::uint32_t w = count - 1;
+  w |= w >> 1, w |= w >> 2, w |= w >> 4, w |= w >> 8, w |= w >> 16;
+  do {
+    i ^= p, i *= 0xe170893du;
+    i ^= p >> 16, i ^= (i & w) >> 4;
+    i ^= p >> 8, i *= 0x0929eb3fu;
+    i ^= p >> 23, i ^= (i & w) >> 1;
+    i *= 1 | p >> 27, i *= 0x6935fa69u;
+    i ^= (i & w) >> 11, i *= 0x74dcb303u;
+    i ^= (i & w) >> 2, i *= 0x9e501cc3u;
+    i ^= (i & w) >> 2, i *= 0xc860a3dfu;
+    i &= w, i ^= i >> 5;
+  } while (i >= count);
+  return (i + p) % count;
+}
+
+}  // namespace trace

@@ -1,0 +1,26 @@
+// How the footprint of a ray goes on from the surface that it meets. Kept out of line, since most renders
+// want none.
+#pragma once
+
+#include <memory>
+
+#include "render/world.h"
+#include "shading/differentials.h"
+
+namespace trace {
+
+using Footprint = std::unique_ptr<const Differentials>;
+
+/// Of the ray where it has met the surface.
+Footprint arrivedAt(const Hit& hit, const Differentials& ray, const Vec3& direction);
+
+/// Of the ray that is mirrored where one has arrived, at the unit normal for shading, on either side. None if
+/// that has none.
+Footprint mirroredAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
+                     const Vec3& normal);
+
+/// Of the ray refracted from `direction` to `out`; `ratio` = index before / index behind.
+Footprint refractedAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
+                      const Vec3& out, const Vec3& normal, Real ratio);
+
+}  // namespace trace

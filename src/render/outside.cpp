@@ -1,0 +1,102 @@
+#include "render/outside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace trace {
+namespace {
+
+/// Between the centres of the pixels around; at the border the outermost pixels.
+Color lookUp(const Picture& p, const Vec2& fromTopLeft) {
+  const Real x = std::clamp(fromTopLeft.x * p.width - 0.5, 0.0, p.width - 1.0);
+  const Real y = std::clamp(fromTopLeft.y * p.height - 0.5, 0.0, p.height - 1.0);
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, p.width - 1), y1 = std::min(y0 + 1, p.height - 1);
+  return lerp(y - y0, lerp(x - x0, p.at(x0, y0), p.at(x1, y0)), lerp(x - x0, p.at(x0, y1), p.at(x1, y1)));
+}
+
+Real elevationOf(const Vec3& d) { return std::atan2(d.y, std::hypot(d.x, d.z)) * 180 / kPi; }
+
+}  // namespace
+
+Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame& camera)
+    : camera_(camera),
+      background_(scene.background),
+      backdrop_(scene.surroundings.backdrop),
+      environment_(scene.surroundings.environment),
+      turn_{std::cos(settings.environmentRotation * kPi / 180),
+            std::sin(settings.environmentRotation * kPi / 180)},
+      brightness_(settings.environmentBrightness) {
+  if (settings.environmentRotation == 0) turn_ = {1, 0};
+  if (background_.elevations.size() != background_.gradient.size()) background_.elevations.clear();
+  if (background_.turbidity > 0) daylight_.emplace(background_.turbidity, background_.sun);
+  allAround_ = environment_                   ? Source::environment
+               : daylight_                    ? Source::sky
+               : background_.gradient.empty() ? Source::nothing
+                                              : Source::gradient;
+}
+
+Outside::View Outside::view(const Vec3& direction, RayKind kind) const {
+  View view;
+  view.direction = direction;
+  const bool camera = kind == RayKind::camera;
+  view.source = camera && backdrop_                       ? Source::backdrop
+                : camera && allAround_ == Source::nothing ? Source::bands
+                                                          : allAround_;
+  // Against the rotation, into the space of what is all around.
+  const Vec3 d{turn_.x * direction.x - turn_.y * direction.z, direction.y,
+               turn_.y * direction.x + turn_.x * direction.z};
+  switch (view.source) {
+    case Source::nothing: break;
+    case Source::backdrop:
+      view.place = {camera_.acrossOf(direction), 1 - camera_.heightOf(direction)};
+      view.color = lookUp(*backdrop_, view.place);
+      break;
+    case Source::bands:
+      if (background_.colors.size() > 1) view.place = {0, 1 - camera_.heightOf(direction)};
+      view.color = background_.at(view.place.y);
+      break;
+    case Source::environment: {
+      const EnvironmentMap::Spot spot = environment_->spot(d);
+      view.place = spot.uv;
+      if (environment_->kind() == EnvironmentKind::cube) view.face = spot.face;
+      view.color = environment_->at(spot) * brightness_;
+      break;
+    }
+    case Source::sky:
+      view.place.y = elevationOf(d);
+      view.color = d.y < 0 ? background_.ground : toColor(daylight_->at(d)) * background_.skyBrightness;
+      view.color = view.color * brightness_;
+      break;
+    case Source::gradient:
+      view.place.y = elevationOf(d);
+      view.color = background_.gradientAt(view.place.y) * brightness_;
+      break;
+  }
+  return view;
+}
+
+std::string sentence(const Outside::View& view) {
+  char text[96];
+  const char* name = Outside::kNames[static_cast<std::size_t>(view.source)].data();
+  switch (view.source) {
+    case Outside::Source::nothing:
+    case Outside::Source::bands: return "background";
+    case Outside::Source::sky:
+    case Outside::Source::gradient:
+      std::snprintf(text, sizeof text, "%s at %.4g degrees above the horizon", name, view.place.y);
+      return text;
+    case Outside::Source::backdrop:
+    case Outside::Source::environment: break;
+  }
+  const std::string face =
+      view.face < 0
+          ? ""
+          : ", face " + std::string(EnvironmentMap::kFaceNames[static_cast<std::size_t>(view.face)]);
+  std::snprintf(text, sizeof text, "%s%s at (%.4g, %.4g) from its top left", name, face.c_str(), view.place.x,
+                view.place.y);
+  return text;
+}
+
+}  // namespace trace

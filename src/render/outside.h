@@ -1,0 +1,58 @@
+// What rays see that meet nothing. What lies nearer hides what lies behind it:
+//
+//   camera rays: the backdrop, the environment, the sky by day, the gradient, the bands of colour
+//   other rays:               the environment, the sky by day, the gradient; or nothing, which is black
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "render/ray_kind.h"
+#include "scene/scene.h"
+#include "shading/daylight.h"
+
+namespace trace {
+
+class Outside {
+ public:
+  enum class Source { nothing, backdrop, environment, sky, gradient, bands };
+  static constexpr std::array<std::string_view, 6> kNames{"nothing", "backdrop", "environment",
+                                                          "sky",     "gradient", "bands"};
+  /// What one ray sees.
+  struct View {
+    Source source = Source::nothing;
+    /// Of an environment in its picture, (0, 0) at the top left of it or of the face; of a backdrop and bands
+    /// in the picture that is rendered, from the top left; of the rest the elevation in degrees, as y.
+    Vec2 place;
+    int face = -1;  ///< of a cube: index into EnvironmentMap::kFaceNames
+    Vec3 direction;
+    Color color;
+  };
+
+  Outside() = default;
+  /// Holds what the scene's surroundings hold.
+  Outside(const Scene& scene, const Settings& settings, const CameraFrame& camera);
+
+  /// Rays of the kind see something there, though it may be black.
+  bool isSeenBy(RayKind kind) const { return kind == RayKind::camera || allAround_ != Source::nothing; }
+  /// `direction` of length 1.
+  View view(const Vec3& direction, RayKind kind) const;
+
+ private:
+  CameraFrame camera_{};
+  Background background_;
+  std::shared_ptr<const Picture> backdrop_;
+  std::shared_ptr<const EnvironmentMap> environment_;
+  std::optional<Daylight> daylight_;
+  Source allAround_ = Source::nothing;
+  Vec2 turn_{1, 0};  ///< cosine and sine of the rotation
+  Real brightness_ = 1;
+};
+
+/// In words: "environment, face right at (0.25, 0.5)", for a message of a ray that left the scene.
+std::string sentence(const Outside::View& view);
+
+}  // namespace trace

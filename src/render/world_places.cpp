@@ -1,0 +1,104 @@
+// Places as textures see them: in the space of their object, with the part of the surface that they stand
+// for.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/mesh/mesh.h"
+#include "math/perpendicular.h"
+#include "render/world.h"
+
+namespace trace {
+namespace {
+
+/// The gradients of the second and third barycentric coordinates; 0 for a triangle without area.
+struct Barycentric {
+  Vec3 corner, second, third;
+
+  explicit Barycentric(const Corners& v) : corner(v.a) {
+    const Vec3 ab = v.b - v.a, ac = v.c - v.a, normal = cross(ab, ac);
+    const Real square = dot(normal, normal);
+    if (square > 0) second = cross(ac, normal) / square, third = cross(normal, ab) / square;
+  }
+  TriangleHit at(const Vec3& p) const {
+    TriangleHit hit;
+    hit.b[1] = dot(second, p - corner), hit.b[2] = dot(third, p - corner);
+    hit.b[0] = 1 - hit.b[1] - hit.b[2];
+    return hit;
+  }
+};
+
+/// Those of texture coordinates in a triangle.
+struct Gradients {
+  Vec3 u, v;
+};
+Gradients gradientsOf(const MeshData& mesh, std::uint32_t index) {
+  const Barycentric b(corners(mesh, index));
+  if (mesh.uvs.empty()) return {b.second, b.third};
+  const Triangle& t = mesh.triangles[index];
+  const Vec2 &p = mesh.uvs[t[0]], &q = mesh.uvs[t[1]], &r = mesh.uvs[t[2]];
+  return {b.second * (q.x - p.x) + b.third * (r.x - p.x), b.second * (q.y - p.y) + b.third * (r.y - p.y)};
+}
+
+/// From one texture coordinate to another nearby. The way across the line where it starts again is short.
+Real shortWay(Real from, Real to) {
+  constexpr Real kTorn = 0.25;  // so much in a step as short as ours is no slope
+  const Real way = to - from, shortest = way - std::round(way);
+  return std::abs(shortest) < kTorn ? shortest : 0;
+}
+
+}  // namespace
+
+/// By differences over steps so short that their square is lost in rounding: shapes put a place beside their
+/// surface back on it, so that one way serves all, and solids of solids too.
+SurfaceSlopes World::slopes(std::uint32_t object, std::uint64_t part, const SurfacePoint& here) const {
+  const Instance& instance = objects_[object];
+  const Affine& out = instance.placement.outFromIn();
+  const Real size = instance.bounds.unbounded() || instance.bounds.empty()
+                        ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
+                        : maxComponent(instance.bounds.size());
+  const Real step = size * 0x1p-20 + maxComponent(abs(here.point)) * 0x1p-40;
+  const auto beside = [&](const Vec3& p) {
+    constexpr Real kAbove = 0x1p10;  // in steps: where the ray to the place starts
+    Found found{kAbove * step, object, part, {}};
+    if (instance.mesh)
+      found.triangle = Barycentric(corners(instance.mesh->data(), static_cast<std::uint32_t>(part)))
+                           .at(instance.placement.inFromOut() * p);
+    return surface({p + here.normal * found.t, -here.normal}, found);
+  };
+
+  SurfaceSlopes slopes;
+  slopes.tangent[0] = perpendicularTo(here.normal);
+  slopes.tangent[1] = cross(here.normal, slopes.tangent[0]);
+  const Vec2 uv = here.uv;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3& along = slopes.tangent[i];
+    const SurfacePoint there = beside(here.point + along * step);
+    const Vec2 other = there.uv;
+    slopes.u += along * (shortWay(uv.x, other.x) / step);
+    slopes.v += along * (shortWay(uv.y, other.y) / step);
+    slopes.normal[i] = (there.shading - here.shading) / step;
+  }
+  return slopes;
+}
+
+TexturePlace World::place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                          const Differentials* arrived) const {
+  const Affine& in = objects_[object].placement.inFromOut();
+  TexturePlace place;
+  place.point = in * surface.point, place.uv = surface.uv;
+  if (!arrived) return place;
+  place.pointX = linear(in, arrived->originX);
+  place.pointY = linear(in, arrived->originY);
+  if (const auto& mesh = objects_[object].mesh) {  // with gradients in the space of the object
+    const Gradients g = gradientsOf(mesh->data(), static_cast<std::uint32_t>(part));
+    place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};
+    place.uvY = {dot(g.u, place.pointY), dot(g.v, place.pointY)};
+  } else {
+    const SurfaceSlopes along = slopes(object, part, surface);
+    place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
+    place.uvY = {dot(along.u, arrived->originY), dot(along.v, arrived->originY)};
+  }
+  return place;
+}
+
+}  // namespace trace

@@ -1,0 +1,41 @@
+// A sun: light from infinitely far away.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/field.h"
+#include "shading/lights/illumination.h"
+
+namespace trace {
+
+struct DirectionalLight {
+  static constexpr std::string_view kKeyword = "directional_light";
+  static constexpr std::string_view kHelp = "parallel light from infinitely far away";
+
+  Vec3 direction{0, 0, -1};
+  Color color{};
+  Real size = 0;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
+              "where its light travels to"},
+        Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
+        Field{"size", &DirectionalLight::size, "degrees", 0, 180,
+              "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
+              "soft"}};
+  }
+  bool operator==(const DirectionalLight&) const = default;
+  bool hasSize() const { return size > 0; }
+
+  std::optional<Illumination> illuminate(const Vec3&, const Rules&, const Vec2& u = kCenter) const {
+    Illumination arriving{normalize(-direction), kInfinity, color};
+    if (size > 0) arriving.toLight = toCone(u, arriving.toLight, std::cos(size * kPi / 360));
+    return arriving;
+  }
+};
+
+}  // namespace trace

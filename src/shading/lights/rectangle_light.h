@@ -1,0 +1,54 @@
+// A window or a panel: a rectangle that shines to one side, or the ellipse in it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/field.h"
+#include "shading/lights/illumination.h"
+
+namespace trace {
+
+struct RectangleLight {
+  static constexpr std::string_view kKeyword = "rectangle_light";
+  static constexpr std::string_view kHelp =
+      "light from a rectangle, as bright from everywhere in front of it; it fades with the angle that it "
+      "covers";
+
+  Vec3 position{};
+  Vec3 u{1, 0, 0}, v{0, 1, 0};
+  Color color{};
+  bool round = false, twoSided = false;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"position", &RectangleLight::position, "", -kNoLimit, kNoLimit, "its middle"},
+        Field{"color", &RectangleLight::color, "", 0, kNoLimit,
+              "what a white surface gives back that sees nothing but the light"},
+        Field{"u", &RectangleLight::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
+        Field{"v", &RectangleLight::v, "", -kNoLimit, kNoLimit, "along the other; it shines toward u x v"},
+        Field{"round", &RectangleLight::round, "", 0, 1, "only the ellipse in the rectangle shines"},
+        Field{"two_sided", &RectangleLight::twoSided, "", 0, 1, "it shines to both sides"}};
+  }
+  bool operator==(const RectangleLight&) const = default;
+  bool hasSize() const { return true; }
+
+  /// E = the integral of color / pi over the light's solid angle, by one place of it, chosen evenly over its
+  /// area.
+  std::optional<Illumination> illuminate(const Vec3& p, const Rules&, const Vec2& chosen = kCenter) const {
+    const Vec2 disk = toDisk(chosen);
+    const Vec2 at = round ? Vec2{disk.x / 2, disk.y / 2} : Vec2{chosen.x - 0.5, chosen.y - 0.5};
+    const Vec3 d = position + u * at.x + v * at.y - p, across = cross(u, v);
+    const Real l = length(d);
+    if (!(l > 0)) return {};
+    // The cosine at the light times its area; of an ellipse pi / 4 of the rectangle's.
+    Real facing = -dot(d, across) / l;
+    if (twoSided) facing = std::abs(facing);
+    if (!(facing > 0)) return {};
+    return Illumination{d / l, l, color, facing * (round ? kPi / 4 : 1) / (kPi * l * l), {}};
+  }
+};
+
+}  // namespace trace

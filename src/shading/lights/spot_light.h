@@ -1,0 +1,63 @@
+// A spot light: a point, or a ball, that shines into a cone.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/field.h"
+#include "shading/lights/illumination.h"
+
+namespace trace {
+
+struct SpotLight {
+  static constexpr std::string_view kKeyword = "spot_light";
+  static constexpr std::string_view kHelp =
+      "light from a point into a cone, attenuated as that of a point light";
+
+  Vec3 position{};
+  Vec3 direction{0, 0, -1};
+  Color color{};
+  Real angle = 45,
+       fullAngle = 45;  ///< half angles of the cone, and of the part where it does not fade; degrees
+  Real exponent = 0;
+  Real constant = 1, linear = 0, quadratic = 0;
+  Real radius = 0;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"position", &SpotLight::position, "", -kNoLimit, kNoLimit, "where it is"},
+        Field{"direction", &SpotLight::direction, "", -kNoLimit, kNoLimit, "where the cone's axis points to"},
+        Field{"color", &SpotLight::color, "", 0, kNoLimit, "its intensity on the axis"},
+        Field{"angle", &SpotLight::angle, "degrees", 0, 180, "between the axis and the side of the cone"},
+        Field{"full_angle", &SpotLight::fullAngle, "degrees", 0, 180,
+              "from here to the side of the cone the light falls off to nothing, by degrees"},
+        Field{"exponent", &SpotLight::exponent, "", 0, kNoLimit, "of the cosine to the axis, a factor"},
+        Field{"constant_attenuation_coeff", &SpotLight::constant, "", 0, kNoLimit, "a"},
+        Field{"linear_attenuation_coeff", &SpotLight::linear, "", 0, kNoLimit, "b"},
+        Field{"quadratic_attenuation_coeff", &SpotLight::quadratic, "", 0, kNoLimit, "c"},
+        Field{"radius", &SpotLight::radius, "units", 0, kNoLimit,
+              "of the ball that shines; more than 0 makes shadows soft"}};
+  }
+  bool operator==(const SpotLight&) const = default;
+  bool hasSize() const { return radius > 0; }
+
+  std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules, const Vec2& u = kCenter) const {
+    const Vec3 d = position - p;
+    const Real l = length(d);
+    if (!(l > 0)) return {};
+    const Real cosine = std::clamp(-dot(d, normalize(direction)) / l, -1.0, 1.0);
+    const Real off = std::acos(cosine) * 180 / kPi;
+    if (off > angle) return {};
+    const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
+    Real factor = rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation;
+    if (exponent > 0) factor *= std::pow(std::max(0.0, cosine), exponent);
+    if (off > fullAngle) factor *= (angle - off) / (angle - fullAngle);
+    Illumination arriving{d / l, l, color, factor, {}};
+    towardBall(arriving, radius, u);
+    return arriving;
+  }
+};
+
+}  // namespace trace

@@ -1,0 +1,75 @@
+// Plastic, glazed clay, varnished wood: a matt base below a clear layer (shading/coating.h).
+// Reciprocal. Energy: gives back at most what arrives, all of it if the base is white.
+//
+// Under Whitted's equation a smooth layer sends one mirrored ray by Schlick's formula; of a rough one the ray
+// stands for the facets that lean less than 5 degrees.
+#pragma once
+
+#include <string_view>
+
+#include "shading/coating.h"
+#include "shading/materials/phong.h"
+
+namespace trace {
+
+struct CoatedBsdf;
+
+struct Coated : SurfaceFields {
+  static constexpr std::string_view kKeyword = "coated";
+  static constexpr std::string_view kHelp = "plastic or varnish: a matt base below a clear layer";
+  static constexpr bool kReciprocal = true, kKeepsEnergy = true;
+  using Bsdf = CoatedBsdf;
+
+  Color diffuse{0.6};
+  Real index = 1.5, roughness = 0.2;
+  Distribution distribution = Distribution::ggx;
+
+  static constexpr auto fields() {
+    return after(Field{"diffuse", &Coated::diffuse, "", 0, 1, "of the base"},
+                 Field{"index", &Coated::index, "", 0, kNoLimit, "of refraction of the layer"},
+                 Field{"roughness", &Coated::roughness, "", 0, 1,
+                       "of the layer, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
+                 Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"});
+  }
+  bool operator==(const Coated&) const = default;
+
+  Phong asPhong() const {
+    const Real width = max(0.03, roughness * roughness);
+    const Color own(mirroredAlongNormal(index));
+    Phong phong = phongLike(*this, diffuse, own + Color(0.2), 2 / (width * width));
+    phong.reflective = own * Microfacets::of(distribution, roughness).sharpShare();
+    phong.index = index;
+    return phong;
+  }
+  CoatedBsdf at(const Rules& rules) const;
+};
+
+struct CoatedBsdf : LocalBsdf<CoatedBsdf, Coated> {
+  Coating coat;
+
+  CoatedBsdf() = default;
+  explicit CoatedBsdf(const Coated& model)
+      : LocalBsdf(model),
+        coat(model.distribution, model.roughness, 0, Color(mirroredAlongNormal(model.index))) {
+    index = model.index;
+    reflective = coat.mirrorWeight(1);
+  }
+
+  bool mirrorIsExact() const { return coat.smooth; }
+  Color mirrorWeight(Real cosine) const { return coat.mirrorWeight(cosine); }
+
+  Scatter value(const Vec3& eye, const Vec3& light) const {
+    return {said.diffuse * coat.base(eye, light), coat.mirrored(eye, light)};
+  }
+  Real baseWeight() const { return maxComponent(said.diffuse); }
+  Vec3 direction(const Vec3& eye, Real choose, Vec2 u) const {
+    return coat.direction(eye, baseWeight(), choose, u);
+  }
+  Real directionDensity(const Vec3& eye, const Vec3& light) const {
+    return coat.density(eye, baseWeight(), light);
+  }
+};
+
+inline CoatedBsdf Coated::at(const Rules&) const { return CoatedBsdf(*this); }
+
+}  // namespace trace

@@ -1,0 +1,44 @@
+#include "shading/sheen.h"
+
+#include <algorithm>
+
+namespace trace {
+namespace {
+
+constexpr int kSteps = 24;
+
+struct Table {
+  Real at[kSteps + 1][kSteps + 1];  ///< by roughness, cosine
+
+  Table() {
+    for (int r = 0; r <= kSteps; ++r)
+      for (int c = 0; c <= kSteps; ++c) at[r][c] = albedo(Sheen::of(1.0 * r / kSteps), 1.0 * c / kSteps);
+  }
+
+  static Real albedo(const Sheen& sheen, Real cosine) {
+    constexpr int kCosines = 40, kTurns = 40;
+    const Vec3 eye = sphericalDirection(max(1e-4, cosine), 0);
+    Real sum = 0;
+    for (int i = 0; i < kCosines; ++i)
+      for (int j = 0; j < kTurns; ++j)
+        sum += sheen.value(eye, sphericalDirection((i + 0.5) / kCosines, (j + 0.5) * kPi / kTurns));
+    return min(1, sum * 2 * kPi / (kCosines * kTurns));
+  }
+};
+
+}  // namespace
+
+Real sheenAlbedo(Real cosine, Real roughness) {
+  static const Table kTable;
+  const auto place = [](Real x, int& low) {
+    const Real p = max(0, min(1, x)) * kSteps;
+    low = std::min(kSteps - 1, static_cast<int>(p));
+    return p - low;
+  };
+  int r, c;
+  const Real s = place(roughness, r), t = place(cosine, c);
+  const auto row = [&](int i) { return kTable.at[i][c] * (1 - t) + kTable.at[i][c + 1] * t; };
+  return row(r) * (1 - s) + row(r + 1) * s;
+}
+
+}  // namespace trace

@@ -1,0 +1,25 @@
+// Colours for the numbers of another texture.
+#pragma once
+
+#include "shading/textures/pattern.h"
+
+namespace trace {
+
+struct Ramp : PatternColors {
+  static constexpr std::string_view kKeyword = "ramp";
+  static constexpr std::string_view kHelp = "gives the luminance of another texture, its value, colours";
+
+  Real value = 0;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        std::tuple{Field{"value", &Ramp::value, "", -kNoLimit, kNoLimit, "a number, as a rule a texture"}},
+        PatternColors::fields());
+  }
+  bool operator==(const Ramp&) const = default;
+
+  Real pattern(const TexturePlace&) const { return value; }
+  Color at(const TexturePlace& place) const { return shade(pattern(place)); }
+};
+
+}  // namespace trace

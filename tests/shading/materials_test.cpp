@@ -1,0 +1,346 @@
+// What every shading model promises (shading/scattering.h), over the list of models.
+#include "support/materials.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "shading/bsdf.h"
+#include "shading/fresnel.h"
+#include "support/random.h"
+
+namespace trace {
+namespace {
+
+using test::NamedModel;
+using test::Random;
+
+/// As much as light can depend on: a normal and a grain that are no axes.
+const Frame kFrame{normalize({0.3, -0.5, 0.8}), {1, 2, 0.3}};
+
+Vec3 world(const Vec3& local) { return kFrame.basis().toWorld(local); }
+Vec3 local(Real cosine, Real phi) { return sphericalDirection(cosine, phi); }
+
+/// The model with some values set.
+template <class Model, class Set>
+Bsdf with(const Set& set) {
+  Model model;
+  set(model);
+  return bsdfOf(model, {});
+}
+
+/// Those whose surfaces scatter.
+std::vector<NamedModel> scattering() {
+  std::vector<NamedModel> all = test::variedModels();
+  std::erase_if(all, [](const NamedModel& m) { return !scatters(bsdfOf(m.model, {})); });
+  return all;
+}
+
+template <class Test>
+void forEachModel(const Test& test) {
+  for (const NamedModel& m : scattering()) {
+    SCOPED_TRACE(m.name);
+    test(m.model, bsdfOf(m.model, {}));
+  }
+}
+
+bool reciprocal(const MaterialModel& model) {
+  return match(model, [](const auto& m) { return m.kReciprocal; });
+}
+
+TEST(Materials, AreReciprocalWhereTheySaySo) {
+  Random random(1);
+  forEachModel([&](const MaterialModel& model, const Bsdf& bsdf) {
+    if (!reciprocal(model)) return;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 a = local(random.uniform(0.02, 1), random.uniform(0, 7));
+      const Vec3 b = local(random.uniform(0.02, 1), random.uniform(0, 7));
+      const Color ab = evaluate(bsdf, kFrame, world(a), world(b)) / b.z;
+      const Color ba = evaluate(bsdf, kFrame, world(b), world(a)) / a.z;
+      ASSERT_NEAR(ab.r, ba.r, 1e-9 + 1e-6 * ab.r) << a.z << " " << b.z;
+      ASSERT_NEAR(ab.b, ba.b, 1e-9 + 1e-6 * ab.b) << a.z << " " << b.z;
+    }
+  });
+}
+
+TEST(Materials, AreFiniteAndNotNegativeAtAllAngles) {
+  const std::vector<Real> cosines{-1, -0.5, -1e-9, 0, 1e-300, 1e-12, 1e-4, 0.3, 0.9999999999, 1};
+  forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
+    for (const Real cosEye : cosines)
+      for (const Real cosLight : cosines)
+        for (const Real phi : {0.0, 1e-9, 1.0, kPi}) {
+          const Vec3 eye = world(local(cosEye, 0.5)), light = world(local(cosLight, 0.5 + phi));
+          for (const Color& c :
+               {evaluate(bsdf, kFrame, eye, light), scatter(bsdf, kFrame, light, eye).sum()}) {
+            ASSERT_TRUE(isFinite(c)) << cosEye << " " << cosLight << " " << phi;
+            ASSERT_GE(std::min(c.r, std::min(c.g, c.b)), 0) << cosEye << " " << cosLight << " " << phi;
+          }
+          const Real density = trace::density(bsdf, kFrame, eye, light);
+          ASSERT_TRUE(std::isfinite(density) && density >= 0) << cosEye << " " << cosLight << " " << phi;
+        }
+  });
+}
+
+TEST(Materials, ScatterForWhittedWhatTheyEvaluate) {
+  Random random(2);
+  forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 eye = world(local(random.uniform(0.01, 1), random.uniform(0, 7)));
+      const Vec3 light = world(local(random.uniform(0.01, 1), random.uniform(0, 7)));
+      const Color a = evaluate(bsdf, kFrame, eye, light) * kPi, b = scatter(bsdf, kFrame, light, eye).sum();
+      ASSERT_NEAR(a.g, b.g, 1e-9 * (1 + a.g));
+    }
+  });
+}
+
+/// The mean weight of samples whose numbers are spread evenly: multiples of powers of a root of
+/// x^4 = x + 1 (Roberts 2018).
+Color albedo(const Bsdf& bsdf, const Vec3& eye, int n = 12'000) {
+  constexpr Real kRoot = 1.2207440846057594;
+  const auto number = [](int i, Real step) {
+    const Real x = 0.5 + i * step;
+    return x - std::floor(x);
+  };
+  Color sum;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 u{number(i, 1 / kRoot), number(i, 1 / (kRoot * kRoot))};
+    if (const auto drawn = sample(bsdf, kFrame, eye, number(i, 1 / (kRoot * kRoot * kRoot)), u))
+      sum += drawn->weight;
+  }
+  return sum / n;
+}
+
+TEST(Materials, GiveBackNoMoreLightThanArrives) {
+  forEachModel([&](const MaterialModel& model, const Bsdf& bsdf) {
+    match(model, [&](const auto& m) {
+      if (!m.kKeepsEnergy) return;
+      Real most = 1;
+      if constexpr (requires { m.diffuse, m.specular; })
+        most = std::max(1.0, maxComponent(m.diffuse + m.specular));
+      for (const Real cosine : {1.0, 0.8, 0.5, 0.25, 0.1, 0.03})
+        EXPECT_LT(maxComponent(albedo(bsdf, world(local(cosine, 0.7)))), most + 0.01)
+            << "at cosine " << cosine;
+    });
+  });
+}
+
+TEST(Materials, SamplesHaveTheWeightsAndDensitiesThatAreReported) {
+  Random random(3);
+  forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 eye = world(local(random.uniform(0.02, 1), random.uniform(0, 7)));
+      const auto drawn = sample(bsdf, kFrame, eye, random.uniform(), {random.uniform(), random.uniform()});
+      if (!drawn) continue;
+      ASSERT_NEAR(length(drawn->toLight), 1, 1e-9);
+      const Real density = trace::density(bsdf, kFrame, eye, drawn->toLight);
+      ASSERT_NEAR(density / drawn->density, 1, 1e-4);
+      const Color value = evaluate(bsdf, kFrame, eye, drawn->toLight);
+      ASSERT_NEAR(value.g, drawn->weight.g * drawn->density, 1e-3 * value.g + 1e-9);
+    }
+  });
+}
+
+/// How often samples are expected, and found, in the cells of the sphere around a surface.
+class Cells {
+ public:
+  static constexpr int kAcross = 20, kAround = 40, kFine = 14;
+
+  Cells(const Bsdf& bsdf, const Vec3& eye) : expected_(kAcross * kAround), found_(kAcross * kAround) {
+    for (int i = 0; i < kAcross * kFine; ++i)
+      for (int j = 0; j < kAround * kFine; ++j) {
+        const Real theta = (i + 0.5) * kPi / (kAcross * kFine), phi = (j + 0.5) * 2 * kPi / (kAround * kFine);
+        const Real area = std::sin(theta) * (kPi / (kAcross * kFine)) * (2 * kPi / (kAround * kFine));
+        expected_[at(i / kFine, j / kFine)] +=
+            area * density(bsdf, kFrame, eye, world(local(std::cos(theta), phi)));
+      }
+  }
+
+  Real total() const {
+    Real sum = 0;
+    for (const Real e : expected_) sum += e;
+    return sum;
+  }
+  void count(const Vec3& direction) {
+    const Vec3 d = kFrame.basis().toLocal(direction);
+    const Real theta = std::acos(std::clamp(d.z, -1.0, 1.0)), phi = std::atan2(d.y, d.x);
+    const int i = std::min(kAcross - 1, static_cast<int>(theta / kPi * kAcross));
+    const int j =
+        std::min(kAround - 1, static_cast<int>((phi < 0 ? phi + 2 * kPi : phi) / (2 * kPi) * kAround));
+    ++found_[at(i, j)];
+  }
+  /// Pearson's chi-square of n samples, as a standard normal deviate (Wilson and Hilferty 1931). Cells where
+  /// less than five are expected are taken together.
+  Real deviate(int n) const {
+    Real chi = 0, fewExpected = 0, fewFound = 0;
+    int cells = 0;
+    const auto add = [&](Real expected, Real found) {
+      chi += (found - expected) * (found - expected) / expected;
+      ++cells;
+    };
+    for (std::size_t i = 0; i < expected_.size(); ++i) {
+      const Real e = expected_[i] * n, f = found_[i];
+      if (e >= 5)
+        add(e, f);
+      else
+        fewExpected += e, fewFound += f;
+    }
+    if (fewExpected >= 5) add(fewExpected, fewFound);
+    const Real k = cells - 1;
+    if (k < 1) return 0;
+    return (std::cbrt(chi / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k));
+  }
+
+ private:
+  static std::size_t at(int i, int j) { return static_cast<std::size_t>(i * kAround + j); }
+  std::vector<Real> expected_;
+  std::vector<int> found_;
+};
+
+TEST(Materials, SamplesAreAsDenseAsTheySay) {
+  const int n = test::thorough() ? 1'000'000 : test::kSanitized ? 5'000 : 40'000;
+  Random random(4);
+  forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
+    for (const Real cosine : {0.95, 0.4}) {
+      const Vec3 eye = world(local(cosine, 2.1));
+      Cells cells(bsdf, eye);
+      EXPECT_NEAR(cells.total(), 1, 3e-3) << "at cosine " << cosine;
+      int drawn = 0;
+      for (int i = 0; i < n; ++i)
+        if (const auto s = sample(bsdf, kFrame, eye, random.uniform(), {random.uniform(), random.uniform()}))
+          cells.count(s->toLight), ++drawn;
+      EXPECT_GT(drawn, n * 0.999);
+      EXPECT_LT(cells.deviate(n), 4.5) << "at cosine " << cosine;
+    }
+  });
+}
+
+// --- mixtures and conversions
+// ---------------------------------------------------------------------------------
+
+TEST(Materials, MixturesOfModelsAddWhatTheirPartsScatter) {
+  const Bsdf a = bsdfOf(Lambert{}, {}), b = bsdfOf(OrenNayar{}, {});
+  Phong shiny;
+  shiny.specular = Color(0.5), shiny.shininess = 10, shiny.index = 2;
+  const Bsdf c = bsdfOf(shiny, {}), mixed = mix(a, b, c, {0.5, 0.3, 0.2});
+  const Vec3 eye = world(local(0.5, 1)), light = world(local(0.7, 4));
+  const auto value = [&](const Bsdf& bsdf) { return evaluate(bsdf, kFrame, eye, light).r; };
+  EXPECT_NEAR(value(mixed), 0.5 * value(a) + 0.3 * value(b) + 0.2 * value(c), 1e-15);
+  EXPECT_NEAR(whitted(mixed).index, 1.2, 1e-15);
+  Cells cells(mixed, eye);
+  EXPECT_NEAR(cells.total(), 1, 2e-3);
+  Random random(5);
+  for (int i = 0; i < 40'000; ++i)
+    cells.count(sample(mixed, kFrame, eye, random.uniform(), {random.uniform(), random.uniform()})->toLight);
+  EXPECT_LT(cells.deviate(40'000), 4);
+  EXPECT_TRUE(std::holds_alternative<LambertBsdf>(mix(a, a, a, {0.2, 0.3, 0.5})))
+      << "of one model: its fields";
+}
+
+TEST(Materials, AnotherModelKeepsTheFieldsThatBothHave) {
+  for (const NamedModel& m : test::variedModels()) {
+    const MaterialModel lambert = converted(m.model, Lambert{});
+    match(m.model, [&](const auto& from) {
+      EXPECT_EQ(std::get<Lambert>(lambert).shadow, from.shadow) << m.name;
+      if constexpr (requires { from.diffuse; }) {
+        EXPECT_EQ(std::get<Lambert>(lambert).diffuse, from.diffuse) << m.name;
+      }
+    });
+    EXPECT_EQ(converted(m.model, m.model), m.model) << m.name;
+  }
+  Material material{
+      "", Phong{}, {{"diffuse", pictureTexture("a.png")}, {"specular", pictureTexture("b.png")}}};
+  EXPECT_EQ(withModel(material, Lambert{}).textures.size(), 1u);
+}
+
+// --- exact values
+// -----------------------------------------------------------------------------------------------
+
+TEST(Materials, LambertGivesBackItsReflectance) {
+  const Bsdf bsdf = with<Lambert>([](Lambert& m) { m.diffuse = {0.3, 0.6, 0.9}; });
+  for (const Real cosine : {1.0, 0.3, 0.01}) {
+    const Color a = albedo(bsdf, world(local(cosine, 1)), 50);
+    EXPECT_NEAR(a.r, 0.3, 1e-12);
+    EXPECT_NEAR(a.b, 0.9, 1e-12);
+  }
+}
+
+TEST(Materials, OrenNayarWithoutRoughnessIsLambert) {
+  const Bsdf rough = with<OrenNayar>([](OrenNayar& m) { m.diffuse = Color(0.5), m.roughness = 0; });
+  const Bsdf even = with<Lambert>([](Lambert& m) { m.diffuse = Color(0.5); });
+  const Vec3 eye = world(local(0.3, 0)), light = world(local(0.2, 1));
+  EXPECT_EQ(evaluate(rough, kFrame, eye, light), evaluate(even, kFrame, eye, light));
+  // Equation 30 at 30 and 60 degrees, 45 degrees apart, sigma = 0.5: A = 0.7844828, B = 0.3308824.
+  const Bsdf half = with<OrenNayar>([](OrenNayar& m) { m.diffuse = Color(1), m.roughness = 0.5; });
+  const Vec3 a = local(std::cos(kPi / 6), 0), b = local(std::cos(kPi / 3), kPi / 4);
+  const Real expected =
+      (0.78448275862 + 0.33088235294 * std::cos(kPi / 4) * std::sin(kPi / 3) * std::tan(kPi / 6)) / kPi;
+  EXPECT_NEAR(evaluate(half, kFrame, world(a), world(b)).r / b.z, expected, 1e-9);
+}
+
+TEST(Materials, WhiteOnesVanishInAWhiteFurnace) {
+  const auto expectWhite = [](const Bsdf& bsdf) {
+    for (const Real cosine : {1.0, 0.7, 0.4, 0.2, 0.1})
+      EXPECT_NEAR(albedo(bsdf, world(local(cosine, 0.3))).g, 1, 0.01) << "at cosine " << cosine;
+  };
+  for (const Distribution kind : {Distribution::ggx, Distribution::beckmann})
+    for (const Real roughness : {0.2, 0.5, 0.8, 1.0}) {
+      SCOPED_TRACE(roughness);
+      expectWhite(with<Conductor>(
+          [&](Conductor& m) { m.color = Color(1), m.roughness = roughness, m.distribution = kind; }));
+      expectWhite(with<Coated>(
+          [&](Coated& m) { m.diffuse = Color(1), m.roughness = roughness, m.distribution = kind; }));
+    }
+  for (const Real metallic : {0.0, 1.0})
+    expectWhite(with<Principled>([&](Principled& m) { m.color = Color(1), m.metallic = metallic; }));
+  expectWhite(with<Lambert>([](Lambert& m) { m.diffuse = Color(1); }));
+}
+
+TEST(Materials, MetalsMirrorAsMeasured) {
+  EXPECT_NEAR(fresnelConductor(1, 0.2, 3.9), 0.951952, 1e-6);
+  const auto color = [](Metal metal) {
+    Conductor conductor;
+    conductor.metal = metal, conductor.color = Color(1);
+    return conductor.mirrored(1);
+  };
+  const Color aluminium = color(Metal::aluminium), gold = color(Metal::gold), copper = color(Metal::copper);
+  EXPECT_GT(aluminium.g, 0.91);
+  EXPECT_LT(aluminium.g, 0.925);
+  EXPECT_NEAR(gold.r, 0.98, 1e-3);
+  EXPECT_NEAR(gold.g, 0.7823, 1e-3);
+  EXPECT_NEAR(gold.b, 0.3435, 1e-3);
+  EXPECT_GT(copper.r, copper.g * 1.3) << "red";
+  EXPECT_GT(copper.g, copper.b) << "rather than pink";
+}
+
+TEST(Materials, SmoothOnesOnlyMirror) {
+  const Bsdf mirror = with<Conductor>([](Conductor& m) { m.color = Color(0.5), m.roughness = 0; });
+  EXPECT_FALSE(scatters(mirror));
+  EXPECT_TRUE(mirrorIsExact(mirror));
+  EXPECT_NEAR(mirrorWeight(mirror, 1).r, 0.5, 1e-12);
+  EXPECT_NEAR(mirrorWeight(mirror, 0).r, 1, 1e-12);
+  EXPECT_FALSE(sample(mirror, kFrame, world({0, 0, 1}), 0.5, {0.5, 0.5}));
+  const Bsdf varnish = with<Coated>([](Coated& m) { m.diffuse = Color(1), m.roughness = 0; });
+  EXPECT_NEAR(mirrorWeight(varnish, 1).r, 0.04, 1e-12);
+  for (const Real cosine : {1.0, 0.3}) {
+    const Real base = albedo(varnish, world(local(cosine, 0))).r;
+    EXPECT_NEAR(base + mirrorWeight(varnish, cosine).r, 1, 0.005) << "what is not mirrored comes back evenly";
+  }
+}
+
+TEST(Fresnel, OfDielectrics) {
+  const auto at = [](Real degrees, Real before, Real behind) {
+    return fresnelDielectric(std::cos(degrees * kPi / 180), before, behind);
+  };
+  const Real expected[][2] = {{0, 0.04},      {30, 0.041523}, {45, 0.050240},
+                              {60, 0.089187}, {75, 0.253061}, {85, 0.612800}};
+  for (const auto& [degrees, share] : expected) EXPECT_NEAR(at(degrees, 1, 1.5), share, 1e-6) << degrees;
+  EXPECT_NEAR(at(56.30993, 1, 1.5), 0.073964, 1e-6) << "Brewster's angle";
+  EXPECT_EQ(at(41.811, 1.5, 1), 1);
+  EXPECT_LT(at(41.80, 1.5, 1), 1);
+  EXPECT_NEAR(at(19.47122063449069, 1.5, 1), at(30, 1, 1.5), 1e-12) << "the same from both sides";
+}
+
+}  // namespace
+}  // namespace trace
