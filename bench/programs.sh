@@ -2,13 +2,15 @@
 # Whole programs, start to end: `ray` on the scenes that the courses time, and against POV-Ray 3.7 on the same
 # scene in both languages. CPU time (user + system) of the process, one thread, the median; programs take turns.
 #
+# Those of textures look alike, and are not meant to be equal: noise is another in each program.
+#
 #   programs.sh BIN SHARED [--runs N] [--size PIXELS, against POV-Ray] [--json FILE]
 #
 # BIN holds ray and bench_scenes; SHARED is the folder of shared scenes and meshes.
 set -euo pipefail
 export LC_ALL=C
 
-bin="$(realpath "$1")" shared="$(realpath -m "$2")"
+bench="$(realpath "$(dirname "$0")")" bin="$(realpath "$1")" shared="$(realpath -m "$2")"
 shift 2
 runs=5 size=400 json=
 while (($#)); do
@@ -93,7 +95,7 @@ courses() {
 rayLikePov=(--like uw --highlight phong --air-index 1 --pixel-position center --rounding nearest)
 
 povray37() {
-  local pass scene pairs=(analytic) meshes=()
+  local pass scene pairs=(analytic textures) meshes=()
   command -v povray >/dev/null || { say "SKIPPED POV-Ray: it is not installed"; return 0; }
   if [[ -f "$shared/meshes/bunny.ply" ]]; then
     pairs+=(bunny) meshes+=("$shared/meshes/bunny.ply")
@@ -101,6 +103,7 @@ povray37() {
     say "SKIPPED bunny: there is no $shared/meshes/bunny.ply"
   fi
   "$bin/bench_scenes" "$work" "${meshes[@]}"
+  cp "$bench/textures.ray" "$bench/textures.pov" "$work"
   cd "$work"  # POV-Ray reads and writes only near here
   for ((pass = 0; pass < runs; ++pass)); do
     for scene in "${pairs[@]}"; do

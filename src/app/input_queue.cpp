@@ -8,7 +8,7 @@ namespace {
 using Kind = InputEvent::Kind;
 
 /// What a frame has taken so far.
-class Frame {
+class OneFrame {
  public:
   /// False if the event has to wait for the next frame.
   bool take(const InputEvent& event) {
@@ -67,7 +67,7 @@ void InputQueue::add(const InputEvent& event) {
 
 std::vector<InputEvent> InputQueue::takeFrame() {
   std::vector<InputEvent> taken;
-  Frame frame;
+  OneFrame frame;
   while (!events_.empty() && frame.take(events_.front())) {
     taken.push_back(events_.front());
     events_.pop_front();

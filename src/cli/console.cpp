@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "base/printable.h"
 #include "base/text.h"
@@ -55,7 +58,14 @@ void Console::print(std::span<const Message> messages, std::string_view kind) co
 }
 
 void Console::warnings(std::span<const Message> messages) const {
-  if (shows(LogLevel::warning)) print(messages, "warning");
+  if (!shows(LogLevel::warning)) return;
+  std::vector<Message> sorted(messages.begin(), messages.end());
+  // In the order of each file, and last what concerns all of it.
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Message& a, const Message& b) {
+    const auto key = [](const Place& p) { return std::pair(p.line > 0 ? p.line : INT_MAX, p.column); };
+    return std::pair(a.place.file, key(a.place)) < std::pair(b.place.file, key(b.place));
+  });
+  print(sorted, "warning");
 }
 
 void Console::error(const Error& error) const {

@@ -68,6 +68,15 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y");
   const int sample =
       arguments.sample.empty() ? 0 : wholeNumbers<1>("--sample", arguments.sample, "a whole number")[0];
+  for (const Choice& choice : arguments.choices) {
+    if (choice.option != "region") continue;
+    Settings given;
+    findOption("region").assign(given, choice.value);
+    const Region& r = given.region;
+    if (!r.whole() && !(r.x0 <= x && x < r.x1 && r.y0 <= y && y < r.y1))
+      throw Error(Fault::usage, "--pixel " + arguments.pixel + " lies outside of --region " + choice.value,
+                  "pixels are counted from the top left of the whole picture");
+  }
   const std::string_view format = formatOf(arguments);
   if (format == "png" && arguments.output.empty())
     throw Error(Fault::usage, "ray explain --format png: expected the name of a file, found none",

@@ -172,6 +172,9 @@ class Writer {
                        json["object"] = object(w.object, w.materials), json["distance"] = w.t;
                        json["limit"] = w.limit;
                      },
+                     [&](const Culled& w) {
+                       json["object"] = object(w.object, w.materials), json["distance"] = w.t;
+                     },
                      [&](const Blocked& w) {
                        json["object"] = object(w.object, w.materials), json["part"] = w.part;
                        json["distance"] = w.t;

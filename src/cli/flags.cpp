@@ -325,6 +325,7 @@ std::span<const ShortFlag> shortFlags() {
       ShortFlag{'w', "width", "", ""},
       ShortFlag{'r', "depth", "", ""},
       ShortFlag{'t', "threads", "", ""},
+      ShortFlag{'c', "environment", "", ""},
       ShortFlag{'b', "accel", "bvh", "acceleration on"},
       ShortFlag{'B', "accel", "none", "acceleration off"},
       ShortFlag{'a', "spp", "9", "anti-aliasing on"},

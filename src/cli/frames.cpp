@@ -6,9 +6,11 @@
 
 #include "app/remaining_time.h"
 #include "base/budget.h"
+#include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"
+#include "formats/ray/ray_format.h"
 #include "image/codec.h"
 
 namespace trace::cli {
@@ -74,6 +76,15 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   pictureFormatFor(pattern);
+  for (const Choice& choice : arguments.choices)
+    if (choice.option == "time")
+      throw Error(Fault::usage, "--frames and --time cannot be given together",
+                  "a frame shows the moment of its number divided by --fps");
+  const std::string& scene = arguments.files[0];
+  if (arguments.frames.size() > 1 && !changesWithTime(scene, readFile(scene)))
+    console.line(LogLevel::warning, "warning: nothing in " + scene +
+                                        " changes with time, so all frames are the same picture; key(...) in "
+                                        "the scene makes a value change (docs/animation.md)");
   if (arguments.frames.size() > 1 && pattern.find('#') == std::string::npos)
     throw Error(Fault::usage,
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",

@@ -62,69 +62,9 @@ constexpr std::uint32_t mixBits32(std::uint32_t v) {
   return v ^ (v >> 16);
 }
 
-namespace detail {
-
-/// The slopes of lattice points: in 3 and 4 dimensions toward the edges of the cube, as Perlin has them, in 2
-/// the corners and sides of a square, all equally long; in 1 from -2 to 2.
-template <int N>
-constexpr auto slopes() {
-  constexpr int kCount = N == 1 ? 16 : N == 2 ? 8 : N == 3 ? 16 : 32;
-  std::array<std::array<Real, N>, kCount> all{};
-  if constexpr (N == 1) {
-    for (int i = 0; i < kCount; ++i) all[i][0] = (i < 8 ? i - 8 : i - 7) / 4.0;
-  } else if constexpr (N == 2) {
-    constexpr Real kSide = 1.41421356237309504880;
-    for (int i = 0; i < 4; ++i) {
-      all[i] = {i & 1 ? -1.0 : 1.0, i & 2 ? -1.0 : 1.0};
-      all[4 + i][i / 2] = i & 1 ? -kSide : kSide;
-    }
-  } else {
-    constexpr int kEach = 1 << (N - 1);  // edges along one axis; Perlin repeats four of 3 dimensions
-    for (int i = 0; i < kCount; ++i) {
-      const int along = i / kEach < N ? i / kEach : 0;
-      for (int axis = 0, bit = 0; axis < N; ++axis)
-        if (axis != along) all[i][axis] = (i % kEach) >> bit++ & 1 ? -1 : 1;
-    }
-  }
-  return all;
-}
-template <int N>
-inline constexpr auto kSlopes = slopes<N>();
-
-}  // namespace detail
-
 /// Gradient noise in N dimensions, 1 to 4: smooth, 0 where all coordinates are whole, between about -1 and 1,
 /// with mean 0. `period`, if given, is after how many whole steps it repeats along each axis; 0 for never.
 template <int N>
-Real gradientNoise(const std::array<Real, N>& p, std::uint32_t seed, const std::int64_t* period = nullptr) {
-  Real rest[N], fade[N];
-  std::uint32_t bits[N][2];
-  for (int axis = 0; axis < N; ++axis) {
-    const Lattice at(p[axis]);
-    const Real t = rest[axis] = at.rest;
-    fade[axis] = t * t * t * (t * (t * 6 - 15) + 10);
-    std::int64_t low = at.whole, high = low + 1;
-    if (period && period[axis] > 0) {
-      low %= period[axis];
-      if (low < 0) low += period[axis];
-      high = low + 1 == period[axis] ? 0 : low + 1;
-    }
-    bits[axis][0] = axisBits(low, axis), bits[axis][1] = axisBits(high, axis);
-  }
-  constexpr int kCorners = 1 << N;
-  constexpr auto& kSlopes = detail::kSlopes<N>;
-  Real v[kCorners];
-  for (int corner = 0; corner < kCorners; ++corner) {
-    std::uint32_t cell = seed;
-    for (int axis = 0; axis < N; ++axis) cell += bits[axis][corner >> axis & 1];
-    const auto& slope = kSlopes[(mixBits32(cell) >> 16) % kSlopes.size()];
-    Real sum = 0;
-    for (int axis = 0; axis < N; ++axis) sum += slope[axis] * (rest[axis] - (corner >> axis & 1));
-    v[corner] = sum;
-  }
-  for (int axis = N - 1; axis >= 0; --axis)
-    for (int i = 0; i < 1 << axis; ++i) v[i] += fade[axis] * (v[i + (1 << axis)] - v[i]);
-  return v[0];
-}
+Real gradientNoise(const std::array<Real, N>& p, std::uint32_t seed, const std::int64_t* period = nullptr);
 
 }  // namespace trace

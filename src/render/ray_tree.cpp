@@ -47,35 +47,39 @@ std::string named(std::string_view keyword, const Place& place) {
 std::string outside(const RayNode& node) { return node.outside ? sentence(*node.outside) : "background"; }
 
 std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
-  return match(end,
-               Overloaded{[&](const LeftScene&) { return "left the scene: " + outside(node); },
-                          [&](const CutOff& e) {
-                            return objectName(scene, e.object) + " at distance " + shortText(e.t, 6) +
-                                   (e.t < e.limit ? " is nearer than the camera's near "
-                                                  : " is farther than the camera's far ") +
-                                   toText(e.limit) + ": " + outside(node);
-                          },
-                          [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
-                          [](const DepthLimit& e) {
-                            return "depth limit " + std::to_string(e.limit) + " reached: no " +
-                                   kindName(e.unsent);
-                          },
-                          [](const BelowThreshold& e) {
-                            if (e.contribution == 0) return "contribution 0: no " + kindName(e.unsent);
-                            return "contribution " + toText(e.contribution) + " below threshold " +
-                                   toText(e.threshold) + ": no " + kindName(e.unsent);
-                          },
-                          [](const TotalInternalReflection&) -> std::string {
-                            return "total internal reflection: no refraction";
-                          },
-                          [&](const Blocked& e) { return "blocked by " + objectName(scene, e.object); },
-                          [&](const ReachedLight&) -> std::string {
-                            if (node.filters.empty()) return "reached the light";
-                            std::string names;
-                            for (const Filter& filter : node.filters)
-                              names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
-                            return "reached the light, filtered by " + names;
-                          }});
+  return match(
+      end, Overloaded{[&](const LeftScene&) { return "left the scene: " + outside(node); },
+                      [&](const CutOff& e) {
+                        return objectName(scene, e.object) + " at distance " + shortText(e.t, 6) +
+                               (e.t < e.limit ? " is nearer than the camera's near "
+                                              : " is farther than the camera's far ") +
+                               toText(e.limit) + ": " + outside(node);
+                      },
+                      [&](const Culled& e) {
+                        return "passed through the back of " + objectName(scene, e.object) + " at distance " +
+                               shortText(e.t, 6) + ", which --back-faces hides: " + outside(node);
+                      },
+                      [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
+                      [](const DepthLimit& e) {
+                        return "depth limit " + std::to_string(e.limit) + " reached: no " +
+                               kindName(e.unsent);
+                      },
+                      [](const BelowThreshold& e) {
+                        if (e.contribution == 0) return "contribution 0: no " + kindName(e.unsent);
+                        return "contribution " + toText(e.contribution) + " below threshold " +
+                               toText(e.threshold) + ": no " + kindName(e.unsent);
+                      },
+                      [](const TotalInternalReflection&) -> std::string {
+                        return "total internal reflection: no refraction";
+                      },
+                      [&](const Blocked& e) { return "blocked by " + objectName(scene, e.object); },
+                      [&](const ReachedLight&) -> std::string {
+                        if (node.filters.empty()) return "reached the light";
+                        std::string names;
+                        for (const Filter& filter : node.filters)
+                          names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
+                        return "reached the light, filtered by " + names;
+                      }});
 }
 
 }  // namespace

@@ -47,6 +47,13 @@ struct CutOff {
   Real limit;                            ///< the camera's near, if that is more than t, or its far
   std::vector<MaterialShare> materials;  ///< there
 };
+/// Met only faces that --back-faces hides from it: the background.
+struct Culled {
+  static constexpr std::string_view kName = "culled";
+  std::uint32_t object;  ///< the nearest of them
+  Real t;
+  std::vector<MaterialShare> materials;  ///< there
+};
 /// The surface sends no ray on.
 struct Opaque {
   static constexpr std::string_view kName = "opaque";
@@ -78,8 +85,8 @@ struct Blocked {
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };
-using RayEnd = std::variant<LeftScene, CutOff, Opaque, DepthLimit, BelowThreshold, TotalInternalReflection,
-                            Blocked, ReachedLight>;
+using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, BelowThreshold,
+                            TotalInternalReflection, Blocked, ReachedLight>;
 
 // --- what a ray brings back ---
 

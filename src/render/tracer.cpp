@@ -19,7 +19,9 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       materials(world.materialMix(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object)),
-      convex(world.convex(object)) {}
+      convex(world.convex(object)) {
+  world.bump(ray, *this);
+}
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
   count(kind);
@@ -32,7 +34,7 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
       RayNode& node = finish();
       node.ends.push_back(
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
-                : LeftScene{});
+                : hiddenFrom(ray, kind));
       if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray.direction, kind);
     }
     return std::nullopt;
@@ -45,6 +47,14 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
     return hit;
   }
   return std::optional<Hit>(std::in_place, world_, ray, *found);
+}
+
+RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
+  Statistics uncounted;
+  if (facesSeenBy(kind) == Faces::both) return LeftScene{};
+  const auto hidden = world_.closest(ray, Faces::both, uncounted);
+  if (!hidden) return LeftScene{};
+  return Culled{hidden->object, hidden->t, sharesOf(world_.materialMix(*hidden))};
 }
 
 bool Tracer::tooNear(const Ray& ray) const {

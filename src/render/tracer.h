@@ -65,6 +65,8 @@ class Tracer {
   std::uint64_t testsSoFar() const;
 
   Faces facesSeenBy(RayKind kind) const;
+  /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
+  RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
   Color passed(const Ray& ray, Real distance);
   std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;
 

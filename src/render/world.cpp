@@ -164,7 +164,12 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
   for (const Material& material : scene.materials)
-    for (const FieldTexture& t : material.textures) world.wantsFootprints_ |= wantsFootprint(t.texture);
+    for (const FieldTexture& t : material.textures) {
+      const bool footprint = wantsFootprint(t.texture);
+      world.wantsFootprints_ |= footprint;
+      world.footprintsInUv_ |= footprint && wantsUv(t.texture);
+      world.hasBumps_ |= t.field == "bump";
+    }
 
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {

@@ -102,6 +102,10 @@ class World {
   }
   /// Some texture is filtered by footprint: rays should have Differentials.
   bool wantsFootprints() const { return wantsFootprints_; }
+  /// Bends the normal for shading by the material's bump texture, if it has one; `ray` found the place.
+  void bump(const Ray& ray, Hit& hit) const {
+    if (hasBumps_) bend(ray, hit);
+  }
   /// `ray` is the ray that found the place.
   PlaceBsdf bsdfAt(const Ray& ray, const Found& found) const;
   /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
@@ -235,8 +239,10 @@ class World {
   TexturePlace place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
                      const Differentials* arrived) const;
 
+  void bend(const Ray& ray, Hit& hit) const;
+
   std::vector<Surface> surfaces_;  ///< of the scene's materials
-  bool wantsFootprints_ = false;
+  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

@@ -89,6 +89,7 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   if (!arrived) return place;
   place.pointX = linear(in, arrived->originX);
   place.pointY = linear(in, arrived->originY);
+  if (!footprintsInUv_) return place;
   if (const auto& mesh = objects_[object].mesh) {  // with gradients in the space of the object
     const Gradients g = gradientsOf(mesh->data(), static_cast<std::uint32_t>(part));
     place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};

@@ -429,7 +429,7 @@ const std::array kTable{
          .group = "Background",
          .help = "picture all around the scene, seen by camera rays and in mirrors and glass: a file, or a "
                  "folder with the six faces of a cube",
-         .source = "Blinn and Newell 1976; Austin's cube maps",
+         .source = "Blinn and Newell 1976; Austin: -c",
          .repeats = Repeats::world}),
     row<&Settings::environmentKind>(
         {.name = "environment-kind",

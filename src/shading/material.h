@@ -55,7 +55,14 @@ struct Material {
 
   std::string name;
   MaterialModel model;
-  std::vector<FieldTexture> textures{};  ///< of its model's fields
+  std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
+  Real bump = 0;                         ///< its texture bends the normal for shading
+
+  /// What a material has whatever its model.
+  static constexpr auto fields() {
+    return std::tuple{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
+                            "how high the surface seems to stand where the texture that it scales is white"}};
+  }
   bool operator==(const Material&) const = default;
 };
 

@@ -71,15 +71,34 @@ Color Texture::at(const TextureNode& node, const TexturePlace& place) {
   });
 }
 
+namespace {
+
+/// Whether asks(model) of the texture or of one in it.
+template <class Ask>
+bool anyModel(const Texture& texture, const Ask& asks) {
+  return match(texture->model, asks) ||
+         std::any_of(texture->inputs.begin(), texture->inputs.end(),
+                     [&](const FieldTexture& input) { return anyModel(input.texture, asks); });
+}
+
+}  // namespace
+
 bool wantsFootprint(const Texture& texture) {
-  const bool itself = match(texture->model, [](const auto& model) {
+  return anyModel(texture, [](const auto& model) {
     if constexpr (requires { model.wantsFootprint(); })
       return model.wantsFootprint();
     else
-      return false;
+      return requires { model.octaves; };
   });
-  return itself || std::any_of(texture->inputs.begin(), texture->inputs.end(),
-                               [](const FieldTexture& input) { return wantsFootprint(input.texture); });
+}
+
+bool wantsUv(const Texture& texture) {
+  return anyModel(texture, [](const auto& model) {
+    if constexpr (requires { model.space; })
+      return model.space == TextureSpace::uv;
+    else
+      return requires { model.wantsUv(); };
+  });
 }
 
 std::string summary(const Texture& texture) {

@@ -7,8 +7,9 @@
 //   Real pattern(const TexturePlace&) const;    0 is a, 1 is b
 //   Color shade(Real pattern) const;
 // so that a texture in place of one is not asked where only the other is seen.
-// One that looks at the footprint adds
+// One that looks at the footprint, or at u and v without a field `space`, says so; sums of octaves always do:
 //   bool wantsFootprint() const;
+//   bool wantsUv() const;
 #pragma once
 
 #include <algorithm>
@@ -118,6 +119,9 @@ inline Texture pictureTexture(std::string file, Place place = {}) {
 
 /// It, or a texture in it, looks at how large a part of the surface a place stands for.
 bool wantsFootprint(const Texture& texture);
+
+/// It, or a texture in it, looks at u and v.
+bool wantsUv(const Texture& texture);
 
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);

@@ -131,5 +131,36 @@ TEST_F(Convert, SaysWhatItCannotDo) {
   EXPECT_EQ(readFile(path("white.ray")), scene);
 }
 
+TEST_F(Convert, SaysWhatIsLeftOut) {
+  write("all.ray",
+        "SBT-raytracer 1.0\ncamera { position=(0,0,9); viewdir=(0,0,-1); updir=(0,1,0); }\n"
+        "point_light { position=(0,0,5); color=(1,1,1); }\nbackground { color = (0, 0, 1); }\n"
+        "sphere { material = { diffuse = checker { }; } }\n");
+  const std::string rest =
+      "left out, as the format has none of them: the camera, the light, the background and the "
+      "textures of 1 material";
+  for (const char* file : {"all.obj", "all.ply"}) {
+    const auto r = run({"convert", "all.ray", file});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(test::contains(r.err, rest)) << r.err;
+  }
+  EXPECT_TRUE(test::contains(run({"convert", "all.ray", "all.out"}).err, "the background is left out"));
+  EXPECT_FALSE(test::contains(run({"convert", "tri.off", "tri.ply"}).err, "left out"));
+}
+
+TEST_F(Convert, WarningsStandInTheOrderOfTheFile) {
+  write("order.ray",
+        "SBT-raytracer 1.0\nsphere { wobble = 1; }\nbox { material = { diffuse = (7, 0, 0); } }\n"
+        "cone { wibble = 1; }\nsphere { wobble = 2; }\n");
+  const std::string err = run({"render", "order.ray", "-w", "4"}).err;
+  std::size_t last = 0;
+  for (const char* line : {":2:", ":3:", ":4:"}) {
+    const std::size_t at = err.find(line);
+    EXPECT_NE(at, std::string::npos) << err;
+    EXPECT_GT(at, last) << err;
+    last = at;
+  }
+}
+
 }  // namespace
 }  // namespace trace

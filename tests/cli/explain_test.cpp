@@ -204,5 +204,33 @@ TEST_F(Explain, LintTellsWhatReadingRepaired) {
   EXPECT_NE(out({"lint", scene}, 6).find("without area"), std::string::npos);
 }
 
+TEST_F(Explain, NamesWhatBackFacesHides) {
+  const std::string scene = folder / "away.ray";
+  writeFile(scene,
+            "SBT-raytracer 1.0\ncamera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }\n"
+            "directional_light { direction = (0, 0, -1); color = (1, 1, 1); }\n"
+            "polymesh { name = sail; points = ((-9,-9,0), (9,-9,0), (0,9,0)); faces = ((0,2,1)); }\n");
+  const std::vector<std::string> words{"explain", scene, "--pixel", "4,4", "-w", "8"};
+  EXPECT_EQ(out(words).find("passed through"), std::string::npos);
+  std::vector<std::string> culled = words;
+  culled.insert(culled.end(), {"--back-faces", "cull-all"});
+  const std::string text = out(culled);
+  EXPECT_NE(text.find("passed through the back of sail at distance 5, which --back-faces hides: background"),
+            std::string::npos)
+      << text;
+  culled.insert(culled.end(), {"--format", "json"});
+  const json end = json::parse(out(culled))["rays"][0]["ends"][0];
+  EXPECT_EQ(end["why"], "culled");
+  EXPECT_EQ(end["object"]["name"], "sail");
+}
+
+TEST_F(Explain, APixelOutsideOfTheRegionIsRefused) {
+  const std::string scene = kScenes + "shapes.ray";
+  EXPECT_NE(error({"explain", scene, "--pixel", "9,9", "-w", "20", "--region", "0,0,9,9"}, 2)
+                .find("--pixel 9,9 lies outside of --region 0,0,9,9"),
+            std::string::npos);
+  EXPECT_NE(out({"explain", scene, "--pixel", "8,8", "-w", "20", "--region", "0,0,9,9"}), "");
+}
+
 }  // namespace
 }  // namespace trace::test

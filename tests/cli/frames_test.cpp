@@ -143,5 +143,16 @@ TEST_F(Frames, CtrlCLeavesFinishedFrames) {
   }
 }
 
+TEST_F(Frames, SayThatNothingMovesOrThatTheTimeIsTheirs) {
+  write("still.ray", std::string(kGlow) + "sphere { }");
+  const Run still = run({"still.ray", "-w", "8", "--frames", "0-1", "-o", "s.#.png"});
+  EXPECT_EQ(still.code, 0) << still.err;
+  EXPECT_TRUE(contains(still.err, "nothing in still.ray changes with time")) << still.err;
+  EXPECT_FALSE(contains(render().err, "changes with time"));
+  const Run timed = run({"still.ray", "-w", "8", "--frames", "0-1", "--time", "2", "-o", "s.#.png"});
+  EXPECT_EQ(timed.code, 2);
+  EXPECT_TRUE(contains(timed.err, "--frames and --time cannot be given together")) << timed.err;
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -264,11 +264,12 @@ class StopGrade : public Stop {
     write("scenes/a.ray", kWhite);
     write("scenes/b.ray", kPanes);
     write("scenes/c.ray", kWhite);
-    for (const char* name : {"a", "b", "c"}) writePicture(path("ref/" + std::string(name) + ".png"), Picture(8, 8));
+    for (const char* name : {"a", "b", "c"})
+      writePicture(path("ref/" + std::string(name) + ".png"), Picture(8, 8));
   }
   static std::vector<std::string> words(std::vector<std::string> more) {
-    std::vector<std::string> all{"grade", "scenes", "--reference", "ref", "--render", "-w", "8", "-r", "60", "-o",
-                                 "page.html"};
+    std::vector<std::string> all{"grade", "scenes", "--reference", "ref", "--render", "-w",
+                                 "8",     "-r",     "60",          "-o",  "page.html"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -282,7 +283,8 @@ TEST_F(StopGrade, TimeLimitKeepsWhatWasCompared) {
   EXPECT_EQ(r.code, 5) << r.err;
   EXPECT_NE(r.out.find("not reached  b.png"), std::string::npos) << r.out;
   EXPECT_NE(r.out.find("beyond       a.png"), std::string::npos) << r.out;
-  EXPECT_NE(r.err.find("2 of 3 pairs not reached: the time limit of 1 s is over"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("2 of 3 pairs not reached: the time limit of 1 s is over"), std::string::npos)
+      << r.err;
   EXPECT_NE(page().find("not reached"), std::string::npos);
 }
 

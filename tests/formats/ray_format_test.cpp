@@ -440,9 +440,23 @@ TEST(RayFormat, ReadsBackgroundsAndHorizontalAngles) {
   EXPECT_EQ(load("background { color = (0.1, 0.2, 0.3); }").scene.background.colors,
             (std::vector<Color>{{0.1, 0.2, 0.3}}));
   const Background bands = load("background { colors = ((1,0,0), 0.5); limits = (0.25); }").scene.background;
-  EXPECT_EQ(bands, (Background{{{1, 0, 0}, Color(0.5)}, {0.25}}));
+  EXPECT_EQ(bands.colors, (std::vector<Color>{{1, 0, 0}, Color(0.5)}));
+  EXPECT_EQ(bands.limits, (std::vector<Real>{0.25}));
   EXPECT_EQ(errorsOf("background { colors = (1, 1); limits = (0.5, 0.75); }"),
             "2:12: background: expected one limit less than colors, found 2 and 2");
+  const Background sky =
+      load("background { gradient = ((1,0,0), 0.5); elevations = (-10, 90); turbidity = 3; sun = (0,1,0); }")
+          .scene.background;
+  EXPECT_EQ(sky.gradient, (std::vector<Color>{{1, 0, 0}, Color(0.5)}));
+  EXPECT_EQ(sky.elevations, (std::vector<Real>{-10, 90}));
+  EXPECT_EQ(sky.turbidity, 3);
+  EXPECT_EQ(sky.sun, (Vec3{0, 1, 0}));
+  EXPECT_EQ(errorsOf("background { gradient = (1, 1); elevations = (0); }"),
+            "2:12: background: expected an elevation for each color of the gradient, found 1 and 2");
+  EXPECT_EQ(errorsOf("background { gradient = (1, 1); elevations = (5, 5); }"),
+            "2:12: background: expected elevations that ascend, from -90 to 90 degrees");
+  EXPECT_EQ(errorsOf("background { turbidity = 2; sun = (0, 0, 0); }"),
+            "2:12: background: expected a direction to the sun, found (0, 0, 0)");
   EXPECT_EQ(errorsOf("background { colors = 1; }"),
             "2:23: colors: expected a list ((red, green, blue), (red, green, blue), ...), found 1");
   EXPECT_EQ(errorsOf("background { limits = ((1, 2)); }"), "2:24: limits: expected a number, found (1, 2)");

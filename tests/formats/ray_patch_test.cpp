@@ -126,6 +126,21 @@ TEST(RayPatch, SettingsAreChangedOrAdded) {
             "settings { like = uw2001; width = 7; } sphere { }");
 }
 
+TEST(RayPatch, FilesOfSettingsAreWrittenSoThatTheyAreFound) {
+  EXPECT_EQ(after("sphere { }", [](Scene& s) { s.choices = {{"environment", "/sky/a b.hdr", {}}}; }),
+            "settings { environment = \"/sky/a b.hdr\"; }\nsphere { }");
+  EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
+                  [](Scene& s) { s.choices = {{"backdrop", "none", {}}}; }),
+            "settings { backdrop = none; } sphere { }");
+  // The same file by the name that the program has for it: the text stays.
+  EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
+                  [](Scene& s) {
+                    const std::string resolved = resolve({s.choices}).backdrop.path;
+                    s.choices = {{"backdrop", resolved, {}}};
+                  }),
+            "settings { backdrop = \"b.png\"; } sphere { }");
+}
+
 TEST(RayPatch, DirectionsReplaceWhatSaidThemBefore) {
   const Edit turn = [](Scene& s) { s.camera.viewdir = {1, 0, 0}; };
   EXPECT_EQ(after("camera { position = (0,0,5); look_at = (0,0,0); } sphere { }", turn),
@@ -142,6 +157,10 @@ TEST(RayPatch, DirectionsReplaceWhatSaidThemBefore) {
   EXPECT_EQ(
       after("background { color = (0, 0, 1); } sphere { }", [](Scene& s) { s.background.colors[0].r = 0.5; }),
       "background { color = (0.5, 0, 1); } sphere { }");
+  EXPECT_EQ(after("sphere { }", [](Scene& s) { s.background.turbidity = 3; }),
+            "background { turbidity = 3; }\nsphere { }");
+  EXPECT_EQ(after("background { turbidity = 3; } sphere { }", [](Scene& s) { s.background.sun = {0, 1, 0}; }),
+            "background { turbidity = 3; sun = (0, 1, 0); } sphere { }");
 }
 
 // --- transforms -------------------------------------------------------------------------------------------

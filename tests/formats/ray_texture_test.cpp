@@ -29,6 +29,92 @@ TEST(RayTexture, StandsInPlaceOfAConstant) {
   EXPECT_EQ(phongOf(material).shininess, 40);
 }
 
+Real other(Real value) { return value / 2 + 0.125; }
+int other(int value) { return value + 1; }
+bool other(bool value) { return !value; }
+Color other(const Color& c) { return {other(c.r), other(c.g), other(c.b)}; }
+Vec3 other(const Vec3& v) { return {other(v.x), other(v.y), other(v.z)}; }
+ColorRamp other(const ColorRamp&) { return {{0.25, 1, 0, 0}, {0.5, 0, 1, 0.5}}; }
+std::array<Real, 6> other(const std::array<Real, 6>&) { return {1, 2, 3, 4, 5, 6}; }
+Pixels other(const Pixels&) { return {"a.png", nullptr, {}}; }
+FormulaText other(const FormulaText&) { return FormulaText("x + u"); }
+template <class Enum>
+requires std::is_enum_v<Enum> Enum other(Enum value) {
+  EnumValue any(value);
+  any.set(any.names().size() - 1);
+  return value;
+}
+
+// Every field of every texture, and a placement.
+TEST(RayTexture, OfEveryKindIsWrittenAsItIsRead) {
+  forEachType<TextureModel>([](auto* type) {
+    using Model = std::remove_pointer_t<decltype(type)>;
+    SCOPED_TRACE(std::string(Model::kKeyword));
+    Model model;
+    forEachField<Model>([&](const auto& f) { model.*f.member = other(model.*f.member); });
+    Scene scene = load("sphere {}").scene;
+    scene.materials.at(0).textures = {
+        {"diffuse", TextureNode{.model = model, .placement = {.scale = {1, 2, 3}, .translate = {4, 5, 6}}}}};
+    Messages messages;
+    const std::string written = writeRay(scene, "b.ray", {}, messages).at(0).bytes;
+    const Scene back = readScene("b.ray", written, messages);
+    EXPECT_EQ(back.materials, scene.materials) << written;
+  });
+}
+
+// color (l + (1 - l) sin(f (x + ...))): brightest where f x is a quarter of a turn, black where it is three.
+TEST(RayTexture, ReadsTheMarbleOfStudents) {
+  const auto textures = texturesOf(
+      "diffuse = marble { color = (0.6, 0, 1); lightness = 0.5; contrast = 0; frequency = 25; scale = (1, 1, "
+      "2);"
+      " depth = 3; };");
+  const TextureNode& node = *textures.at(0).texture;
+  EXPECT_EQ(std::get<Marble>(node.model).octaves, 3);
+  EXPECT_EQ(std::get<Marble>(node.model).grain, (Vec3{1, 1, 2}));
+  const auto at = [&](Real turns) {
+    TexturePlace place;
+    place.point = {turns * 2 * kPi / 25, 3, 4};
+    return textures.at(0).texture.at(place);
+  };
+  for (const Real turn : {0.0, 1.0, 7.0}) {
+    EXPECT_NEAR(at(turn + 0.25).b, 1, 1e-9);
+    EXPECT_NEAR(at(turn + 0.75).b, 0, 1e-9);
+    EXPECT_NEAR(at(turn).b, 0.5, 1e-9);
+    EXPECT_NEAR(at(turn).r, 0.3, 1e-9);
+    EXPECT_EQ(at(turn).g, 0);
+  }
+  const auto dark = texturesOf("diffuse = marble { color = (1, 1, 1); lightness = 0.25; contrast = 0; };");
+  TexturePlace place;
+  place.point = {1.5 * kPi, 0, 0};
+  EXPECT_EQ(dark.at(0).texture.at(place).r, 0) << "never below black";
+}
+
+TEST(RayTexture, KnowsOtherNamesOfKinds) {
+  EXPECT_EQ(texturesOf("diffuse = checkerboard { a = (1, 0, 0); };"),
+            (std::vector<FieldTexture>{{"diffuse", kChecker}}));
+}
+
+TEST(RayTexture, SaysWhereAFormulaIsWrong) {
+  EXPECT_EQ(errorsOf("sphere { material = { diffuse = formula { red = \"x + w\"; } } }"),
+            "2:49: red: formula: expected x, y, z, u, v, pi or a function at character 5, found \"w\"");
+}
+
+TEST(RayTexture, BendsNormalsByHeights) {
+  const Scene scene = load(
+                          "sphere { material = { bump = texture(checker { a = (1, 0, 0); }, 0.1); } }\n"
+                          "sphere { material = { bump_mapping = bump(\"b.png\"); } }")
+                          .scene;
+  const auto material = [&](std::size_t i) { return scene.materials.at(scene.objects.at(i).material); };
+  EXPECT_EQ(material(0).bump, 0.1);
+  EXPECT_EQ(material(0).textures, (std::vector<FieldTexture>{{"bump", kChecker}}));
+  EXPECT_GT(material(1).bump, 0);
+  EXPECT_EQ(material(1).textures, (std::vector<FieldTexture>{{"bump", rayfile::mappedPicture("b.png")}}));
+  Messages messages;
+  const std::string written = writeRay(scene, "b.ray", {}, messages).at(0).bytes;
+  EXPECT_EQ(readScene("b.ray", written, messages).materials, scene.materials) << written;
+  EXPECT_NE(errorsOf("sphere { material = { bump = 0.5; } }"), "");
+}
+
 TEST(RayTexture, HasANameForOthers) {
   const Scene scene =
       load(

@@ -28,6 +28,7 @@ class Writer {
     view();
     for (const LightSource& source : scene_.lights)
       match(source.light, [&](const auto& light) { add(light); });
+    if (!(scene_.background == Background{})) warn("the background is left out: the format has none");
     for (const Object& object : scene_.objects) add(object);
     return std::move(file_);
   }
@@ -90,7 +91,8 @@ class Writer {
     const Phong p = phongOf(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     if (const Texture* texture = textureOf(scene_.materials[index].textures, "diffuse"))
-      if (const auto* image = std::get_if<ImageMap>(&(*texture)->model)) say(name, "texture=" + image->file.file);
+      if (const auto* image = std::get_if<ImageMap>(&(*texture)->model))
+        say(name, "texture=" + image->file.file);
     Color ambientLight;
     for (const LightSource& source : scene_.lights)
       if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambientLight += light->color;

@@ -199,6 +199,11 @@ class ObjReader : public tinyobj::MaterialReader {
       materialsMissing_ = true;
       return false;
     }
+    std::set<std::string> names;
+    for (const tinyobj::material_t& material : *materials)
+      if (!names.insert(material.name).second)
+        warnings_.warn(placeOfFile(name), "several materials of " + name + " are called \"" + material.name +
+                                              "\"; the last counts");
     for (const tinyobj::material_t& material : *materials) notePictures(material, besideFile(file_, name));
     for (std::size_t i = model_.materials.size(); i < materials->size(); ++i) {
       model_.materials.push_back(toMaterial((*materials)[i]));

@@ -1,5 +1,6 @@
 #include "formats/mesh/world_meshes.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -23,6 +24,24 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
   if (determinant(worldFromObject) < 0)
     for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
   return result;
+}
+
+/// Says what of the scene a file of meshes has no words for.
+void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
+  std::vector<std::string> parts;
+  if (!(scene.camera == Camera{})) parts.emplace_back("the camera");
+  if (const std::size_t n = scene.lights.size(); n > 0)
+    parts.push_back(n == 1 ? "the light" : "the " + std::to_string(n) + " lights");
+  if (!(scene.background == Background{})) parts.emplace_back("the background");
+  const auto textured = std::count_if(scene.materials.begin(), scene.materials.end(),
+                                      [](const Material& m) { return !m.textures.empty(); });
+  if (textured > 0)
+    parts.push_back("the textures of " + std::to_string(textured) +
+                    (textured == 1 ? " material" : " materials"));
+  std::string list;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  if (!list.empty()) messages.warn(place, "left out, as the format has none of them: " + list);
 }
 
 }  // namespace
@@ -54,6 +73,7 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
                 "a .ray file holds every shape");
   if (sampled) messages.warn(place, "shapes other than meshes become triangles");
   if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds);
+  warnOfTheRest(scene, place, messages);
   return meshes;
 }
 

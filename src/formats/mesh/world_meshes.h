@@ -16,8 +16,8 @@ struct WorldMesh {
   MeshData mesh;  ///< with generated normals, if it asks for them; triangles face outward again if mirrored
 };
 
-/// Other shapes become triangles. Warns of that, and of what has no end and is left out, by kinds. Throws
-/// Error(Fault::scene) if nothing is left.
+/// Other shapes become triangles. Warns of that, of camera, lights and the like, which no mesh has, and of
+/// what has no end and is left out, by kinds. Throws Error(Fault::scene) if nothing is left.
 std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages);
 
 /// The mesh with three points of its own for each triangle, and the faces' normals.

@@ -147,11 +147,17 @@ void Materials::field(Block& block, const Item& field) {
     block.gaveReflective = false, phong->mirrorsSpecular = true;
     return;
   }
+  const bool isNumber = field.value().is(Kind::number);
+  if (key == "bump" && !textures_.isTexture(field.value()) && !(isNumber && field.value().number() == 0))
+    return findings_.expected(field.value(), "bump",
+                              "a texture of heights, as in bump = texture(noise { }, 0.1), or 0");
   if (!pattern(block, field)) {
     const bool known = match(block.material.model, [&](auto& model) {
       return textures_.assign(model, block.material.textures, field, Material::kKeyword);
     });
-    if (!known) return unknownField(block, field);
+    if (!known && !textures_.assign(block.material, block.material.textures, field, Material::kKeyword) &&
+        !studentBump(block, field))
+      return unknownField(block, field);
     match(block.material.model, [&](const auto& model) {
       if constexpr (requires { model.index; })
         if (key == "index" && model.index == 0)
@@ -173,7 +179,7 @@ void Materials::unknownField(const Block& block, const Item& field) {
       return findings_.error(
           field,
           "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
-          "it has " + list(keywords<Model>({"name"}), "and"));
+          "it has " + list(keywords<Model>({"name", "bump"}), "and"));
     std::vector<std::string_view> having;
     forEachType<MaterialModel>([&]<class Other>(Other*) {
       forEachField<Other>([&](const auto& f) {
@@ -181,7 +187,7 @@ void Materials::unknownField(const Block& block, const Item& field) {
       });
     });
     if (having.empty())
-      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", kModel}));
+      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", "bump", kModel}));
     findings_.warn(field,
                    "unknown field \"" + std::string(key) +
                        "\" of material is ignored: it is one of model = " + list(having, "or"),
@@ -204,6 +210,24 @@ bool Materials::pattern(Block& block, const Item& field) {
   });
   if (known) findings_.notRendered(value.key(), value, {});
   return known;
+}
+
+/// `bump_mapping = bump("file")`, of a student at Austin: heights, of which only the differences from texel
+/// to texel counted. The height is ours.
+bool Materials::studentBump(Block& block, const Item& field) {
+  constexpr Real kHeight = 0.02;
+  const Item value = field.value();
+  if (field.key() != "bump_mapping" || !value.is(Kind::call) || value.key() != "bump") return false;
+  const Item tuple = value.value();
+  if (!tuple.is(Kind::tuple) || tuple.count() != 1 || !(*tuple.begin()).is(Kind::word)) {
+    findings_.expected(value, "bump_mapping", "bump(\"file\")");
+    return true;
+  }
+  setTexture(
+      block.material.textures, "bump",
+      mappedPicture(std::string((*tuple.begin()).text()), findings_.syntax().shortPlace(value.offset())));
+  block.material.bump = kHeight;
+  return true;
 }
 
 /// Whoever describes all looks of a material but that it is glass seldom wants the glass of another.

@@ -47,6 +47,7 @@ class Materials {
   void field(Block& block, const Item& field);
   void unknownField(const Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
+  bool studentBump(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);
 

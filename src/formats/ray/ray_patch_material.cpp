@@ -146,6 +146,11 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
       model.mirrorsSpecular = mirror.specular;
     }
   });
+  if (!fieldOf(block, "bump") && !fieldOf(block, "bump_mapping")) {
+    result.bump = from.bump;
+    if (const Texture* texture = textureOf(from.textures, "bump"))
+      setTexture(result.textures, "bump", *texture);
+  }
   return result;
 }
 
@@ -166,6 +171,8 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
         edits_.change(given->value(), valueText(wanted, f.keyword, value));
     });
   });
+  if (const auto given = fieldOf(block, "bump"); given && was.bump != wanted.bump)
+    edits_.change(given->value(), valueText(wanted, "bump", wanted.bump));
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
 }
 
@@ -203,6 +210,9 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
       if (mirror.specular != model.mirrorsSpecular)
         add("reflective", mirror.specular ? valueText(wanted, "reflective", model.reflective) : "specular");
   });
+  const bool sameBump = from.bump == wanted.bump && sameTexture(from, wanted, "bump");
+  if (!given("bump") && !given("bump_mapping") && !sameBump)
+    fields.push_back("bump = " + valueText(wanted, "bump", wanted.bump));
   return fields;
 }
 

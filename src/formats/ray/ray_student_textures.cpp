@@ -10,10 +10,9 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSynonyms{{{"checkerboard", "checker"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kSynonyms{{{"checkerboard", "checker"},
                                                                                   {"bricks", "brick"},
                                                                                   {"perlin", "noise"},
-                                                                                  {"turbulence", "noise"},
                                                                                   {"worley", "cells"},
                                                                                   {"voronoi", "cells"},
                                                                                   {"dots", "spots"}}};

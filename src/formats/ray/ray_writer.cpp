@@ -190,6 +190,7 @@ class Writer {
     if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
       item(kModel, std::string(keywordOf(material.model)));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
+    if (bumps_) modelFields(material, material);
     out_ += "}";
   }
 
@@ -323,6 +324,9 @@ class Writer {
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
   WrittenTextures writtenTextures_;
+  /// Some material has one, which others may have to take back.
+  bool bumps_ = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                            [](const Material& m) { return textureOf(m.textures, "bump") != nullptr; });
   std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 

@@ -27,6 +27,7 @@ struct Brick {
   }
   bool operator==(const Brick&) const = default;
 
+  bool wantsFootprint() const { return true; }
   Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const Real course = size.y > 0 ? static_cast<Real>(cellOf(p.at.y / size.y).whole) : 0;

@@ -20,6 +20,7 @@ struct Checker {
   }
   bool operator==(const Checker&) const = default;
 
+  bool wantsFootprint() const { return true; }
   Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     // The product of three waves of 1 and -1, each filtered along its axis.

@@ -52,6 +52,7 @@ struct Formula : PatternColors {
   }
   bool operator==(const Formula&) const = default;
 
+  bool wantsUv() const { return true; }
   /// Never below 0.
   Color at(const TexturePlace& place) const {
     if (!value.text().empty()) return shade(value.at(place));

@@ -57,6 +57,7 @@ struct ImageMap {
   }
   bool operator==(const ImageMap&) const = default;
 
+  bool wantsUv() const { return true; }
   bool wantsFootprint() const { return filter == TexelFilter::trilinear || filter == TexelFilter::ewa; }
   /// Black where nothing is loaded.
   Texel texelAt(const TexturePlace& place) const;

@@ -26,6 +26,7 @@ struct Spots {
   }
   bool operator==(const Spots&) const = default;
 
+  bool wantsFootprint() const { return true; }
   Real pattern(const TexturePlace& place) const {
     const PatternPlace p(place, space);
     const int axes = space == TextureSpace::uv ? 2 : 3;

@@ -1,0 +1,88 @@
+// Bump mapping: the normal for shading is that of the surface with the heights of a texture on it (Blinn,
+// Simulation of Wrinkled Surfaces, SIGGRAPH 1978), by the gradient of the heights along the surface
+// (Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU, 2010), for textures in space and in u and v
+// alike.
+#include "math/perpendicular.h"
+#include "render/world.h"
+#include "shading/optics.h"
+
+namespace trace {
+namespace {
+
+/// A ray that is mirrored there stays on its side of the true surface, and the eye sees the front.
+bool sane(const Vec3& normal, const Vec3& direction, const Vec3& trueNormal) {
+  const Real side = dot(direction, trueNormal) > 0 ? -1 : 1;
+  return dot(direction, normal) * side < 0 && dot(mirrored(direction, normal), trueNormal) * side > 0;
+}
+
+/// The bent normal, or, where a grazing ray would be mirrored into the surface, the most of it that is sane.
+Vec3 saneNormal(const Vec3& plain, const Vec3& bent, const Vec3& direction, const Vec3& trueNormal) {
+  if (sane(bent, direction, trueNormal)) return bent;
+  constexpr int kHalvings = 12;
+  Vec3 best = plain;
+  Real low = 0, high = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Real middle = (low + high) / 2;
+    const Vec3 between = normalize(plain * (1 - middle) + bent * middle);
+    if (sane(between, direction, trueNormal))
+      low = middle, best = between;
+    else
+      high = middle;
+  }
+  return best;
+}
+
+}  // namespace
+
+void World::bend(const Ray& ray, Hit& hit) const {
+  // The material's own textures and heights, up to three where a mesh mixes materials.
+  struct Part {
+    const Texture* texture;
+    Real height;
+  };
+  Part parts[3];
+  int count = 0;
+  bool inUv = false;
+  for (int i = 0; i < hit.materials.count; ++i) {
+    const std::uint32_t m = hit.materials.material[i];
+    const Material* material = m == MaterialMix::kClear ? nullptr : surfaces_[m].textured.get();
+    const Texture* texture = material ? textureOf(material->textures, "bump") : nullptr;
+    if (!texture) continue;
+    parts[count++] = {texture, material->bump * (hit.materials.count == 1 ? 1 : hit.materials.weight[i])};
+    inUv |= wantsUv(*texture);
+  }
+  if (count == 0) return;
+  const auto heightAt = [&](const TexturePlace& place) {
+    Real height = 0;
+    for (int i = 0; i < count; ++i) height += parts[i].height * luminance(parts[i].texture->at(place));
+    return height;
+  };
+
+  // Heights are measured in the space of the object, along steps a thousandth of its size.
+  const Instance& instance = objects_[hit.object];
+  const Affine& out = instance.placement.outFromIn();
+  const Affine& in = instance.placement.inFromOut();
+  const Real size = instance.bounds.unbounded() || instance.bounds.empty()
+                        ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
+                        : maxComponent(instance.bounds.size());
+  SurfacePoint& surface = hit.surface;
+  const Vec3 normal = normalize(transposed(out, surface.shading));
+  const Vec3 first = perpendicularTo(normal);
+  const SurfaceSlopes along = inUv ? slopes(hit) : SurfaceSlopes{};
+  const TexturePlace here = place(hit);
+  const Real height = heightAt(here);
+  Vec3 gradient;
+  for (const Vec3& tangent : {first, cross(normal, first)}) {
+    const Vec3 across = linear(out, tangent);  // of unit length in the object
+    const Real step = size * 0x1p-10 / length(across);
+    TexturePlace there = here;
+    there.point += tangent * step;
+    there.uv = {here.uv.x + dot(along.u, across) * step, here.uv.y + dot(along.v, across) * step};
+    gradient += tangent * ((heightAt(there) - height) / step);
+  }
+  if (gradient == Vec3{} || !isFinite(gradient)) return;
+  const Vec3 bent = normalize(transposed(in, normal - gradient));
+  surface.shading = saneNormal(surface.shading, bent, ray.direction, surface.normal);
+}
+
+}  // namespace trace

@@ -1,0 +1,110 @@
+// Normals bent by the heights of a texture, against those of surfaces whose shape is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/sphere.h"
+#include "render/tracer.h"
+#include "render/world.h"
+
+namespace trace {
+namespace {
+
+Material bumped(std::string formula, Real height) {
+  Formula heights;
+  heights.value = FormulaText(std::move(formula));
+  heights.ramp = {{-1000, -1000, -1000, -1000}, {1000, 1000, 1000, 1000}};  // the number itself
+  Material material;
+  material.textures = {{"bump", Texture(TextureNode{.model = heights})}};
+  material.bump = height;
+  return material;
+}
+
+struct Seen {
+  Scene scene;
+  World world;
+  explicit Seen(Scene s)
+      : scene(std::move(s)), world([&] {
+          Messages messages;
+          return compile(scene, Settings{}, messages);
+        }()) {}
+
+  /// Where the ray meets the one object.
+  SurfacePoint at(const Vec3& from, const Vec3& direction) const {
+    const Ray ray{from, normalize(direction)};
+    Statistics statistics;
+    const auto found = world.closest(ray, Faces::both, statistics);
+    EXPECT_TRUE(found.has_value());
+    return Hit(world, ray, *found).surface;
+  }
+};
+
+Seen seen(Shape shape, const Affine& worldFromObject, Material material) {
+  Scene scene;
+  scene.materials = {std::move(material)};
+  Object object{.shape = std::move(shape)};
+  object.worldFromObject = worldFromObject;
+  scene.objects = {std::move(object)};
+  return Seen(std::move(scene));
+}
+
+void expectNear(const Vec3& a, const Vec3& b, Real tolerance) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+TEST(Bump, IsTheNormalOfTheSurfaceWithTheHeightsOnIt) {
+  const Seen plane = seen(Plane{}, {}, bumped("sin(3*x) + 0.5*y", 0.1));
+  for (const Real x : {-1.0, 0.0, 0.3, 2.0}) {
+    const SurfacePoint p = plane.at({x, 0.2, 5}, {0, 0, -1});
+    expectNear(p.shading, normalize(Vec3{-0.3 * std::cos(3 * x), -0.05, 1}), 1e-3);
+    EXPECT_EQ(p.normal, (Vec3{0, 0, 1}));
+  }
+}
+
+// The heights are in the object's space: a plane stretched along x has gentler slopes there, as its shape
+// would.
+TEST(Bump, GrowsWithItsObject) {
+  const Seen plane = seen(Plane{}, Affine::scaling({4, 1, 2}), bumped("x + y", 0.25));
+  expectNear(plane.at({1, 1, 5}, {0, 0, -1}).shading, normalize(Vec3{-0.25 * 2 / 4, -0.25 * 2, 1}), 1e-6);
+}
+
+// cos of the angle to z, as a height on a sphere: its gradient is z less its part along the normal.
+TEST(Bump, FollowsCurvedSurfaces) {
+  const Seen ball = seen(Sphere{}, {}, bumped("z", 0.2));
+  const SurfacePoint p = ball.at({3, 0.3, 0.4}, {-1, 0, 0});
+  const Vec3 gradient = Vec3{0, 0, 1} - p.normal * p.normal.z;
+  expectNear(p.shading, normalize(p.normal - gradient * 0.2), 2e-3);
+}
+
+// A sphere's v goes from 0 to 1 from pole to pole.
+TEST(Bump, KnowsTextureCoordinates) {
+  const Seen ball = seen(Sphere{}, {}, bumped("v", 0.2));
+  const SurfacePoint p = ball.at({3, 0.3, 0.4}, {-1, 0, 0});
+  const Vec3 up = normalize(Vec3{0, 0, 1} - p.normal * p.normal.z);
+  const Vec3 bent = normalize(p.normal - up * (0.2 / kPi)), other = normalize(p.normal + up * (0.2 / kPi));
+  EXPECT_LT(min(length(p.shading - bent), length(p.shading - other)), 2e-3);  // whichever pole is 0
+}
+
+TEST(Bump, LeavesTheNormalWhereTheHeightIsLevel) {
+  const Seen ball = seen(Sphere{}, Affine::scaling({1, 2, 3}), bumped("7", 1));
+  const SurfacePoint p = ball.at({3, 0.3, 0.4}, {-1, 0, 0});
+  EXPECT_EQ(p.shading, p.normal);
+}
+
+// However steep, a ray that is mirrored stays outside, and the eye sees the front.
+TEST(Bump, NeverMirrorsIntoTheSurface) {
+  const Seen plane = seen(Plane{}, {}, bumped("sin(40*x) + sin(37*y)", 3));
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 direction = normalize(Vec3{1, 0.01 * i, -0.05 - 0.003 * i});
+    const SurfacePoint p = plane.at({0.013 * i, 0.2, 1}, direction);
+    EXPECT_NEAR(length(p.shading), 1, 1e-12);
+    EXPECT_LT(dot(direction, p.shading), 0);
+    EXPECT_GT((direction - p.shading * (2 * dot(direction, p.shading))).z, 0);
+  }
+}
+
+}  // namespace
+}  // namespace trace
