@@ -16,24 +16,26 @@ namespace {
 
 bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-Material colored(const Material& base, const Color& color) {
+/// A texture of the model's own material is multiplied by the colour; of one that the model only stands in,
+/// the colour takes the place of the texture.
+Material colored(const Material& base, const Color& color, bool keepTextures) {
   Material material = base;
   const auto own = {kDiffuse, kColor, kAmbient};
   changeColors(material.model, own, [&](const Color&) { return color; });
   std::erase_if(material.textures, [&](const FieldTexture& t) {
-    return std::find(own.begin(), own.end(), t.field) != own.end();
+    return !keepTextures && std::find(own.begin(), own.end(), t.field) != own.end();
   });
   return material;
 }
 
 /// The mesh with the numbers of its colours replaced by those of materials.
-Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& base,
+Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& base, bool isOwn,
                    const std::function<std::uint32_t(const Material&)>& index) {
   MeshData data = mesh;
   std::vector<std::uint32_t> numbers(model.colors.size(), Model::kNoMaterial);
   for (std::uint32_t& material : data.materials) {
     std::uint32_t& number = numbers[material];
-    if (number == Model::kNoMaterial) number = index(colored(base, model.colors[material]));
+    if (number == Model::kNoMaterial) number = index(colored(base, model.colors[material], isOwn));
     material = number;
   }
   return {std::make_shared<const MeshData>(std::move(data))};
@@ -88,7 +90,8 @@ std::vector<Object> placed(const Model& model, const Material& base,
     const auto* mesh = object.shape.as<Mesh>();
     if (!mesh || mesh->data->materials.empty()) continue;
     const auto [found, fresh] = colored.try_emplace({mesh->data.get(), own});
-    if (fresh) found->second = withMaterials(*mesh->data, model, none ? base : model.materials[own], index);
+    if (fresh)
+      found->second = withMaterials(*mesh->data, model, none ? base : model.materials[own], !none, index);
     object.shape = found->second;
   }
   return objects;

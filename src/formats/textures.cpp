@@ -22,24 +22,6 @@ struct Loaded {
   std::string failure;  ///< why there is no map
 };
 
-/// What nobody takes for the surface that was meant.
-std::shared_ptr<const MipMap> missingPicture() {
-  static const auto kMissing = [] {
-    Picture checker(8, 8);
-    for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 8; ++x) checker.at(x, y) = (x + y) % 2 ? Color(0) : Color(1, 0, 1);
-    return std::make_shared<const MipMap>(std::move(checker));
-  }();
-  return kMissing;
-}
-
-/// Beside the scene, or where else one may look.
-std::string pathOf(const Scene& scene, const std::string& name) {
-  const std::string beside = besideFile(scene.file, name);
-  std::error_code ignored;
-  return std::filesystem::exists(beside, ignored) ? beside : findFile(scene.file, name);
-}
-
 void load(const std::string& path, Loaded& loaded) {
   try {
     loaded.bytes = readBeside("", path);
@@ -52,7 +34,41 @@ void load(const std::string& path, Loaded& loaded) {
 
 constexpr std::size_t kMostNamed = 3, kLongName = 80;
 
+bool isFile(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
 }  // namespace
+
+std::shared_ptr<const MipMap> missingPicture() {
+  static const auto kMissing = [] {
+    Picture checker(8, 8);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) checker.at(x, y) = (x + y) % 2 ? Color(0) : Color(1, 0, 1);
+    return std::make_shared<const MipMap>(std::move(checker));
+  }();
+  return kMissing;
+}
+
+std::string pictureFile(const std::string& from, const std::string& name) {
+  const std::string beside = besideFile(from, name);
+  if (isFile(beside)) return beside;
+  if (const std::string found = findFile(from, name); isFile(found)) return found;
+  std::string plain = name;
+  std::replace(plain.begin(), plain.end(), '\\', '/');
+  if (const std::string here = besideFile(from, plain); isFile(here)) return here;
+  // In the folders of the name, from the innermost to that of the scene, though some may not be there.
+  const std::filesystem::path path(plain), last = path.filename();
+  if (last.empty()) return beside;
+  constexpr int kMostFolders = 20;
+  std::filesystem::path folder = path.is_absolute() ? std::filesystem::path() : path.parent_path();
+  for (int i = 0; i < kMostFolders; ++i, folder = folder.parent_path()) {
+    if (const std::string here = besideFile(from, (folder / last).string()); isFile(here)) return here;
+    if (folder.empty()) break;
+  }
+  return beside;
+}
 
 void loadTextures(Scene& scene, Messages& messages) {
   std::map<std::string, Loaded> byPath;
@@ -60,7 +76,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   for (Material& material : scene.materials)
     changePixels(material, [&](Pixels& pixels) {
       if (pixels.map || pixels.file.empty()) return;
-      const auto [found, fresh] = byPath.try_emplace(pathOf(scene, pixels.file));
+      const auto [found, fresh] = byPath.try_emplace(pictureFile(scene.file, pixels.file));
       if (!fresh) return;
       found->second.name = pixels.file, found->second.place = pixels.place;
       files.push_back(&*found);
@@ -91,7 +107,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   for (Material& material : scene.materials)
     changePixels(material, [&](Pixels& pixels) {
       if (pixels.map || pixels.file.empty()) return;
-      pixels.map = byPath.at(pathOf(scene, pixels.file)).map;
+      pixels.map = byPath.at(pictureFile(scene.file, pixels.file)).map;
     });
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,6 +20,14 @@ namespace trace {
 /// missing or broken is a warning, and a checker in its place. Throws Error(Fault::limit) where memory lacks.
 void loadTextures(Scene& scene, Messages& messages);
 
+/// The path of a picture that the scene file `from` names: beside it, or where else findFile() looks. Names
+/// of other systems, with backslashes, and of folders that are not here are looked for by their last part.
+/// The place beside the scene if there is none.
+std::string pictureFile(const std::string& from, const std::string& name);
+
+/// What nobody takes for the surface that was meant: a checker of magenta and black.
+std::shared_ptr<const MipMap> missingPicture();
+
 /// Pictures that a scene names and nobody will see.
 class UnusedTextures {
  public:
@@ -26,7 +35,7 @@ class UnusedTextures {
   void note(std::string_view name, const Place& place);
   bool empty() const { return names_.empty(); }
 
-  /// Warns if there was one. `instead` says what is seen in their place.
+  /// Warns if there was one. `instead` says what is seen in its place.
   void report(Messages& messages, std::string_view instead = "the material's own colour") const;
 
   /// Warns if there was one that cannot be read, for what reason the first.

@@ -11,8 +11,9 @@ T pick(const std::vector<T>& list, std::size_t i, const T& otherwise) {
 }  // namespace
 
 Material Paint::material(std::size_t i) const {
-  const Color base = pick(diffuse, i, Color(0.8));
-  const Real through = std::clamp(pick(transparency, i, 0.0), 0.0, 1.0);
+  Painted painted{pick(diffuse, i, Color(0.8)), std::clamp(pick(transparency, i, 0.0), 0.0, 1.0)};
+  if (picture) painted = under(*picture, painted);
+  const auto& [base, through] = painted;
   Phong phong;
   if (unlit) {
     phong.emissive = base * (1 - through);
@@ -28,7 +29,7 @@ Material Paint::material(std::size_t i) const {
   }
   phong.transmissive = Color(through);
   Material result{"", phong, {}};
-  if (!texture.empty()) setTexture(result.textures, "diffuse", pictureTexture(texture));
+  if (picture) paint(result, *picture, textureTransform);
   return result;
 }
 

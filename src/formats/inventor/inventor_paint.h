@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "formats/inventor/inventor_fields.h"
+#include "formats/inventor/inventor_picture.h"
 #include "shading/material.h"
 
 namespace trace::inventor {
@@ -15,7 +16,8 @@ struct Paint {
   std::vector<Real> shininess, transparency, mirror;
   bool ambientOfDiffuse = false;  ///< VRML97: the ambient colours are factors on the diffuse ones
   bool unlit = false;             ///< shows its diffuse colour without light
-  std::string texture;
+  std::optional<PaintedPicture> picture;
+  TextureTransform textureTransform = kUnmoved;
 
   std::size_t count() const {
     return std::max({ambient.size(), diffuse.size(), specular.size(), emissive.size(), shininess.size(),

@@ -1,5 +1,6 @@
 // Shapes of polygons: normals, materials and texture coordinates bound to their corners.
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "formats/inventor/inventor_reader.h"
@@ -40,9 +41,13 @@ void Reader::mesh(const Values& v, const State& state, const Surface& surface, c
   faces.hasNormals = bind.normal.by != Binding::By::nothing && !normals.empty();
   faces.hasMaterials = bind.material.by != Binding::By::nothing && bind.material.by != Binding::By::all &&
                        state.paint->count() > 1;
-  faces.hasUvs = !uvs.empty();
-  const Binding byPoint{Binding::By::point, nullptr};
-  const Binding& uvBinding = surface.uvs.empty() && bind.uv.by != Binding::By::nothing ? bind.uv : byPoint;
+  const bool project = uvs.empty() && state.paint->picture;
+  faces.hasUvs = !uvs.empty() || project;
+  const std::optional<BoxUvs> projected = project ? std::optional(BoxUvs(surface)) : std::nullopt;
+  const Binding bySlot{Binding::By::slot, nullptr}, byPoint{Binding::By::point, nullptr};
+  const Binding& uvBinding = !surface.uvs.empty()                 ? bySlot
+                             : bind.uv.by != Binding::By::nothing ? bind.uv
+                                                                  : byPoint;
   std::size_t corner = 0, missing = 0;
   for (std::size_t face = 0; face < faces.counts.size(); ++face)
     for (std::uint32_t i = 0; i < faces.counts[face]; ++i, ++corner) {
@@ -60,7 +65,9 @@ void Reader::mesh(const Values& v, const State& state, const Surface& surface, c
         missing += bind.material.indices && n >= state.paint->count();
         c.material = materialNumber(state, n);
       }
-      if (faces.hasUvs) {
+      if (projected) {
+        c.uv = projected->of(surface.points[c.point]);
+      } else if (faces.hasUvs) {
         const std::size_t n = uvBinding(outline, face, corner);
         missing += uvBinding.indices && n >= uvs.size();
         if (n < uvs.size()) c.uv = uvs[n];
@@ -135,9 +142,10 @@ void Reader::elevationGridNode(const Values& v, State& outer) {
   if (addAgain(v, outer)) return;
   State state = outer;
   const Bindings bind = attributes(v, state);
-  const Surface surface = elevationGrid(v);
+  Surface surface = elevationGrid(v);
   if (surface.points.empty())
     return warn(v.node(), "an ElevationGrid needs xDimension * zDimension heights, at least 2 * 2", "grid");
+  if (bind.uv.by != Binding::By::nothing) surface.uvs.clear();
   mesh(v, state, surface, bind);
   remember(v, outer);
 }
@@ -146,7 +154,8 @@ void Reader::extrusionNode(const Values& v, State& outer) {
   if (addAgain(v, outer)) return;
   State state = outer;
   attributes(v, state);
-  const Surface surface = extrusion(v);
+  Surface surface = extrusion(v);
+  if (!state.paint->picture) surface.uvs.clear();
   if (surface.outline.counts.empty())
     return warn(v.node(), "an Extrusion needs a crossSection and a spine of at least 2 points", "extrusion");
   mesh(v, state, surface, {});

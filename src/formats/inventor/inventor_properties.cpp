@@ -1,5 +1,7 @@
 // Nodes that move what follows them, or say how it looks.
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 
 #include "base/file.h"
 #include "formats/inventor/inventor_reader.h"
@@ -71,7 +73,7 @@ void Reader::material(const Values& v, State& state) {
   repaint(v, state, [&](Paint& p) {
     const Paint before = p;
     p = paintOf(v, vrml2_);
-    p.texture = before.texture;
+    p.picture = before.picture, p.textureTransform = before.textureTransform;
     p.unlit = !vrml2_ && before.unlit;
   });
 }
@@ -117,20 +119,69 @@ void Reader::normals(const Values& v, State& s) { s.normals = vectors(v, "vector
 void Reader::textureCoordinates(const Values& v, State& s) { s.uvs = pairs(v, "point"); }
 
 void Reader::texture(const Values& v, State& s) {
-  repaint(v, s, [&, file = textureOf(v)](Paint& p) { p.texture = file; });
+  repaint(v, s, [&](Paint& p) { p.picture = pictureOf(v); });
 }
 
-std::string_view Reader::textureOf(const Values& v) {
-  const std::string_view file = v.word(v.has("url") ? "url" : "filename", "");
-  const Place place = document_.place(v.node().token);
-  if (!file.empty()) {
-    return file;
+void Reader::texture2Transform(const Values& v, State& s) {
+  repaint(v, s, [&](Paint& p) {
+    p.textureTransform = product(p.textureTransform, inventor::texture2Transform(v));
+  });
+}
+
+std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
+  const std::string_view type = v.node().type;
+  if (type == "MultiTexture") {
+    std::optional<PaintedPicture> first;
+    for (std::string_view several : {"texture", "textures"})
+      for (const NodeIn& one : v.nodes(several))
+        if (const NodeIn at = resolved(one); at.node && !first)
+          first = pictureOf(Values(*at.node, at.env));
+        else if (at.node)
+          textures_.note(nameOf(Values(*at.node, at.env)), document_.place(at.node->token));
+    return first;
   }
-  for (std::string_view several : {"texture", "textures"})  // of a MultiTexture
-    for (const NodeIn& one : v.nodes(several))
-      if (one.node) textureOf(Values(*one.node, one.env));
-  if (v.numbers("image").size() > 3) textures_.note(std::string(v.node().type) + " (inside the file)", place);
-  return {};
+  const Place place = document_.place(v.node().token);
+  if (type == "MovieTexture") return textures_.note(nameOf(v), place), std::nullopt;
+
+  PaintedPicture picture;
+  if (const std::string name = nameOf(v); !name.empty()) {
+    picture.map = modelPicture(name, place);
+    picture.kind = kindOfPicture(document_.file(), name);
+  } else if (const auto image = inlineImage(v.numbers("image"))) {
+    picture.kind = {.colored = image->channels > 2, .transparent = image->hasAlpha()};
+    const auto line = std::to_string(place.line) + ":" + std::to_string(place.column);
+    const std::string file = std::filesystem::path(document_.file()).filename().string();
+    picture.map = modelPicture({file + "#" + line, std::make_shared<const MipMap>(*image), place});
+    if (image->width == 1 || image->height == 1) picture.map.filter = TexelFilter::bilinear;
+  } else {
+    if (v.numbers("image").size() > 3)
+      warn(v.node().token,
+           "image of " + std::string(type) + ": expected width, height, 1 to 4 and the pixels", "image",
+           "nothing is painted");
+    return {};
+  }
+  const auto clamps = [&](std::string_view word, std::string_view flag) {
+    return vrml2_ ? !v.flag(flag, true) : v.word(word, "REPEAT") == "CLAMP";
+  };
+  if (clamps("wrapS", "repeatS")) picture.map.wrapU = Wrap::clamp;
+  if (clamps("wrapT", "repeatT")) picture.map.wrapV = Wrap::clamp;
+  const std::string_view model = v.word("model", "MODULATE");
+  picture.model = vrml2_             ? PaintedPicture::Model::replace
+                  : model == "DECAL" ? PaintedPicture::Model::decal
+                  : model == "BLEND" ? PaintedPicture::Model::blend
+                                     : PaintedPicture::Model::modulate;
+  picture.blend = v.color("blendColor", Color(0));
+  return picture;
+}
+
+std::string Reader::nameOf(const Values& v) const {
+  const auto& names = v.words(v.has("url") ? "url" : "filename");
+  std::error_code ignored;
+  for (std::string_view name : names)
+    if (!name.empty() &&
+        std::filesystem::is_regular_file(pictureFile(document_.file(), std::string(name)), ignored))
+      return std::string(name);
+  return names.empty() ? std::string() : std::string(names[0]);
 }
 
 void Reader::vertexProperty(const Values& v, State& s) {

@@ -140,8 +140,11 @@ class Reader {
   void normals(const Values& v, State& s);
   void textureCoordinates(const Values& v, State& s);
   void texture(const Values& v, State& s);
-  /// The name of the texture's file, noted; empty if its picture stands in this file.
-  std::string_view textureOf(const Values& v);
+  void texture2Transform(const Values& v, State& s);
+  /// The picture of a texture node; of several only the first is rendered. Nothing if it has none.
+  std::optional<PaintedPicture> pictureOf(const Values& v);
+  /// The first file of a texture node that is there, or the first that it names; empty if it names none.
+  std::string nameOf(const Values& v) const;
   void vertexProperty(const Values& v, State& s);
 
   // --- lights and cameras ---
@@ -177,7 +180,11 @@ class Reader {
   /// From along z to along y.
   static Affine upright();
   bool hasPart(const Values& v, std::string_view flag, std::string_view part);
+  /// Textures start at the back and go round by the left, as seen from the front.
+  static Affine uprightFromBack();
   void lid(const Values& v, const State& s, Real radius, Real y, bool up);
+  /// The side of a cone or cylinder, whose shape stands on z = 0 and is of size 1.
+  void side(const Values& v, const State& s, Shape shape, Real radius, Real height);
   void cone(const Values& v, State& s);
   void cylinder(const Values& v, State& s);
 

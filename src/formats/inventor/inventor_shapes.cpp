@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "math/box.h"
 #include "math/transform.h"
 
 namespace trace::inventor {
@@ -240,20 +241,76 @@ Surface extrusion(const Values& shape) {
     if (spine.closed() && i == rows - 1) i = 0;
     return i * n + (round && j == n - 1 ? 0 : j);
   };
+  // Sides: u along the cross-section, v along the spine. Lids: as the cross-section lies, on the scale of its
+  // longer side.
+  const auto slot = [&](std::uint32_t i, std::uint32_t j) {
+    surface.uvs.push_back({Real(j) / (n - 1), Real(i) / (rows - 1)});
+    return static_cast<std::uint32_t>(surface.uvs.size() - 1);
+  };
+  const auto corner = [&](std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t p = at(i, j);
+    surface.outline.corner(p, p, slot(i, j));
+  };
   for (std::uint32_t i = 0; i + 1 < rows; ++i)
-    for (std::uint32_t j = 0; j + 1 < n; ++j)
-      quad(surface.outline, i, {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+    for (std::uint32_t j = 0; j + 1 < n; ++j) {
+      surface.outline.face(i);
+      corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j);
+    }
+  Box3 flat;
+  for (const Vec2& p : section) flat.extend({p.x, p.y, 0});
+  const Real longest = max(flat.size().x, flat.size().y);
   const auto cap = [&](std::uint32_t row, bool turned) {
     const std::uint32_t corners = round ? n - 1 : n;
     if (corners < 3) return;
     surface.outline.face(rows);
     for (std::uint32_t j = 0; j < corners; ++j) {
-      const std::uint32_t p = at(row, turned ? corners - 1 - j : j);
-      surface.outline.corner(p, p, p);
+      const std::uint32_t k = turned ? corners - 1 - j : j, p = at(row, k);
+      const Vec2 q = section[k];
+      surface.uvs.push_back(longest > 0 ? Vec2{(q.x - flat.low.x) / longest, (q.y - flat.low.y) / longest}
+                                        : Vec2{});
+      surface.outline.corner(p, p, static_cast<std::uint32_t>(surface.uvs.size() - 1));
     }
   };
   if (!spine.closed() && shape.flag("beginCap", true)) cap(0, true);
   if (!spine.closed() && shape.flag("endCap", true)) cap(rows - 1, false);
+  return surface;
+}
+
+BoxUvs::BoxUvs(const Surface& surface) {
+  Box3 box;
+  for (std::uint32_t point : surface.outline.points) box.extend(surface.points[point]);
+  if (box.empty()) return;
+  const Vec3 size = box.size();
+  low_ = box.low;
+  for (int axis = 1; axis < 3; ++axis)
+    if (size[axis] > size[u_]) u_ = axis;
+  v_ = u_ == 0 ? 1 : 0;
+  for (int axis = v_ + 1; axis < 3; ++axis)
+    if (axis != u_ && size[axis] > size[v_]) v_ = axis;
+  size_ = size[u_];
+}
+
+Vec2 BoxUvs::of(const Vec3& p) const {
+  if (!(size_ > 0)) return {};
+  return {(p[u_] - low_[u_]) / size_, (p[v_] - low_[v_]) / size_};
+}
+
+Surface boxWithUvs(const Vec3& size) {
+  Surface surface;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    surface.points.push_back(
+        {size.x * (i & 1 ? 0.5 : -0.5), size.y * (i & 2 ? 0.5 : -0.5), size.z * (i & 4 ? 0.5 : -0.5)});
+  // Each from its bottom left corner on, as seen from outside: front, back, left, right, top, bottom.
+  constexpr std::uint32_t kSides[6][4] = {{4, 5, 7, 6}, {1, 0, 2, 3}, {0, 4, 6, 2},
+                                          {5, 1, 3, 7}, {6, 7, 3, 2}, {0, 1, 5, 4}};
+  constexpr Vec2 kCorners[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (std::uint32_t side = 0; side < 6; ++side) {
+    surface.outline.face(side);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      surface.uvs.push_back(kCorners[i]);
+      surface.outline.corner(kSides[side][i], 4 * side + i, 4 * side + i);
+    }
+  }
   return surface;
 }
 
@@ -263,7 +320,9 @@ Surface disc(Real radius, Real y, bool up) {
   surface.outline.face(0);
   for (std::uint32_t i = 0; i < kCorners; ++i) {
     const Real angle = (up ? -2 : 2) * kPi * i / kCorners;
-    surface.points.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+    const Real x = std::cos(angle), z = std::sin(angle);
+    surface.points.push_back({radius * x, y, radius * z});
+    surface.uvs.push_back({0.5 + x / 2, 0.5 + (up ? -z : z) / 2});
     surface.outline.corner(i, i, i);
   }
   return surface;

@@ -33,15 +33,33 @@ Outline outlineOf(const Values& shape, std::string_view type, std::size_t points
 /// Points and outline of an ElevationGrid; empty if its numbers do not fit.
 struct Surface {
   std::vector<Vec3> points;
-  std::vector<Vec2> uvs;  ///< of each point; may be empty
+  std::vector<Vec2> uvs;  ///< of each slot; may be empty
   Outline outline;
 };
+
+/// Texture coordinates of faces that have none: u along the longest side of the box around their points, from
+/// 0 to 1, v along the second longest, on the same scale (VRML97, section 6.23).
+class BoxUvs {
+ public:
+  explicit BoxUvs(const Surface& surface);
+  Vec2 of(const Vec3& point) const;
+
+ private:
+  Vec3 low_;
+  int u_ = 0, v_ = 1;
+  Real size_ = 0;
+};
+
+/// A box around the origin, on each of whose sides a picture stands upright (VRML97, section 6.6).
+Surface boxWithUvs(const Vec3& size);
+
 Surface elevationGrid(const Values& grid);
 
 /// Points and outline of an Extrusion (VRML97, section 6.18).
 Surface extrusion(const Values& shape);
 
-/// A disc of `radius` at the height y that looks up or down: the lid of an open cylinder.
+/// A disc of `radius` at the height y that looks up or down: the lid of an open cylinder. A picture is seen
+/// upright where its front is tilted toward the eye.
 Surface disc(Real radius, Real y, bool up);
 
 }  // namespace trace::inventor

@@ -37,8 +37,6 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "FontStyle",
                                           "Font",
                                           "TextureCoordinateBinding",
-                                          "Texture2Transform",
-                                          "TextureTransform",
                                           "Callback",
                                           "EventCallback",
                                           "ColorIndex",
@@ -83,8 +81,9 @@ const std::set<std::string_view> kNotRendered{"Text",
                                               "Texture3"};
 
 /// Nodes that only stand in the fields of others.
-const std::set<std::string_view> kParts{"Appearance",   "Coordinate",   "Color",        "TextureCoordinate",
-                                        "ImageTexture", "PixelTexture", "MovieTexture", "MultiTexture"};
+const std::set<std::string_view> kParts{"Appearance",        "Coordinate",   "Color",
+                                        "TextureCoordinate", "ImageTexture", "PixelTexture",
+                                        "MovieTexture",      "MultiTexture", "TextureTransform"};
 
 }  // namespace
 
@@ -207,6 +206,7 @@ const std::unordered_map<std::string_view, Reader::Handler>& Reader::handlers() 
       {"Normal", &Reader::normals},
       {"TextureCoordinate2", &Reader::textureCoordinates},
       {"Texture2", &Reader::texture},
+      {"Texture2Transform", &Reader::texture2Transform},
       {"DrawStyle", &Reader::drawStyle},
       {"VertexProperty", &Reader::vertexProperty},
       {"Environment", &Reader::environment},

@@ -15,10 +15,20 @@ bool isDigit(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
 }
 
+/// A buffer, or a picture, of which tinygltf knows the same forms.
 class BufferCheck {
  public:
-  BufferCheck(const Place& place, std::size_t number)
-      : place_(place), path_("buffers[" + std::to_string(number) + "]"), first_(number == 0) {}
+  BufferCheck(const Place& place, std::string_view list, std::size_t number)
+      : place_(place), path_(std::string(list) + "[" + std::to_string(number) + "]"), first_(number == 0) {}
+
+  void checkPicture(const json& image) const {
+    if (!image.is_object()) fail("", "expected an object");
+    const auto uri = image.find("uri");
+    if (uri == image.end()) return;
+    if (!uri->is_string()) fail(".uri", "expected the name of a file, or \"data:\" and its bytes");
+    const std::string_view text = uri->get_ref<const std::string&>();
+    if (text.starts_with("data:") && bytesOf(text) == 0) fail(".uri", "expected a picture, found no bytes");
+  }
 
   void check(const json& buffer) const {
     if (!buffer.is_object()) fail("", "expected an object");
@@ -33,7 +43,10 @@ class BufferCheck {
     }
     if (!uri->is_string()) fail(".uri", "expected the name of a file, or \"data:\" and its bytes");
     const std::string_view text = uri->get_ref<const std::string&>();
-    if (text.starts_with("data:")) checkData(text, length->get<std::uint64_t>());
+    if (!text.starts_with("data:")) return;
+    if (const std::uint64_t bytes = bytesOf(text); bytes != length->get<std::uint64_t>())
+      fail(".uri",
+           "expected the " + length->dump() + " bytes that byteLength says, found " + std::to_string(bytes));
   }
 
  private:
@@ -41,7 +54,8 @@ class BufferCheck {
     throw Error(Fault::scene, place_, path_ + std::string(of) + ": " + what);
   }
 
-  void checkData(std::string_view text, std::uint64_t length) const {
+  /// How many the text stands for.
+  std::uint64_t bytesOf(std::string_view text) const {
     constexpr std::string_view kMark = ";base64,", kForms[] = {"application/octet-stream",
                                                                "text/plain",
                                                                "application/gltf-buffer",
@@ -66,10 +80,7 @@ class BufferCheck {
            "expected digits of base64, found " +
                (*odd > ' ' && *odd < 127 ? "\"" + std::string(1, *odd) + "\"" : "a character that is none") +
                " after " + std::to_string(odd - digits.begin()) + " of them");
-    const std::uint64_t bytes = digits.size() * 6 / 8;
-    if (bytes != length)
-      fail(".uri", "expected the " + std::to_string(length) + " bytes that byteLength says, found " +
-                       std::to_string(bytes));
+    return digits.size() * 6 / 8;
   }
 
   const Place& place_;
@@ -80,10 +91,14 @@ class BufferCheck {
 }  // namespace
 
 void checkGltfBuffers(const json& root, const Place& place) {
-  const auto buffers = root.find("buffers");
-  if (buffers == root.end()) return;
-  if (!buffers->is_array()) throw Error(Fault::scene, place, "buffers: expected a list");
-  for (std::size_t i = 0; i < buffers->size(); ++i) BufferCheck(place, i).check((*buffers)[i]);
+  const auto each = [&](const char* name, auto check) {
+    const auto list = root.find(name);
+    if (list == root.end()) return;
+    if (!list->is_array()) throw Error(Fault::scene, place, std::string(name) + ": expected a list");
+    for (std::size_t i = 0; i < list->size(); ++i) (BufferCheck(place, name, i).*check)((*list)[i]);
+  };
+  each("buffers", &BufferCheck::check);
+  each("images", &BufferCheck::checkPicture);
 }
 
 }  // namespace trace

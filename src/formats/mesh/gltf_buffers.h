@@ -1,5 +1,5 @@
-// The buffers of a glTF file, looked at before tinygltf reads them, which repeats their whole text where it
-// is not sound.
+// The buffers and pictures of a glTF file, looked at before tinygltf reads them, which repeats their whole
+// text where it is not sound.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 namespace trace {
 
 /// Throws Error(Fault::scene) for a buffer without a length, of which only the first may be without a uri, or
-/// whose uri holds other than base64 of that length.
+/// whose uri holds other than base64 of that length; and for a picture whose uri holds other than base64.
 void checkGltfBuffers(const nlohmann::json& root, const Place& place);
 
 }  // namespace trace

@@ -22,8 +22,8 @@ using nlohmann::json;
 
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression",
                            kLights = "KHR_lights_punctual";
-/// Those that the reader takes into account, and those that only concern textures, which are not rendered and
-/// of which it tells.
+/// Those that the reader takes into account, and those of pictures that it may not be able to read, of which
+/// it tells.
 constexpr std::string_view kRead[] = {kLights,
                                       "KHR_materials_ior",
                                       "KHR_materials_transmission",
@@ -77,7 +77,11 @@ class GltfCheck {
     });
     each(root_, "cameras", [&](const Part& camera) { checkCamera(camera); });
     each(root_, "materials", [&](const Part& material) { checkMaterial(material); });
-    each(root_, "textures", [&](const Part& texture) { index(texture, "source", "images"); });
+    each(root_, "textures", [&](const Part& texture) {
+      index(texture, "source", "images");
+      index(texture, "sampler", "samplers");
+    });
+    each(root_, "samplers", [&](const Part& sampler) { checkSampler(sampler); });
     each(root_, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
     each(root_, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
     each(root_, "bufferViews", [&](const Part& view) {
@@ -388,7 +392,31 @@ class GltfCheck {
       index(info, "index", "textures");
       if (const json* set = info.find("texCoord"); set && (!set->is_number_unsigned()))
         fail(info.pathOf("texCoord") + ": expected a whole number from 0, found " + found(*set));
+      number(info, "strength", 0, 1);
+      extension(info, "KHR_texture_transform", [&](const Part& e) {
+        known(e, {"offset", "rotation", "scale", "texCoord"});
+        numbers(e, "offset", 2);
+        number(e, "rotation");
+        numbers(e, "scale", 2);
+        whole(e, "texCoord");
+      });
     });
+  }
+  void checkSampler(const Part& sampler) {
+    known(sampler, {"magFilter", "minFilter", "wrapS", "wrapT"});
+    code(sampler, "magFilter", {9728, 9729});
+    code(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
+    for (const char* key : {"wrapS", "wrapT"}) code(sampler, key, {10497, 33071, 33648});
+  }
+  /// One of OpenGL's numbers.
+  void code(const Part& owner, std::string_view key, std::initializer_list<int> codes) {
+    const json* value = owner.find(key);
+    if (!value || std::any_of(codes.begin(), codes.end(), [&](int code) { return *value == code; })) return;
+    if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
+    std::string list;
+    for (int code : codes) list += (list.empty() ? "" : ", ") + std::to_string(code);
+    warn(owner.pathOf(key) + ": expected one of " + list + ", found " + found(*value), {},
+         "code of " + std::string(key));
   }
 
   void checkWhatIsNotRead() {

@@ -23,6 +23,7 @@
 #include "formats/mesh/gltf_json.h"
 #include "formats/mesh/gltf_material.h"
 #include "formats/mesh/gltf_tree.h"
+#include "formats/model_textures.h"
 #include "formats/textures.h"
 #include "geometry/mesh/mesh.h"
 
@@ -98,9 +99,14 @@ tinygltf::Model parse(const std::string& file, std::string_view bytes, const Pla
   Files files{{}, inputs};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
-  parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
-                           int, void*) { return true; },
-                        nullptr);
+  // Only the bytes of a data URI are kept: those in a buffer lie where nobody has looked yet.
+  parser.SetImageLoader(
+      [](tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* data,
+         int size, void*) {
+        if (image->bufferView < 0) image->image.assign(data, data + size);
+        return true;
+      },
+      nullptr);
   tinygltf::Model model;
   std::string errors, warnings;
   const std::string folder = std::filesystem::path(file).parent_path().string();
@@ -208,6 +214,32 @@ double extension(const tinygltf::ExtensionMap& all, const char* name, const char
   return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
 }
 
+/// "%20" as a blank, and so on (RFC 3986, section 2.1).
+std::string decodedUri(std::string_view uri) {
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool coded =
+        uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+    const int code = coded ? 16 * digit(uri[i + 1]) + digit(uri[i + 2]) : 0;
+    text += code > 0 ? static_cast<char>(code) : uri[i];
+    if (code > 0) i += 2;
+  }
+  return text;
+}
+
+/// The two numbers `field` of an extension, if the texture has it.
+Vec2 pairOf(const tinygltf::ExtensionMap& all, const char* name, const char* field, const Vec2& otherwise) {
+  const auto found = all.find(name);
+  if (found == all.end() || !found->second.IsObject() || !found->second.Has(field)) return otherwise;
+  const tinygltf::Value& list = found->second.Get(field);
+  if (!list.IsArray() || list.ArrayLen() < 2) return otherwise;
+  const tinygltf::Value &x = list.Get(0), &y = list.Get(1);
+  return x.IsNumber() && y.IsNumber() ? Vec2{x.GetNumberAsDouble(), y.GetNumberAsDouble()} : otherwise;
+}
+
 Affine transformOf(const tinygltf::Node& node) {
   Affine m;
   if (node.matrix.size() == 16) {  // column by column
@@ -236,8 +268,7 @@ class GltfReader {
         messages_(messages),
         gltf_(parse(file, bytes, place_, model_.inputs, messages)) {
     for (const tinygltf::Image& image : gltf_.images)
-      if (!image.uri.empty() && !image.uri.starts_with("data:"))
-        model_.inputs.noteNamed(besideFile(file, image.uri));
+      if (!image.uri.empty()) model_.inputs.noteNamed(besideFile(file, fileOf(image)));
   }
 
   Model read() {
@@ -248,6 +279,7 @@ class GltfReader {
     for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     repairs_.report(place_, messages_);
     textures_.report(messages_);
+    inside_.report(messages_);
     const auto warn = [&](const char* what, std::size_t count) {
       if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
     };
@@ -456,11 +488,14 @@ class GltfReader {
 
   /// The origin of glTF's texture coordinates is at the top, of Trace's at the bottom.
   void readUvs(const tinygltf::Primitive& primitive, MeshData& mesh) {
-    const auto found = primitive.attributes.find("TEXCOORD_0");
+    const bool hasMaterial = isIndex(primitive.material, uvSets_.size());
+    const int set = hasMaterial ? uvSets_[static_cast<std::size_t>(primitive.material)] : 0;
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) return;
     const Elements from = elements(found->second);
     if (from.components() < 2 || from.count() != mesh.points.size())
-      fail("TEXCOORD_0: expected one for each point");
+      fail(name + ": expected one for each point");
     for (std::size_t i = 0; i < from.count(); ++i)
       mesh.uvs.push_back({from.number(i, 0), 1 - from.number(i, 1)});
   }
@@ -470,8 +505,11 @@ class GltfReader {
     const std::vector<Vec3f> colors = vectors(primitive, "COLOR_0", mesh.points.size());
     if (colors.empty()) return;
     Color base = Color(1);
-    if (isIndex(primitive.material, gltf_.materials.size()))
-      base = phongOf(model_.materials[static_cast<std::size_t>(primitive.material)]).diffuse;
+    if (isIndex(primitive.material, gltf_.materials.size())) {
+      const MaterialModel& model = model_.materials[static_cast<std::size_t>(primitive.material)].model;
+      const auto* principled = std::get_if<Principled>(&model);
+      base = principled ? principled->color : std::get<Phong>(model).diffuse;
+    }
     for (const Vec3f& c : colors) {
       if (!std::isfinite(c.x + c.y + c.z)) fail("COLOR_0: expected finite numbers");
       mesh.materials.push_back(colors_.number(Vec3f(Vec3{c.x * base.r, c.y * base.g, c.z * base.b})));
@@ -487,7 +525,11 @@ class GltfReader {
     m.baseColor = colorOf(pbr.baseColorFactor, Color(1));
     m.emissive = colorOf(from.emissiveFactor, Color()) *
                  extension(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-    if (from.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4) m.alpha = share(pbr.baseColorFactor[3]);
+    if (pbr.baseColorFactor.size() == 4) m.opacity = share(pbr.baseColorFactor[3]);
+    m.alpha = from.alphaMode == "BLEND"  ? MetallicRoughness::Alpha::blend
+              : from.alphaMode == "MASK" ? MetallicRoughness::Alpha::mask
+                                         : MetallicRoughness::Alpha::opaque;
+    m.cutoff = from.alphaCutoff;
     m.metallic = share(pbr.metallicFactor), m.roughness = share(pbr.roughnessFactor);
     m.transmission = share(extension(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0));
     m.index = extension(from.extensions, "KHR_materials_ior", "ior", 1.5);
@@ -496,33 +538,121 @@ class GltfReader {
       messages_.warn(place_, "material \"" + from.name + "\" has numbers that are not finite");
       m.baseColor = Color(1), m.emissive = Color();
     }
-    Material material{from.name, toPhong(m), {}};
-    addMap(material, "diffuse", pbr.baseColorTexture.index);
-    addMap(material, "emissive", from.emissiveTexture.index);
-    // A material has no field that these could change.
-    for (int texture :
-         {pbr.metallicRoughnessTexture.index, from.normalTexture.index, from.occlusionTexture.index})
-      noteTexture(texture);
+    readPictures(from, m);
+    Material material = toMaterial(from.name, m);
+    if (m.metallicRoughnessMap && std::holds_alternative<Phong>(material.model))
+      noteTexture(pbr.metallicRoughnessTexture.index);
+    noteTexture(from.normalTexture.index);  // a material has no field that it could change
     return material;
   }
 
-  void addMap(Material& material, const char* field, int texture) {
-    const tinygltf::Image* image = imageOf(texture);
-    if (image && !image->uri.empty() && !image->uri.starts_with("data:"))
-      return setTexture(material.textures, field, pictureTexture(image->uri, place_));
-    noteTexture(texture);
+  // --- pictures ---
+
+  /// All of a material use the texture coordinates of the first of them: a mesh has one set.
+  void readPictures(const tinygltf::Material& from, MetallicRoughness& m) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    std::optional<int> set;
+    m.baseColorMap = pictureOf(pbr.baseColorTexture, set);
+    m.metallicRoughnessMap = pictureOf(pbr.metallicRoughnessTexture, set);
+    m.emissiveMap = pictureOf(from.emissiveTexture, set);
+    m.occlusionMap = pictureOf(from.occlusionTexture, set);
+    m.occlusionStrength = from.occlusionTexture.strength;
+    if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
+    if (m.baseColorMap) m.baseColorMap->srgb = true;
+    if (m.emissiveMap) m.emissiveMap->srgb = true;
+    if (m.baseColorMap && m.alpha != MetallicRoughness::Alpha::opaque) {
+      const Pixels& pixels = m.baseColorMap->file;
+      m.hasAlphaMap =
+          pixels.map ? pixels.map->hasAlpha() : kindOfPicture(place_.file, pixels.file).transparent;
+    }
+    uvSets_.push_back(set.value_or(0));
   }
 
-  const tinygltf::Image* imageOf(int texture) const {
-    if (!isIndex(texture, gltf_.textures.size())) return nullptr;
-    const int source = gltf_.textures[static_cast<std::size_t>(texture)].source;
-    return isIndex(source, gltf_.images.size()) ? &gltf_.images[static_cast<std::size_t>(source)] : nullptr;
+  /// Nothing, after a note, where the texture names no picture or needs other coordinates than `set`.
+  template <class Info>
+  std::optional<ImageMap> pictureOf(const Info& info, std::optional<int>& set) {
+    if (info.index < 0) return {};
+    const auto& all = info.extensions;
+    const auto own =
+        static_cast<int>(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
+    const int image = imageOf(info.index);
+    if (image < 0 || set.value_or(own) != own) return noteTexture(info.index), std::nullopt;
+    set = own;
+    ImageMap map = modelPicture(pixelsOf(image));
+    const int sampler = gltf_.textures[static_cast<std::size_t>(info.index)].sampler;
+    if (isIndex(sampler, gltf_.samplers.size()))
+      apply(gltf_.samplers[static_cast<std::size_t>(sampler)], map);
+    const auto pair = [&](const char* field, const Vec2& otherwise) {
+      return pairOf(all, kTransform, field, otherwise);
+    };
+    const Vec2 offset = pair("offset", {0, 0}), scale = pair("scale", {1, 1});
+    map.transform = placementOf(offset, extension(all, kTransform, "rotation", 0), scale);
+    return map;
   }
 
-  /// By the name of its file, or, if it is in this one, by its own.
+  static constexpr const char* kTransform = "KHR_texture_transform";
+
+  /// T R S of that extension, where v grows downward, as Trace sees it.
+  static std::array<Real, 6> placementOf(const Vec2& offset, Real radians, const Vec2& scale) {
+    const Real c = radians == 0 ? 1 : std::cos(radians), s = radians == 0 ? 0 : std::sin(radians);
+    const Real uu = c * scale.x, uv = s * scale.y, vu = -s * scale.x, vv = c * scale.y;
+    return {uu, 0 - uv, uv + offset.x, 0 - vu, vv, 1 - vv - offset.y};
+  }
+
+  static void apply(const tinygltf::Sampler& sampler, ImageMap& map) {
+    const auto wrap = [](int code) {
+      return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+             : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                             : Wrap::repeat;
+    };
+    map.wrapU = wrap(sampler.wrapS), map.wrapV = wrap(sampler.wrapT);
+    const int least = sampler.minFilter;
+    if (least == TINYGLTF_TEXTURE_FILTER_NEAREST || least == TINYGLTF_TEXTURE_FILTER_LINEAR)
+      map.filter = TexelFilter::bilinear;
+    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) map.filter = TexelFilter::nearest;
+  }
+
+  /// The number of its picture, perhaps of one of another kind that an extension names; -1 if it has none.
+  int imageOf(int texture) const {
+    if (!isIndex(texture, gltf_.textures.size())) return -1;
+    const tinygltf::Texture& from = gltf_.textures[static_cast<std::size_t>(texture)];
+    int source = from.source;
+    for (const char* other :
+         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
+      if (source < 0) source = static_cast<int>(extension(from.extensions, other, "source", -1));
+    return isIndex(source, gltf_.images.size()) ? source : -1;
+  }
+
+  static std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri); }
+
+  /// Of a file, which are loaded later, or of the bytes in this one.
+  Pixels pixelsOf(int number) {
+    const tinygltf::Image& image = gltf_.images[static_cast<std::size_t>(number)];
+    if (!image.uri.empty()) return {fileOf(image), nullptr, place_};
+    const auto [found, fresh] = pixels_.try_emplace(number);
+    if (fresh)
+      found->second = inside_.decode(
+          std::filesystem::path(place_.file).filename().string() + "#images[" + std::to_string(number) + "]",
+          bytesOf(image), place_);
+    return found->second;
+  }
+
+  std::string_view bytesOf(const tinygltf::Image& image) const {
+    const auto text = [](const std::vector<unsigned char>& bytes) {
+      return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    if (image.bufferView < 0) return text(image.image);
+    const tinygltf::BufferView& view = gltf_.bufferViews[static_cast<std::size_t>(image.bufferView)];
+    if (!isIndex(view.buffer, gltf_.buffers.size())) return {};
+    const std::string_view all = text(gltf_.buffers[static_cast<std::size_t>(view.buffer)].data);
+    return view.byteOffset <= all.size() ? all.substr(view.byteOffset, view.byteLength) : std::string_view();
+  }
+
+  /// Of one that is not rendered: by the name of its file, or, if it is in this one, by its own.
   void noteTexture(int texture) {
     if (texture < 0) return;
-    const tinygltf::Image* image = imageOf(texture);
+    const int number = imageOf(texture);
+    const tinygltf::Image* image = number < 0 ? nullptr : &gltf_.images[static_cast<std::size_t>(number)];
     if (image && !image->uri.empty()) return textures_.note(image->uri, place_);
     const std::string name =
         image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
@@ -537,6 +667,9 @@ class GltfReader {
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
+  std::vector<int> uvSets_;       ///< of materials: the texture coordinates that they use
+  std::map<int, Pixels> pixels_;  ///< of pictures in the file
+  InsidePictures inside_;
   UnusedTextures textures_;
   std::size_t lines_ = 0;     ///< primitives that are no triangles
   std::size_t leftOver_ = 0;  ///< corners that make no triangle

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <vector>
 
 #include "base/field.h"
 #include "formats/mesh/obj_words.h"
@@ -36,15 +38,21 @@ constexpr std::array<std::string_view, 21> kMaps{
     "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",  "map_Disp",
     "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
+/// Those whose picture is rendered.
+constexpr std::array<std::string_view, 6> kRendered{"map_Ka", "map_Kd", "map_Ks",
+                                                    "map_Ke", "map_Ns", "map_d"};
+
 /// Statements of physically based materials, which Trace's material does not have.
 constexpr std::array<std::string_view, 7> kNotUsed{"Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"};
 
-/// An option of a texture, and how many words follow it at most.
+/// An option of a texture, and how many words follow it at most. What is missing of several numbers is
+/// `otherwise`.
 struct MapOption {
   std::string_view key;
   int words;
+  std::string_view otherwise{};
 };
-constexpr std::array<MapOption, 13> kMapOptions{{{"-blendu", 1},
+constexpr std::array<MapOption, 14> kMapOptions{{{"-blendu", 1},
                                                  {"-blendv", 1},
                                                  {"-cc", 1},
                                                  {"-clamp", 1},
@@ -54,9 +62,13 @@ constexpr std::array<MapOption, 13> kMapOptions{{{"-blendu", 1},
                                                  {"-imfchan", 1},
                                                  {"-type", 1},
                                                  {"-colorspace", 1},
-                                                 {"-mm", 2},
-                                                 {"-o", 3},
-                                                 {"-s", 3}}};
+                                                 {"-mm", 2, "1"},
+                                                 {"-o", 3, "0"},
+                                                 {"-s", 3, "1"},
+                                                 {"-t", 3, "0"}}};
+/// Those without effect on what is rendered, or with one that is rendered.
+constexpr std::array<std::string_view, 9> kMapOptionsUsed{
+    "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
 
 template <std::size_t N>
 bool has(const std::array<std::string_view, N>& list, std::string_view word) {
@@ -70,14 +82,17 @@ const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
 
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 40)) + "\""; }
 
-/// The name of the picture after the options.
-std::string_view pictureOf(LineWords words) {
+/// Calls option(row, word, words) for each option of a map, and returns the name of the picture after them.
+template <class Visit>
+std::string_view pictureOf(LineWords words, Visit&& visit) {
   while (words.peek().starts_with('-')) {
     const MapOption* option = rowOf(kMapOptions, words.peek());
-    if (!option && words.peek() != "-t") break;
-    words.next();
-    const int most = option ? option->words : 3;
-    for (int i = 0; i < most && (most == 1 || isFloat(words.peek())); ++i) words.next();
+    if (!option) break;
+    const std::string_view key = words.next();
+    std::vector<std::string_view> values;
+    for (int i = 0; i < option->words && (option->words == 1 || isFloat(words.peek())); ++i)
+      values.push_back(words.next());
+    visit(*option, key, values);
   }
   return words.rest();
 }
@@ -90,18 +105,36 @@ class MtlCheck {
       : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
 
   void line(std::string_view line) {
+    if (LineWords(line).next() == "newmtl") endMaterial();
     check(line);
-    plain_ += greyOf(line);
+    plain_ += plainOf(line);
     plain_ += '\n';
   }
   /// The lines checked so far, for tinyobjloader.
-  std::string plain() { return std::move(plain_); }
+  std::string plain() {
+    endMaterial();
+    return std::move(plain_);
+  }
 
  private:
-  /// `Kd 0.5` as `Kd 0.5 0.5 0.5`, and so all colours; other lines as they are.
-  static std::string greyOf(std::string_view line) {
+  /// A picture is multiplied by its constant, which is white where it is not given.
+  void endMaterial() {
+    static constexpr std::array<std::array<std::string_view, 2>, 4> kConstants{{{"map_Ka", "Ka 1 1 1\n"},
+                                                                                {"map_Kd", "Kd 1 1 1\n"},
+                                                                                {"map_Ks", "Ks 1 1 1\n"},
+                                                                                {"map_Ke", "Ke 1 1 1\n"}}};
+    for (const auto& [map, constant] : kConstants)
+      if (given_.contains(map) && !given_.contains(constant.substr(0, 2))) plain_ += constant;
+    given_.clear();
+  }
+
+  /// `Kd 0.5` as `Kd 0.5 0.5 0.5`, and so all colours; options of a texture with all their numbers; other
+  /// lines as they are.
+  static std::string plainOf(std::string_view line) {
     LineWords words(line);
-    const Numbers* row = rowOf(kNumbers, words.next());
+    const std::string_view key = words.next();
+    if (has(kMaps, key)) return plainMap(key, words);
+    const Numbers* row = rowOf(kNumbers, key);
     const std::string_view first = words.next(), second = words.next();
     std::string text(line);
     const bool isOne = row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#');
@@ -111,11 +144,24 @@ class MtlCheck {
     return text;
   }
 
+  static std::string plainMap(std::string_view key, const LineWords& words) {
+    std::string text(key);
+    const std::string_view picture = pictureOf(words, [&](const MapOption& option, std::string_view name,
+                                                          const std::vector<std::string_view>& values) {
+      text += ' ' + std::string(name);
+      for (std::string_view value : values) text += ' ' + std::string(value);
+      for (auto i = static_cast<int>(values.size()); i < option.words; ++i)
+        text += ' ' + std::string(option.otherwise);
+    });
+    return text + ' ' + std::string(picture);
+  }
+
   void check(std::string_view line) {
     LineWords words(line);
     const std::string_view key = words.next();
     if (key.empty() || key[0] == '#') return;
     if (key == "newmtl") return newMaterial(key, words);
+    given_.insert(key);
     if (!inMaterial_)
       warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
     if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
@@ -164,11 +210,14 @@ class MtlCheck {
   }
 
   void map(std::string_view key, LineWords words) {
-    const std::string_view picture = pictureOf(words);
+    const std::string_view picture =
+        pictureOf(words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>&) {
+          const bool isBump = name == "-bm";  // told of with its picture
+          if (!has(kMapOptionsUsed, name) && !isBump)
+            warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
+        });
     if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
-    static constexpr std::array<std::string_view, 5> kRendered{"map_Ka", "map_Kd", "map_Ks", "map_Ke",
-                                                               "map_Ns"};
-    if (std::find(kRendered.begin(), kRendered.end(), key) != kRendered.end()) return;
+    if (has(kRendered, key)) return;
     textures_.note(picture, textures_.empty() ? place(key) : Place());
   }
 
@@ -177,6 +226,7 @@ class MtlCheck {
   std::string plain_;
   UnusedTextures& textures_;
   WarningsByKind& warnings_;
+  std::set<std::string_view> given_;  ///< keywords of the material so far
   bool inMaterial_ = false;
 };
 

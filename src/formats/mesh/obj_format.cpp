@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <istream>
 #include <map>
 #include <memory>
@@ -19,7 +20,7 @@
 #include "formats/mesh/mtl_lines.h"
 #include "formats/mesh/obj_lines.h"
 #include "formats/mesh/obj_words.h"
-#include "formats/textures.h"
+#include "formats/model_textures.h"
 #include "formats/warnings.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
@@ -62,15 +63,62 @@ Material toMaterial(const tinyobj::material_t& mtl) {
   else if (isOneOf({4, 6, 7, 9}))
     phong.transmissive = color(mtl.transmittance);
 
-  Material material{mtl.name, phong, {}};
-  const std::pair<const char*, const std::string&> maps[] = {{"ambient", mtl.ambient_texname},
-                                                             {"diffuse", mtl.diffuse_texname},
-                                                             {"specular", mtl.specular_texname},
-                                                             {"emissive", mtl.emissive_texname},
-                                                             {"shininess", mtl.specular_highlight_texname}};
-  for (const auto& [field, picture] : maps)
-    if (!picture.empty()) setTexture(material.textures, field, pictureTexture(picture));
-  return material;
+  return {mtl.name, phong, {}};
+}
+
+/// The picture as the options of its statement place it. Decoded only where `-colorspace sRGB` says so.
+ImageMap toMap(std::string file, const tinyobj::texture_option_t& option) {
+  ImageMap map = modelPicture(std::move(file));
+  const auto& s = option.scale;
+  const auto& o = option.origin_offset;
+  map.transform = {s[0], 0, o[0], 0, s[1], o[1]};
+  for (Real& number : map.transform)
+    if (!std::isfinite(number)) number = 0;
+  if (option.clamp) map.wrapU = map.wrapV = Wrap::clamp;
+  map.srgb = option.colorspace == "sRGB" || option.colorspace == "srgb";
+  switch (option.imfchan) {
+    case 'r': map.channel = Channel::red; break;
+    case 'g': map.channel = Channel::green; break;
+    case 'b': map.channel = Channel::blue; break;
+    default: break;
+  }
+  return map;
+}
+
+/// Puts the pictures of the MTL material on it. `nameOf` gives a picture's name as seen from the mesh's file,
+/// `isTransparent` says whether the picture of that name may be so.
+template <class NameOf, class IsTransparent>
+void addTextures(const tinyobj::material_t& mtl, Material& material, NameOf&& nameOf,
+                 IsTransparent&& isTransparent) {
+  const auto& phong = std::get<Phong>(material.model);
+  const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
+    return toMap(nameOf(picture), option);
+  };
+  const auto put = [&](std::string_view field, const std::string& picture,
+                       const tinyobj::texture_option_t& option) {
+    if (!picture.empty()) setTexture(material.textures, field, TextureNode{.model = map(picture, option)});
+  };
+  put("diffuse", mtl.diffuse_texname, mtl.diffuse_texopt);
+  put("specular", mtl.specular_texname, mtl.specular_texopt);
+  put("emissive", mtl.emissive_texname, mtl.emissive_texopt);
+  put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
+  if (!isBlack(phong.reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
+  // What is painted is painted in the ambient light too.
+  if (!mtl.ambient_texname.empty())
+    put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
+  else if (!isBlack(phong.ambient))
+    put("ambient", mtl.diffuse_texname, mtl.diffuse_texopt);
+
+  const bool own = !mtl.alpha_texname.empty();
+  if (!own && mtl.diffuse_texname.empty()) return;
+  ImageMap opacity =
+      own ? map(mtl.alpha_texname, mtl.alpha_texopt) : map(mtl.diffuse_texname, mtl.diffuse_texopt);
+  const bool oneChannel = own && opacity.channel != Channel::color;
+  if (const bool transparent = isTransparent(opacity.file.file); !oneChannel && transparent)
+    opacity.channel = Channel::alpha;
+  else if (!own)
+    return;
+  cutOut(material, TextureNode{.model = std::move(opacity)});
 }
 
 bool isSound(const Material& material) {
@@ -159,7 +207,12 @@ class ObjReader : public tinyobj::MaterialReader {
     for (const tinyobj::material_t& material : *materials) notePictures(material, besideFile(file_, name));
     for (std::size_t i = model_.materials.size(); i < materials->size(); ++i) {
       model_.materials.push_back(toMaterial((*materials)[i]));
-      if (isSound(model_.materials.back())) continue;
+      if (isSound(model_.materials.back())) {
+        addTextures((*materials)[i], model_.materials.back(),
+                    [&](const std::string& picture) { return pictureName(name, picture); },
+                    [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; });
+        continue;
+      }
       messages_.warn(place_,
                      "material \"" + model_.materials.back().name + "\" has numbers that are not finite");
       model_.materials.back() = plainMaterial();
@@ -176,7 +229,15 @@ class ObjReader : public tinyobj::MaterialReader {
     return place_;
   }
 
-  /// Exporters name pictures as seen from the materials' file, or from the mesh's.
+  /// As seen from the mesh's file. Exporters name pictures as seen from the materials' file, or from the
+  /// mesh's.
+  std::string pictureName(const std::string& materialFile, const std::string& picture) const {
+    const std::string beside = besideFile(materialFile, picture);
+    std::error_code ignored;
+    const bool isThere = std::filesystem::is_regular_file(pictureFile(file_, beside), ignored);
+    return isThere || materialFile.find('/') == materialFile.npos ? beside : picture;
+  }
+
   void notePictures(const tinyobj::material_t& m, const std::string& materialFile) {
     for (const std::string& picture :
          {m.ambient_texname, m.diffuse_texname, m.specular_texname, m.specular_highlight_texname,

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "base/unique.h"
 #include "formats/mesh/ply_syntax.h"
-#include "formats/textures.h"
+#include "formats/model_textures.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 
@@ -40,12 +40,32 @@ class PlyReader {
     if (const std::size_t left = body_.left(); left > 0)
       messages_.warn(place(), "bytes after the last element are ignored: " + std::to_string(left));
     addOnlyMesh(model_, std::move(mesh_), place(), messages_);
-    for (const auto& [name, where] : header_.textures) textures_.note(name, where);
+    addTexture();
     textures_.report(messages_);
     return std::move(model_);
   }
 
  private:
+  /// The first that the file names, if it has texture coordinates.
+  void addTexture() {
+    if (header_.textures.empty()) return;
+    const bool isSeen = !model_.objects[0].shape.as<Mesh>()->data->uvs.empty();
+    for (std::size_t i = isSeen ? 1 : 0; i < header_.textures.size(); ++i)
+      textures_.note(header_.textures[i].first, header_.textures[i].second);
+    if (!isSeen) return;
+    const auto& [name, where] = header_.textures[0];
+    const Texture picture = TextureNode{.model = modelPicture(name, where)};
+    Phong phong;
+    phong.ambient = phong.diffuse = Color(1);
+    model_.materials.push_back({"", phong, {{"ambient", picture}, {"diffuse", picture}}});
+    model_.objects[0].material = 0;
+    if (kindOfPicture(file_, name).transparent) {
+      ImageMap opacity = modelPicture(name, where);
+      opacity.channel = Channel::alpha;
+      cutOut(model_.materials[0], TextureNode{.model = opacity});
+    }
+  }
+
   // --- points ---
 
   void readVertices(const Element& element) {

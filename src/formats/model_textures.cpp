@@ -1,0 +1,136 @@
+// Sources of the heads: PNG (W3C, 3rd edition, sections 5 and 11), JPEG (ITU-T T.81, annex B), Truevision TGA
+// 2.0.
+#include "formats/model_textures.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+#include "base/file.h"
+
+namespace trace {
+namespace {
+
+unsigned byteAt(std::string_view bytes, std::size_t i) {
+  return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
+}
+
+PictureKind kindOfPng(std::string_view bytes) {
+  constexpr std::size_t kColorType = 25, kFirstChunk = 33;
+  const unsigned type = byteAt(bytes, kColorType);
+  PictureKind kind{.colored = type != 0 && type != 4, .transparent = type == 4 || type == 6};
+  for (std::size_t at = kFirstChunk; at + 8 <= bytes.size();) {
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (name == "IDAT") break;
+    kind.transparent |= name == "tRNS";
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | byteAt(bytes, at + i);
+    at += length + 12;
+  }
+  return kind;
+}
+
+PictureKind kindOfJpeg(std::string_view bytes) {
+  for (std::size_t at = 2; at + 9 < bytes.size() && byteAt(bytes, at) == 0xff;) {
+    const unsigned marker = byteAt(bytes, at + 1);
+    const bool isFrame =
+        marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (isFrame) return {.colored = byteAt(bytes, at + 9) != 1, .transparent = false};
+    at += 2 + (byteAt(bytes, at + 2) << 8 | byteAt(bytes, at + 3));
+  }
+  return {};
+}
+
+/// Its first bytes; none of what is no regular file, which may have no end.
+std::string headOf(const std::string& path) {
+  constexpr std::size_t kHead = 1 << 16;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
+  std::ifstream stream(path, std::ios::binary);
+  std::string head(kHead, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return head;
+}
+
+/// `otherwise` where the luminance of `amount`, times `share`, is 0, and `whole`, times the texture `own` if
+/// there is one, where it is 1.
+Texture mixture(const Color& otherwise, const Color& whole, const Texture* own, const Texture& amount,
+                Real share = 1) {
+  TextureNode node{.model = Mix{.a = otherwise, .b = whole, .amount = share}};
+  setTexture(node.inputs, "amount", amount);
+  if (own) setTexture(node.inputs, "b", *own);
+  return node;
+}
+
+}  // namespace
+
+ImageMap modelPicture(Pixels pixels) { return {.file = std::move(pixels), .filter = TexelFilter::trilinear}; }
+ImageMap modelPicture(std::string file, Place place) {
+  return modelPicture(Pixels{std::move(file), nullptr, std::move(place)});
+}
+
+PictureKind kindOfPicture(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return kindOfPng(bytes);
+  if (bytes.starts_with("\xff\xd8\xff")) return kindOfJpeg(bytes);
+  constexpr std::size_t kMap = 1, kType = 2, kBits = 16;
+  const unsigned type = byteAt(bytes, kType);
+  const bool isTga = byteAt(bytes, kMap) <= 1 && (type == 2 || type == 3 || type == 10 || type == 11);
+  if (bytes.size() > 18 && isTga)
+    return {.colored = type != 3 && type != 11, .transparent = byteAt(bytes, kBits) == 32};
+  return {};
+}
+PictureKind kindOfPicture(const std::string& from, const std::string& name) {
+  return kindOfPicture(headOf(pictureFile(from, name)));
+}
+
+Pixels InsidePictures::decode(std::string name, std::string_view bytes, const Place& place) {
+  Pixels pixels{std::move(name), nullptr, place};
+  try {
+    pixels.map = MipMap::decode(bytes, pixels.file);
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    if (unread_.empty()) reason_ = error.messages().front().what;
+    unread_.note(pixels.file, place);
+    pixels.map = missingPicture();
+  }
+  return pixels;
+}
+
+Texture product(const Texture& color, const Texture& grey) {
+  return mixture(Color(0), Color(1), &color, grey);
+}
+
+Texture raised(const Texture& grey, Real from) { return mixture(Color(from), Color(1), nullptr, grey); }
+
+Texture threshold(const Texture& grey, Real least) {
+  Ramp step;
+  step.value = 1;
+  step.ramp = {{least, 0, 0, 0}, {least, 1, 1, 1}};
+  TextureNode node{.model = std::move(step)};
+  setTexture(node.inputs, "value", grey);
+  return node;
+}
+
+void cutOut(Material& material, const Texture& opacity, Real share) {
+  auto& phong = std::get<Phong>(material.model);
+  const auto weigh = [&](std::string_view field, const Color& otherwise, Color& constant) {
+    const bool isGlass = !isBlack(otherwise);
+    if (isBlack(constant) && !isGlass) return;
+    const Texture weighed = mixture(otherwise, isGlass ? constant : Color(1),
+                                    textureOf(material.textures, field), opacity, share);
+    setTexture(material.textures, field, weighed);
+    if (isGlass) constant = otherwise;
+  };
+  weigh("ambient", Color(0), phong.ambient);
+  weigh("diffuse", Color(0), phong.diffuse);
+  weigh("emissive", Color(0), phong.emissive);
+  weigh("reflective", Color(0), phong.reflective);
+  weigh("specular", Color(0), phong.specular);
+  weigh("transmissive", Color(1), phong.transmissive);
+  phong.index = 1;
+}
+
+}  // namespace trace
