@@ -1,9 +1,9 @@
-#include "shading/texture.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+
+#include "shading/texture.h"
 
 namespace trace {
 namespace {
