@@ -69,13 +69,19 @@ std::vector<SpectralShare> spectralFan(int count, Real shift) {
   }
   const auto balanced = [&](Real Color::*channel) {
     if (!(sum.*channel > 0)) {  // so few that none is of this colour
-      for (SpectralShare& share : fan) share.weight.*channel = 1.0 / count;
-      return;
+      for (SpectralShare& share : fan) share.weight.*channel = 1;
+      sum.*channel = count;
     }
-    Real others = 0;  // without the last, whose share is small: so the sum is 1 to the last bit
-    for (SpectralShare& share : fan) share.weight.*channel /= sum.*channel;
-    for (std::size_t i = 0; i + 1 < fan.size(); ++i) others += fan[i].weight.*channel;
-    fan.back().weight.*channel = 1 - others;
+    // Multiples of a small unit, so that no sum of them is rounded. The largest takes what is left over.
+    constexpr Real kUnit = 0x1p-40;
+    Real rest = 1;
+    SpectralShare* largest = fan.data();
+    for (SpectralShare& share : fan) {
+      share.weight.*channel = std::round(share.weight.*channel / (sum.*channel) / kUnit) * kUnit;
+      rest -= share.weight.*channel;
+      if (share.weight.*channel > largest->weight.*channel) largest = &share;
+    }
+    largest->weight.*channel += rest;
   };
   balanced(&Color::r), balanced(&Color::g), balanced(&Color::b);
   return fan;

