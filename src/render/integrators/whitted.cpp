@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/low_discrepancy.h"
 #include "render/footprint.h"
 #include "render/gather.h"
 #include "shading/dispersion.h"
@@ -110,7 +111,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     }
     Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
     const int rays = settings.lightSamples;
-    for (int n = 0; n < rays; ++n) light(numbers.next2(), 1.0 / rays);
+    const Vec2 first = numbers.next2();
+    for (int n = 0; n < rays; ++n)
+      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
   }
 
   const auto worthwhile = [&](const Path& next) {
