@@ -291,6 +291,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
       LintCheck{"inherited-glass", "a material that is glass only for what it inherits", inheritedGlass},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
+      LintCheck{"glass-in-glass", "bodies of glass that overlap and are each taken to be in air",
+                glassInGlass},
       LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
       LintCheck{"no-material", "objects without a material", noMaterial},
       LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},

@@ -46,5 +46,8 @@ void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
+/// Of glass inside glass (lint_glass.cpp).
+void glassInGlass(const LintScene& s, Findings& findings);
+
 }  // namespace lint_checks
 }  // namespace trace

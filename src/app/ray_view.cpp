@@ -117,6 +117,8 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
   if (const Term* term = termOf(tree, index); term && term->light)
     row("toward", lightName(scene, term->light->light));
   if (node.tMost < kInfinity) row("light at distance", text(node.tMost));
+  if (node.wavelength != 0) row("wavelength", text(node.wavelength) + " nm");
+  for (const Ignored& ignored : node.ignored) row("no surface for light", sentence(ignored, scene));
 
   if (node.hit) {
     const Hit& hit = *node.hit;
@@ -135,6 +137,11 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     row("side", hit.leaving ? "from inside: leaving" : "from outside: entering");
     row("index of refraction",
         text(node.indices.before) + " before, " + text(node.indices.behind) + " behind");
+    if (node.indices.nested) {
+      const Indices& i = node.indices;
+      row("before it", fillingText(scene, i.objectBefore, i.priorityBefore));
+      row("behind it", fillingText(scene, i.objectBehind, i.priorityBehind));
+    }
   }
   if (!node.terms.empty()) row("Shading", "");
   for (const Term& term : node.terms) {

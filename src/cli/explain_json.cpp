@@ -66,6 +66,19 @@ class Writer {
     json["origin"] = toJson(node.ray.origin);
     json["direction"] = toJson(node.ray.direction);
     json["distance"] = node.hit ? node.hit->t : node.tMost;
+    if (node.wavelength != 0) json["wavelength"] = node.wavelength;
+    if (!node.ignored.empty()) {
+      json["ignored"] = Json::list();
+      for (const Ignored& i : node.ignored)
+        json["ignored"].add({{"object", i.object},
+                             {"part", i.part},
+                             {"distance", i.t},
+                             {"leaving", i.leaving},
+                             {"priority", i.body.priority},
+                             {"around", body(i.around.object)},
+                             {"aroundPriority", i.around.priority},
+                             {"sentence", sentence(i, scene_)}});
+    }
     json["hit"] = node.hit ? hit(node) : Json(nullptr);
     json["terms"] = Json::list();
     for (const Term& t : node.terms) json["terms"].add(term(t));
@@ -108,20 +121,28 @@ class Writer {
             {"place", toJson(o.place)}, {"material", name(*most)}, {"materials", shares}};
   }
 
+  /// The number of an object, null for air.
+  static Json body(std::uint32_t object) { return object == Filling::kAir ? Json(nullptr) : Json(object); }
+
   Json hit(const RayNode& node) const {
     const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    return {{"object", object(h.object, node.materials)},
-            {"part", h.part},
-            {"point", toJson(h.surface.point)},
-            {"error", toJson(h.surface.error)},
-            {"normal", toJson(h.surface.normal)},
-            {"shading", toJson(h.surface.shading)},
-            {"uv", Json::list({uv.x, uv.y})},
-            {"leaving", h.leaving},
-            {"indexBefore", node.indices.before},
-            {"indexBehind", node.indices.behind},
-            {"material", material(*node.bsdf)}};
+    Json json{{"object", object(h.object, node.materials)},
+              {"part", h.part},
+              {"point", toJson(h.surface.point)},
+              {"error", toJson(h.surface.error)},
+              {"normal", toJson(h.surface.normal)},
+              {"shading", toJson(h.surface.shading)},
+              {"uv", Json::list({uv.x, uv.y})},
+              {"leaving", h.leaving},
+              {"indexBefore", node.indices.before},
+              {"indexBehind", node.indices.behind},
+              {"material", material(*node.bsdf)}};
+    if (node.indices.nested) {
+      json["bodyBefore"] = body(node.indices.objectBefore);
+      json["bodyBehind"] = body(node.indices.objectBehind);
+    }
+    return json;
   }
 
   Json term(const Term& t) const {

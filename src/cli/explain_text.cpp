@@ -66,8 +66,11 @@ class TreeText {
     if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
     if (const Term* term = termOf(tree_, index); term && term->light)
       title += " to " + printable(lightName(scene_, term->light->light));
+    if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
+    for (const Ignored& ignored : node.ignored)
+      line(printable("no surface for light: " + sentence(ignored, scene_)));
     if (node.hit) hit(node);
     if (node.kind == RayKind::shadow)
       shadow(node);
@@ -97,8 +100,14 @@ class TreeText {
                    materialNames(scene_, node.materials) + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;
     std::string side = hit.leaving ? "leaving it" : "entering it";
+    const Indices& indices = node.indices;
+    const auto index = [&](Real value, std::uint32_t body, Real priority) {
+      if (!indices.nested) return text(value);
+      return text(value) + " (" + printable(fillingText(scene_, body, priority)) + ")";
+    };
     if (whitted(*node.bsdf).transmits())
-      side += ": index " + text(node.indices.before) + " -> " + text(node.indices.behind);
+      side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
+              index(indices.behind, indices.objectBehind, indices.priorityBehind);
     const Vec2 uv = s.uv;
     line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
     line("point " + text(s.point) + ", normal " + text(s.normal));

@@ -18,6 +18,8 @@
 // A shape of several materials adds
 //   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
 //   addMaterials(all)          the indices it may answer with beside that
+// and, where its inside is of another material than its surface there,
+//   inside(part, own)          that of the inside
 //
 // A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
 //   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.

@@ -213,6 +213,18 @@ MaterialMix TracedShape::material(std::int64_t part, std::uint32_t own) const {
       [&](const Mesh&) { return MaterialMix::only(own); });
 }
 
+MaterialMix TracedShape::inside(std::int64_t part, std::uint32_t own) const {
+  return withForm(
+      *this,
+      [&](const auto& form) {
+        if constexpr (requires { form.inside(part, own); })
+          return form.inside(part, own);
+        else
+          return material(part, own);
+      },
+      [&](const Mesh&) { return MaterialMix::only(own); });
+}
+
 void TracedShape::addMaterials(std::vector<std::uint32_t>& all) const {
   withForm(
       *this,

@@ -39,6 +39,8 @@ class TracedShape {
   bool ofSeveralMaterials() const;
   MaterialMix material(std::int64_t part, std::uint32_t own) const;
   void addMaterials(std::vector<std::uint32_t>& all) const;
+  /// What fills the shape at that part of its surface, which may be of another material.
+  MaterialMix inside(std::int64_t part, std::uint32_t own) const;
 
   /// Its parts are numbered below this.
   std::int64_t partCount() const;

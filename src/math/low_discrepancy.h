@@ -39,6 +39,14 @@ constexpr std::uint32_t sobolSecond(std::uint32_t i) {
   return v;
 }
 
+constexpr Vec2 sobolPoint(std::uint32_t i) { return {reversedBits(i) * 0x1p-32, sobolSecond(i) * 0x1p-32}; }
+
+/// The point moved by another, around the edges (Cranley and Patterson 1976).
+constexpr Vec2 rotated(const Vec2& p, const Vec2& by) {
+  const auto turned = [](Real a, Real b) { return a + b < 1 ? a + b : a + b - 1; };
+  return {turned(p.x, by.x), turned(p.y, by.y)};
+}
+
 /// Point i of that sequence, in an order and with scrambling of the seed's own (Burley, Practical Hash-based
 /// Owen Scrambling, 2020).
 constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {

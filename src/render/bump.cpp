@@ -1,9 +1,10 @@
 // Bump mapping: the normal for shading is that of the surface with the heights of a texture on it (Blinn,
 // Simulation of Wrinkled Surfaces, SIGGRAPH 1978), by the gradient of the heights along the surface
 // (Mikkelsen, Bump Mapping Unparametrized Surfaces on the GPU, 2010), for textures in space and in u and v
-// alike.
+// alike. A picture of normals says them itself (shading/normal_map.h).
 #include "math/perpendicular.h"
 #include "render/world.h"
+#include "shading/normal_map.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -32,6 +33,12 @@ Vec3 saneNormal(const Vec3& plain, const Vec3& bent, const Vec3& direction, cons
   return best;
 }
 
+/// Null unless the texture is a picture of normals.
+const ImageMap* normalMap(const Texture& texture) {
+  const auto* map = std::get_if<ImageMap>(&texture->model);
+  return map && map->relief != Relief::heights ? map : nullptr;
+}
+
 }  // namespace
 
 void World::bend(const Ray& ray, Hit& hit) const {
@@ -43,14 +50,26 @@ void World::bend(const Ray& ray, Hit& hit) const {
   Part parts[3];
   int count = 0;
   bool inUv = false;
+  SurfacePoint& surface = hit.surface;
+  const Vec3 smooth = surface.shading;
+  Vec3 turned;  // how far pictures of normals turn it
   for (int i = 0; i < hit.materials.count; ++i) {
     const std::uint32_t m = hit.materials.material[i];
     const Material* material = m == MaterialMix::kClear ? nullptr : surfaces_[m].textured.get();
     const Texture* texture = material ? textureOf(material->textures, "bump") : nullptr;
     if (!texture) continue;
-    parts[count++] = {texture, material->bump * (hit.materials.count == 1 ? 1 : hit.materials.weight[i])};
+    const Real share = hit.materials.count == 1 ? 1 : hit.materials.weight[i];
+    if (const ImageMap* map = normalMap(*texture)) {
+      const bool down = map->relief == Relief::normalsDown;
+      const Color texel = texture->at(place(hit));
+      turned += (mappedNormal(texel, slopes(hit), smooth, material->bump, down) - smooth) * share;
+      continue;
+    }
+    parts[count++] = {texture, material->bump * share};
     inUv |= wantsUv(*texture);
   }
+  if (turned != Vec3{} && isFinite(turned))
+    surface.shading = saneNormal(smooth, normalize(smooth + turned), ray.direction, surface.normal);
   if (count == 0) return;
   const auto heightAt = [&](const TexturePlace& place) {
     Real height = 0;
@@ -65,7 +84,6 @@ void World::bend(const Ray& ray, Hit& hit) const {
   const Real size = instance.bounds.unbounded() || instance.bounds.empty()
                         ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
                         : maxComponent(instance.bounds.size());
-  SurfacePoint& surface = hit.surface;
   const Vec3 normal = normalize(transposed(out, surface.shading));
   const Vec3 first = perpendicularTo(normal);
   const SurfaceSlopes along = inUv ? slopes(hit) : SurfaceSlopes{};

@@ -33,6 +33,7 @@ struct Hit {
   bool leaving;   ///< the ray comes from inside: it runs along the true normal
   bool twoSided;  ///< the surface is shaded from both sides
   bool convex;    ///< the object is
+  bool solid;     ///< it encloses space
 };
 
 /// The Bsdf of a place, which may be made for it. Lives no longer than the World.

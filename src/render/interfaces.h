@@ -1,26 +1,93 @@
-// What a ray is inside of, as far as refraction asks.
+// What a ray is inside of, as far as refraction and absorption ask.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "math/color.h"
 #include "math/vec.h"
+#include "shading/dispersion.h"
 
 namespace trace {
 
-/// Indices of refraction at a surface: on the ray's side and on the other.
-struct Indices {
-  Real before = 1, behind = 1;
+/// What fills a body, or what is around all bodies.
+struct Filling {
+  static constexpr std::uint32_t kAir = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t object = kAir;  ///< index into Scene::objects
+  Real priority = 0;
+  Real index = 1;   ///< of refraction, at the line d
+  Color passes{1};  ///< what passes of light along a unit of length: Beer's law
+  Dispersion dispersion{};
+  /// Bodies of one kind are of the same material, its name and priority aside.
+  std::uint32_t kind = kAir;
+
+  Real indexAt(Real nanometres) const { return dispersion.index(index, nanometres); }
 };
 
-/// The rule of the courses: a ray that leaves a body comes from its inside and goes into the air; any other
-/// comes from the air. Bodies inside one another are not known of.
+/// On the ray's side of a surface, and on the other.
+struct Sides {
+  Filling before, behind;
+  /// The surface is none for light: both sides are the same body, or of one kind.
+  bool alike() const { return before.object == behind.object || before.kind == behind.kind; }
+};
+
+/// Indices of refraction at a surface: on the ray's side and on the other. What they belong to is told where
+/// bodies may be nested.
+struct Indices {
+  Real before = 1, behind = 1;
+  bool nested = false;
+  std::uint32_t objectBefore = Filling::kAir, objectBehind = Filling::kAir;
+  Real priorityBefore = 0, priorityBehind = 0;
+
+  Indices() = default;
+  Indices(const Sides& sides, Real nanometres, bool nestedGlass)
+      : before(sides.before.indexAt(nanometres)),
+        behind(sides.behind.indexAt(nanometres)),
+        nested(nestedGlass),
+        objectBefore(sides.before.object),
+        objectBehind(sides.behind.object),
+        priorityBefore(sides.before.priority),
+        priorityBehind(sides.behind.priority) {}
+};
+
+/// A part of a path's state: the bodies of glass that the ray is in, in the order in which it entered them.
+///
+/// The one of the highest priority fills the place; of equals it is the one entered last (Schmidt and Budge,
+/// Simple Nested Dielectrics in Ray Traced Images, 2002). Surfaces at which that does not change are no
+/// surfaces for light. Open sheets enclose nothing and change nothing.
+///
+/// Without nested glass the list is never longer than one, which is the rule of the courses: a ray that
+/// leaves a body comes from its inside and goes into the air; any other comes from the air.
 class Interfaces {
  public:
-  explicit Interfaces(Real air) : air_(air) {}
+  explicit Interfaces(Real air = 1, bool nested = false) : nested_(nested) { air_ = around_.index = air; }
 
-  /// At the surface of a body of that index, which the ray leaves or enters.
-  Indices at(bool leaving, Real index) const { return leaving ? Indices{index, air_} : Indices{air_, index}; }
+  bool nested() const { return nested_; }
+  /// What the ray runs in.
+  const Filling& around() const { return around_; }
+  /// Of light of one wavelength, in nanometres; 0 for light of all colours.
+  Real wavelength = 0;
+
+  /// The two sides of the surface of a body, which the ray leaves or enters. `encloses`: the body is solid.
+  Sides at(bool leaving, const Filling& body, bool encloses) const;
+  /// What the ray runs in behind that surface.
+  void pass(bool leaving, const Filling& body, bool encloses);
+  /// The ray starts inside the body. Of several, the outer ones come first.
+  void startInside(const Filling& body) { pass(false, body, true); }
 
  private:
-  Real air_;
+  Filling air() const;
+  /// Of the bodies but one number, which may be beyond them.
+  Filling winner(std::size_t without) const;
+  /// The number of the body in the list; its size if it is not there.
+  std::size_t find(const Filling& body) const;
+
+  Real air_ = 1;
+  bool nested_;
+  Filling around_;
+  std::vector<Filling> bodies_;  ///< only with nested glass
 };
 
 }  // namespace trace

@@ -44,9 +44,9 @@ Outside::View Outside::view(const Vec3& direction, RayKind kind) const {
   view.source = camera && backdrop_                       ? Source::backdrop
                 : camera && allAround_ == Source::nothing ? Source::bands
                                                           : allAround_;
-  // Against the rotation, into the space of what is all around.
-  const Vec3 d{turn_.x * direction.x - turn_.y * direction.z, direction.y,
-               turn_.y * direction.x + turn_.x * direction.z};
+  const auto turnedBack = [&](const Vec3& d) {  // against the rotation
+    return Vec3{turn_.x * d.x - turn_.y * d.z, d.y, turn_.y * d.x + turn_.x * d.z};
+  };
   switch (view.source) {
     case Source::nothing: break;
     case Source::backdrop:
@@ -58,19 +58,22 @@ Outside::View Outside::view(const Vec3& direction, RayKind kind) const {
       view.color = background_.at(view.place.y);
       break;
     case Source::environment: {
+      const Vec3 d = turnedBack(direction);
       const EnvironmentMap::Spot spot = environment_->spot(d);
       view.place = spot.uv;
       if (environment_->kind() == EnvironmentKind::cube) view.face = spot.face;
       view.color = environment_->at(spot) * brightness_;
       break;
     }
-    case Source::sky:
+    case Source::sky: {
+      const Vec3 d = turnedBack(direction);
       view.place.y = elevationOf(d);
       view.color = d.y < 0 ? background_.ground : toColor(daylight_->at(d)) * background_.skyBrightness;
       view.color = view.color * brightness_;
       break;
+    }
     case Source::gradient:
-      view.place.y = elevationOf(d);
+      view.place.y = elevationOf(direction);
       view.color = background_.gradientAt(view.place.y) * brightness_;
       break;
   }

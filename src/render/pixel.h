@@ -33,7 +33,8 @@ class PixelTracer {
     const Ray ray = frame.ray(place, lens);
     Footprint differentials;
     if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
-    const CameraRay camera{ray, tracer_.cast(ray, RayKind::camera), weight, differentials.get()};
+    CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin), weight, differentials.get()};
+    camera.hit = tracer_.cast(ray, RayKind::camera, camera.inside);
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }
@@ -46,7 +47,8 @@ class PixelTracer {
   [[gnu::noinline]] Footprint differentialsAt(const Vec2& film, const Vec2& lens, const Ray& ray) const {
     const CameraFrame& camera = tracer_.world().camera();
     const Vec2 step = rules_.spacing();
-    const Ray x = camera.ray({film.x + step.x, film.y}, lens), y = camera.ray({film.x, film.y + step.y}, lens);
+    const Ray x = camera.ray({film.x + step.x, film.y}, lens),
+              y = camera.ray({film.x, film.y + step.y}, lens);
     return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
                                                                x.direction - ray.direction,
                                                                y.direction - ray.direction});

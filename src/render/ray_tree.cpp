@@ -147,6 +147,27 @@ std::string objectName(const Scene& scene, std::uint32_t index) {
   return named(object.shape.keyword(), object.place);
 }
 
+std::string fillingName(const Scene& scene, std::uint32_t object) {
+  return object == Filling::kAir ? "air" : objectName(scene, object);
+}
+
+std::string fillingText(const Scene& scene, std::uint32_t object, Real priority) {
+  const std::string name = fillingName(scene, object);
+  return object == Filling::kAir ? name : name + ", priority " + toText(priority);
+}
+
+std::string sentence(const Ignored& ignored, const Scene& scene) {
+  const Filling &body = ignored.body, &around = ignored.around;
+  std::string text = (ignored.leaving ? "leaving " : "entering ") + objectName(scene, ignored.object) +
+                     " at distance " + shortText(ignored.t, 6) + ": ";
+  if (around.object == ignored.object || around.kind == body.kind)
+    return text + "the same material on both sides";
+  text += "it is " + fillingName(scene, around.object) + " on both sides, ";
+  return text + (around.priority == body.priority
+                     ? "entered later, of the same priority " + toText(body.priority)
+                     : "whose priority " + toText(around.priority) + " is above " + toText(body.priority));
+}
+
 std::string materialName(const Scene& scene, std::uint32_t index) {
   return index == MaterialMix::kClear ? "clear" : nameOf(scene.materials[index], index);
 }

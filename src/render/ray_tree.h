@@ -109,6 +109,16 @@ struct Term {
   std::optional<LightTerm> light{};
 };
 
+/// A surface at which nothing changes for light, by the rule of nested glass: the ray went on.
+struct Ignored {
+  std::uint32_t object = 0;
+  std::uint64_t part = 0;
+  Real t = 0;
+  bool leaving = false;
+  Filling body;    ///< whose surface it is
+  Filling around;  ///< what fills the place on both sides
+};
+
 /// A surface that a shadow ray went through.
 struct Filter {
   std::uint32_t object = 0;
@@ -128,6 +138,8 @@ struct RayNode {
   std::vector<MaterialShare> materials;  ///< of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there
+  std::vector<Ignored> ignored;          ///< on the way there, in order
+  Real wavelength = 0;                   ///< in nanometres; 0: light of all colours
   std::vector<Term> terms;
   Color through{1};             ///< what the medium lets pass on the way back
   std::vector<Filter> filters;  ///< of a shadow ray, in order
@@ -162,6 +174,12 @@ const Term* termOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
 std::string objectName(const Scene& scene, std::uint32_t object);
+/// objectName(), or "air".
+std::string fillingName(const Scene& scene, std::uint32_t object);
+/// "water (priority 1)", "air".
+std::string fillingText(const Scene& scene, std::uint32_t object, Real priority);
+/// "entering water at distance 2: it stays ball, whose priority 2 is above 1".
+std::string sentence(const Ignored& ignored, const Scene& scene);
 /// "red", "material 3" for one without a name, "clear" for MaterialMix::kClear.
 std::string materialName(const Scene& scene, std::uint32_t material);
 /// The same of one, or "red 0.25 + blue 0.75".

@@ -75,6 +75,9 @@ class Sampler {
   /// Where in the picture the sample lies, and what it counts.
   FilmSample film() const { return rules_->film(x_, y_, k_, branch(kFilm).next2()); }
 
+  /// The number of the sample in its pixel.
+  int sample() const { return k_; }
+
   /// The next number, from 0 up to 1; the next two.
   Real next() { return next2().x; }
   Vec2 next2() {

@@ -19,14 +19,16 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       materials(world.materialMix(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object)),
-      convex(world.convex(object)) {
+      convex(world.convex(object)),
+      solid(world.solid(object)) {
   world.bump(ray, *this);
 }
 
-std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind) {
+std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside) {
   count(kind);
-  if (records()) begin(ray, kind, kInfinity);
-  const auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
+  if (records()) begin(ray, kind, kInfinity, inside.wavelength);
+  auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
+  if (found && inside.nested()) found = walk(ray, kind, *found, inside);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
     if (records()) {
       const CameraFrame& camera = world_.camera();
@@ -57,6 +59,36 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
   return Culled{hidden->object, hidden->t, sharesOf(world_.materialMix(*hidden))};
 }
 
+/// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
+/// so that what lies behind is met where it is met without the surfaces before it.
+std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside) {
+  if (!ignored(ray, found, inside)) return found;
+  collect(ray, kInfinity, facesSeenBy(kind), false);
+  for (const Found& next : crossed_)
+    if (found.before(next) && !ignored(ray, next, inside)) return next;
+  return std::nullopt;
+}
+
+/// If nothing changes there for light: the ray is behind it now.
+bool Tracer::ignored(const Ray& ray, const Found& found, Interfaces& inside) {
+  if (world_.opaque(found.object) || !world_.solid(found.object)) return false;
+  const Hit hit(world_, ray, found);
+  const PlaceBsdf bsdf = world_.shade(hit);
+  if (!whitted(*bsdf).transmits()) return false;
+  const Filling body = filling(hit, whitted(*bsdf));
+  const Sides sides = inside.at(hit.leaving, body, hit.solid);
+  if (!sides.alike()) return false;
+  if (records())
+    tree_->nodes.back().ignored.push_back({hit.object, hit.part, hit.t, hit.leaving, body, sides.before});
+  inside.pass(hit.leaving, body, hit.solid);
+  return true;
+}
+
+const Interfaces& Tracer::interfacesAt(const Vec3& point) {
+  if (!start_ || !(start_->first == point)) start_.emplace(point, world_.interfacesAt(point, settings_));
+  return start_->second;
+}
+
 bool Tracer::tooNear(const Ray& ray) const {
   const Real near = world_.camera().near;
   if (near <= 0) return false;
@@ -65,11 +97,12 @@ bool Tracer::tooNear(const Ray& ray) const {
   return found && found->t < near;
 }
 
-Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance) {
+Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside) {
   count(RayKind::shadow);
   const Ray ray = from.leave(toLight);
-  if (records()) begin(ray, RayKind::shadow, distance);
-  const Color color = passed(ray, distance);
+  if (records()) begin(ray, RayKind::shadow, distance, inside.wavelength);
+  const Color color =
+      inside.nested() ? passedNested(from, ray, distance, inside) : passed(ray, distance, nullptr);
   if (records()) {
     RayNode& node = finish();
     node.radiance = color;
@@ -80,36 +113,70 @@ Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance) {
   return color;
 }
 
-Color Tracer::passed(const Ray& ray, Real distance) {
+/// passed() of a ray from a surface, on whose side that a ray came from it is `inside`.
+Color Tracer::passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside) {
+  Interfaces start = inside;
+  if (from.leaving == (dot(ray.direction, from.surface.normal) > 0)) {  // on through the surface
+    const PlaceBsdf bsdf = world_.shade(from);
+    if (whitted(*bsdf).transmits()) start.pass(from.leaving, filling(from, whitted(*bsdf)), from.solid);
+  }
+  return passed(ray, distance, &start);
+}
+
+/// The crossings in order along the ray, each once, into crossed_. False if one is opaque and that ends it.
+bool Tracer::collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque) {
   bool blocked = false;
   crossed_.clear();
-  world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
-    blocked = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black;
+  world_.crossings(ray, tMost, faces, statistics_, [&](const Found& found) {
+    blocked = endAtOpaque && (world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black);
     if (!blocked) crossed_.push_back(found);
     return blocked;
   });
-  if (blocked) return Color(0);
-  if (crossed_.empty()) return Color(1);
-
-  // In order along the ray, so that the product's last bit does not depend on the hierarchy; each once.
+  if (blocked) return false;
+  // In order along the ray, so that the product's last bit does not depend on the hierarchy.
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });
   const auto same = [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); };
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
+  return true;
+}
+
+/// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
+Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
+  if (!collect(ray, distance, facesSeenBy(RayKind::shadow), true)) return Color(0);
+  if (crossed_.empty() && !inside) return Color(1);
   Color color(1);
   Real last = 0;
+  const auto record = [&](std::uint32_t object, std::uint64_t part, Real t, const Color& factor,
+                          std::vector<MaterialShare> materials) {
+    tree_->nodes.back().filters.push_back({object, part, t, factor, std::move(materials)});
+  };
   for (const Found& found : crossed_) {
-    const Color filter = world_.filter(ray, found);
-    if (isBlack(filter)) return Color(0);
-    Color factor(1);
-    if (settings_.glass == Glass::perCrossing)
-      factor = filter;
-    else if (dot(ray.direction, world_.surface(ray, found).normal) > 0)
-      factor = pow(filter, found.t - last);
+    const PlaceBsdf bsdf = world_.bsdfAt(ray, found);
+    const WhittedTerms& terms = whitted(*bsdf);
+    if (!terms.transmits()) return Color(0);
+    const bool perCrossing = settings_.glass == Glass::perCrossing;
+    Color factor = perCrossing ? terms.transmissive : Color(1);
+    if (inside) {
+      if (ignored(ray, found, *inside)) continue;
+      const Hit hit(world_, ray, found);
+      const Color& passes = inside->around().passes;
+      if (!(passes == Color(1))) factor *= pow(passes, found.t - last);
+      inside->pass(hit.leaving, filling(hit, terms), hit.solid);
+    } else if (!perCrossing || !(terms.attenuation == Color(1))) {
+      // Light ran in the body that it leaves, from the last surface on.
+      const Hit hit(world_, ray, found);
+      if (hit.leaving) factor *= pow(filling(hit, terms).passes, found.t - last);
+    }
     color *= factor;
     last = found.t;
-    if (records())
-      tree_->nodes.back().filters.push_back(
-          {found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found))});
+    if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
+  }
+  if (!inside) return color;
+  const Filling& around = inside->around();
+  if (!(around.passes == Color(1)) && distance < kInfinity) {  // a light inside glass
+    const Color factor = pow(around.passes, distance - last);
+    color *= factor;
+    if (records()) record(around.object, 0, distance, factor, {});
   }
   return color;
 }
@@ -118,9 +185,11 @@ Color Tracer::passed(const Ray& ray, Real distance) {
 
 void Tracer::retrace(const RayNode& node) {
   if (node.kind == RayKind::shadow)
-    passed(node.ray, node.tMost);
+    collect(node.ray, node.tMost, facesSeenBy(node.kind), true);
   else
     world_.closest(node.ray, facesSeenBy(node.kind), statistics_);
+  if (!node.ignored.empty() && node.kind != RayKind::shadow)
+    collect(node.ray, kInfinity, facesSeenBy(node.kind), false);
 }
 
 /// passed() stops at the first opaque thing it comes across; a person wants to know the nearest.
@@ -143,12 +212,13 @@ std::uint64_t Tracer::testsSoFar() const {
   return sum;
 }
 
-void Tracer::begin(const Ray& ray, RayKind kind, Real tMost) {
+void Tracer::begin(const Ray& ray, RayKind kind, Real tMost, Real wavelength) {
   if (tree_->nodes.size() >= kMostRecordedRays)
     throw Error(Fault::limit, "the sample takes more than " + std::to_string(kMostRecordedRays) + " rays",
                 "a smaller --depth or a --threshold makes them fewer");
   RayNode node;
   node.kind = kind, node.parent = current_, node.ray = ray, node.tMost = tMost;
+  node.wavelength = wavelength;
   if (current_ != kNoNode) node.depth = tree_->nodes[static_cast<std::size_t>(current_)].depth + 1;
   node.nodes = statistics_.nodes.count, node.tests = testsSoFar();  // finish() makes them differences
   last_ = static_cast<int>(tree_->nodes.size());

@@ -19,12 +19,23 @@ class Tracer {
   Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr)
       : world_(world), settings_(settings), tree_(tree) {}
 
-  /// The first surface that a ray of this kind meets.
-  std::optional<Hit> cast(const Ray& ray, RayKind kind);
+  /// The first surface that a ray of this kind meets. `inside` is what the ray starts in, and becomes what it
+  /// is in when it gets there: with nested glass a ray walks on through surfaces at which nothing changes.
+  std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside);
 
   /// How much of each colour passes from what was hit toward a light at `distance` (may be infinite) in the
-  /// unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive.
-  Color visible(const Hit& from, const Vec3& toLight, Real distance);
+  /// unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive. `inside` is what
+  /// the ray that hit it is in.
+  Color visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside);
+
+  /// What a ray that starts at the point is inside of.
+  const Interfaces& interfacesAt(const Vec3& point);
+  /// A RayTree takes the rays.
+  bool records() const { return kRecords && tree_; }
+  /// What fills the body that was hit, where its surface looks like `terms`.
+  Filling filling(const Hit& hit, const WhittedTerms& terms) const {
+    return world_.filling(hit, terms, settings_);
+  }
 
   /// Does the camera ray meet something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;
@@ -44,7 +55,6 @@ class Tracer {
 #else
   static constexpr bool kRecords = true;
 #endif
-  bool records() const { return kRecords && tree_; }
   static bool recorded(int node) { return kRecords && node != kNoNode; }
 
   void count(RayKind kind) { ++statistics_.rays[static_cast<std::size_t>(kind)]; }
@@ -60,14 +70,18 @@ class Tracer {
   void record(int node, const Bsdf& bsdf);
   void record(int node, const Color& through, const Color& radiance);
   /// A new node for a ray about to be traced; when it was, what it cost.
-  void begin(const Ray& ray, RayKind kind, Real tMost);
+  void begin(const Ray& ray, RayKind kind, Real tMost, Real wavelength);
   RayNode& finish();
   std::uint64_t testsSoFar() const;
 
   Faces facesSeenBy(RayKind kind) const;
   /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
-  Color passed(const Ray& ray, Real distance);
+  bool collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque);
+  std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside);
+  bool ignored(const Ray& ray, const Found& found, Interfaces& inside);
+  Color passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
+  Color passed(const Ray& ray, Real distance, Interfaces* inside);
   std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;
 
   const World& world_;
@@ -76,7 +90,8 @@ class Tracer {
   int current_ = kNoNode;  ///< the ray being followed
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
-  std::vector<Found> crossed_;  // of one shadow ray; kept to save allocations
+  std::vector<Found> crossed_;                        // of one ray; kept to save allocations
+  std::optional<std::pair<Vec3, Interfaces>> start_;  // of the last point that was asked for
 };
 
 }  // namespace trace

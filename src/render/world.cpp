@@ -1,9 +1,12 @@
 #include "render/world.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "base/match.h"
+#include "geometry/mesh/mesh_closed.h"
 #include "geometry/shapes/sphere.h"
 
 namespace trace {
@@ -41,18 +44,58 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
   return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
-Vec3 World::along(const Hit& hit) const {
-  const Affine& placed = worldFromObject(hit.object);
-  const Vec3 around = cross(linear(placed, {0, 0, 1}), hit.surface.shading);
-  // The axis is the normal to the last digits on a face across it.
-  return length(around) > gammaError(64) * length(linear(placed, {0, 0, 1})) ? around
-                                                                             : linear(placed, {1, 0, 0});
-}
-
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   const MaterialMix materials = materialMix(found);
   return shade(found.object, found.part, materials,
                textured(materials) ? surface(ray, found) : SurfacePoint(), nullptr);
+}
+
+// --- what is inside -----------------------------------------------------------------------------------
+
+Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const {
+  const auto filled = [&](const WhittedTerms& t, std::uint32_t material) {
+    Filling filling;
+    filling.object = hit.object;
+    filling.priority = t.priority;
+    filling.index = t.index;
+    filling.passes = settings.glass == Glass::perDistance ? t.transmissive * t.attenuation : t.attenuation;
+    filling.dispersion = t.dispersion;
+    filling.kind = material == MaterialMix::kClear ? Filling::kAir : surfaces_[material].kind;
+    return filling;
+  };
+  const Instance& instance = objects_[hit.object];
+  if (!nestedGlass_ || !instance.mixed || instance.mesh) return filled(terms, hit.materials.material[0]);
+  const MaterialMix inside = instance.shape.inside(static_cast<std::int64_t>(hit.part), instance.material);
+  return filled(whitted(*shade(hit.object, hit.part, inside, hit.surface, nullptr)), inside.material[0]);
+}
+
+Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) const {
+  Interfaces inside(settings.airIndex, nestedGlass_);
+  const auto mayHold = [&](std::uint32_t object) {
+    const Box3& bounds = objects_[object].bounds;
+    return bounds.empty() || bounds.contains(point);  // of what has no end there are none
+  };
+  if (std::none_of(glass_.begin(), glass_.end(), mayHold)) return inside;
+  // A line from inside a body leaves it before it enters it.
+  const Ray ray{point, normalize(Vec3{0.36, 0.48, 0.8})};
+  std::vector<Found> all;
+  Statistics uncounted;
+  crossings(ray, kInfinity, Faces::both, uncounted, [&](const Found& found) {
+    all.push_back(found);
+    return false;
+  });
+  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.before(b); });
+  std::set<std::uint32_t> met;
+  std::vector<Filling> around;
+  for (const Found& found : all) {
+    if (opaque(found.object) || !solid(found.object) || !met.insert(found.object).second) continue;
+    const Hit hit(*this, ray, found);
+    const PlaceBsdf bsdf = shade(hit);
+    if (hit.leaving && whitted(*bsdf).transmits()) around.push_back(filling(hit, whitted(*bsdf), settings));
+  }
+  // The one that is left last is the outermost.
+  for (auto body = around.rbegin(); body != around.rend(); ++body) inside.startInside(*body);
+  return inside;
 }
 
 std::size_t World::triangleCount() const {
@@ -149,6 +192,31 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
+/// The first material that is the same but for its name and priority.
+std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const Rules& rules) {
+  std::map<std::tuple<Real, Real, Real, Real, Real>, std::vector<std::uint32_t>> firsts;  // by some numbers
+  const auto nameless = [](Material material) {
+    material.name.clear();
+    match(material.model, [](auto& model) {
+      if constexpr (requires { model.priority; }) model.priority = 0;
+    });
+    return material;
+  };
+  std::vector<std::uint32_t> kinds;
+  for (std::uint32_t i = 0; i < materials.size(); ++i) {
+    const Bsdf bsdf = bsdfOf(materials[i].model, rules);
+    const WhittedTerms& terms = whitted(bsdf);
+    auto& same = firsts[{terms.index, terms.transmissive.r, terms.transmissive.g, terms.transmissive.b,
+                         terms.attenuation.r}];
+    const auto found = std::find_if(same.begin(), same.end(), [&](std::uint32_t other) {
+      return terms.transmits() && nameless(materials[i]) == nameless(materials[other]);
+    });
+    kinds.push_back(found == same.end() ? i : *found);
+    if (found == same.end() && terms.transmits()) same.push_back(i);
+  }
+  return kinds;
+}
+
 void World::focusOnMiddle() {
   const Ray ray = camera_.ray({0.5, 0.5});
   Statistics uncounted;
@@ -163,6 +231,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   for (const Material& material : scene.materials)
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
+  world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
+                       (settings.nestedGlass == NestedGlass::byPriority &&
+                        std::any_of(world.surfaces_.begin(), world.surfaces_.end(),
+                                    [](const auto& s) { return whitted(s.bsdf).priority != 0; }));
+  if (world.nestedGlass_) {
+    const std::vector<std::uint32_t> kinds = kindsOf(scene.materials, world.rules_);
+    for (std::size_t i = 0; i < kinds.size(); ++i) world.surfaces_[i].kind = kinds[i];
+  }
   for (const Material& material : scene.materials)
     for (const FieldTexture& t : material.textures) {
       const bool footprint = wantsFootprint(t.texture);
@@ -240,6 +316,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     instance.opaque = std::none_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
       return m == MaterialMix::kClear || whitted(world.surfaces_.at(m).bsdf).transmits();
     });
+    instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
+                                   : instance.shape.solid();
+    if (world.nestedGlass_ && instance.solid && !instance.opaque)
+      world.glass_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
     if (!flat) {
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));

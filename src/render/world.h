@@ -22,6 +22,7 @@
 #include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/hit.h"
+#include "render/interfaces.h"
 #include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -123,6 +124,14 @@ class World {
   }
   /// A ray that leaves the object on the side of its normal does not meet it again.
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
+  /// It encloses space; a mesh does if it is closed.
+  bool solid(std::uint32_t object) const { return objects_[object].solid; }
+  /// Bodies of glass inside and across one another are told apart.
+  bool nestedGlass() const { return nestedGlass_; }
+  /// What fills the body at a place on it that looks like `terms`, by the conventions of a render.
+  Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
+  /// What a ray that starts at the point is inside of.
+  Interfaces interfacesAt(const Vec3& point, const Settings& settings) const;
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -161,6 +170,7 @@ class World {
     std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
     bool convex = false;
+    bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
@@ -218,6 +228,7 @@ class World {
   struct Surface {
     Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
+    std::uint32_t kind = 0;                    ///< Filling::kind, where glass may be nested
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
@@ -246,6 +257,8 @@ class World {
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
+  bool nestedGlass_ = false;
+  std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where they may be nested
   Color ambient_;
   CameraFrame camera_;
   Outside outside_;

@@ -102,4 +102,13 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   return place;
 }
 
+Vec3 World::along(const Hit& hit) const {
+  const Vec3 grows = slopes(hit).u;
+  if (length(grows) > 0) return grows;
+  const Affine& placed = worldFromObject(hit.object);
+  const Vec3 axis = linear(placed, {0, 0, 1}), around = cross(axis, hit.surface.shading);
+  // On a face across the axis that is the normal to the last digits.
+  return length(around) > gammaError(64) * length(axis) ? around : linear(placed, {1, 0, 0});
+}
+
 }  // namespace trace

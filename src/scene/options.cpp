@@ -40,7 +40,9 @@ constexpr std::array<std::string_view, 2> kNames<Highlight>{"blinn", "phong"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Glass>{"per-crossing", "per-distance"};
 template <>
-constexpr std::array<std::string_view, 2> kNames<Fresnel>{"constant", "schlick"};
+constexpr std::array<std::string_view, 3> kNames<Fresnel>{"constant", "schlick", "exact"};
+template <>
+constexpr std::array<std::string_view, 3> kNames<NestedGlass>{"by-priority", "on", "off"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<GlassShadows>{"filtered", "black"};
 template <>
@@ -412,6 +414,33 @@ const std::array kTable{
                                .most = 1,
                                .integrators = "whitted",
                                .extra = true}),
+    row<&Settings::nestedGlass>(
+        {.name = "nested-glass",
+         .group = "Tracing",
+         .help = "bodies of glass inside and across one another: the one of the highest priority fills a "
+                 "place, of equals the one entered last; by-priority does so if a material gives one",
+         .source = "Schmidt and Budge 2002; docs/glass.md",
+         .repeats = Repeats::world,
+         .integrators = "whitted",
+         .extra = true}),
+    row<&Settings::wavelengths>(
+        {.name = "wavelengths",
+         .group = "Tracing",
+         .help = "rays into which a body splits light that disperses it; 1 refracts all colours alike",
+         .source = "docs/glass.md",
+         .least = 1,
+         .most = 1000,
+         .unit = "rays",
+         .integrators = "whitted",
+         .extra = true}),
+    row<&Settings::varnish>(
+        {.name = "varnish",
+         .group = "Tracing",
+         .help = "opaque surfaces with an index mirror as a clear coat of that index does, by Fresnel's "
+                 "formula",
+         .source = "docs/glass.md",
+         .integrators = "whitted",
+         .extra = true}),
     row<&Settings::omit>({.name = "omit",
                           .group = "Tracing",
                           .help = "leave out all objects of these kinds",
@@ -521,8 +550,9 @@ const std::array kTable{
     row<&Settings::fresnel>(
         {.name = "fresnel",
          .group = "Conventions",
-         .help = "glass mirrors what its material says, or the more the flatter it is looked at (schlick)",
-         .source = "Schlick 1994; University of Southern California",
+         .help = "glass mirrors what its material says, or the more the flatter it is looked at, by "
+                 "Schlick's approximation or by Fresnel's formula (exact)",
+         .source = "Schlick 1994, University of Southern California; Fresnel 1823",
          .integrators = "whitted"}),
     row<&Settings::glassShadows>({.name = "glass-shadows",
                                   .group = "Conventions",

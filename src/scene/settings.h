@@ -24,7 +24,10 @@ enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
 
 enum class Glass { perCrossing, perDistance };
 /// How much glass mirrors: what its material says, or by the angle.
-enum class Fresnel { constant, schlick };
+enum class Fresnel { constant, schlick, exact };
+/// Whether bodies of glass inside one another are told apart: where materials say `priority`, or always, or
+/// never.
+enum class NestedGlass { byPriority, on, off };
 enum class GlassShadows { filtered, black };
 enum class BackFaces { both, cullSeen, cullAll };
 enum class PixelPosition { corner, center, border };
@@ -77,6 +80,9 @@ struct Settings {
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
   Real threshold = 0;
+  NestedGlass nestedGlass = NestedGlass::byPriority;
+  int wavelengths = 1;
+  bool varnish = false;
   EnumSet<ShapeKind> omit{};
   // Background
   FilePath backdrop{};

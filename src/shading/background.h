@@ -22,12 +22,12 @@ struct Background {
   /// Where each band but the last ends, as a share of the picture's height from the top, ascending; none: all
   /// bands are equally high.
   std::vector<Real> limits;
-  std::vector<Color> gradient;   ///< colours all around, from straight down to straight up; none: no gradient
-  std::vector<Real> elevations;  ///< of each, in degrees above the horizon, ascending; none: equally spaced
-  Real turbidity = 0;            ///< of a sky by day (shading/daylight.h); 0: none
-  Vec3 sun{1, 1, 1};             ///< the direction to it
-  Real skyBrightness = 0.05;     ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
-  Color ground{0.2, 0.2, 0.2};   ///< below the horizon of a sky by day
+  std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
+  std::vector<Real> elevations{};  ///< of each, in degrees above the horizon, ascending; none: equally spaced
+  Real turbidity = 0;              ///< of a sky by day (shading/daylight.h); 0: none
+  Vec3 sun{1, 1, 1};               ///< the direction to it
+  Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
+  Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a sky by day
 
   static constexpr auto fields() {
     return std::tuple{

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/parallel.h"
 #include "math/perpendicular.h"
 
@@ -195,6 +196,7 @@ EnvironmentMap EnvironmentMap::sampled(int side, int threads, const Texel& texel
   for (Picture& face : faces) face = Picture(side, side);
   Job job;
   parallelChunks(6 * side, threads > 0 ? threads : hardwareThreads(), job, [&](std::int64_t row, int) {
+    checkBudget();
     const int face = static_cast<int>(row) / side, y = static_cast<int>(row) % side;
     const FaceAxes& axes = kFaces[static_cast<std::size_t>(face)];
     for (int x = 0; x < side; ++x) {

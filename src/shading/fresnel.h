@@ -9,17 +9,28 @@
 
 namespace trace {
 
-/// Between two media that do not absorb, of these indices of refraction: the mean of both polarisations (Born
-/// and Wolf, Principles of Optics, section 1.5.2). 1 under total internal reflection, where equality with the
-/// critical angle counts.
-inline Real fresnelDielectric(Real cosine, Real etaBefore, Real etaBehind) {
+/// Shares mirrored of light that swings across the plane of incidence (s) and in it (p).
+struct Reflectance {
+  Real s, p;
+};
+
+/// Between two media that do not absorb, of these indices of refraction (Born and Wolf, Principles of Optics,
+/// section 1.5.2). 1 under total internal reflection, where equality with the critical angle counts; 0 where
+/// the indices are equal.
+inline Reflectance reflectanceDielectric(Real cosine, Real etaBefore, Real etaBehind) {
+  if (etaBefore == etaBehind) return {0, 0};
   cosine = max(0, min(1, cosine));
   const Real ratio = etaBefore / etaBehind, squared = 1 - ratio * ratio * (1 - cosine * cosine);
-  if (!(squared > 0)) return 1;
+  if (!(squared > 0)) return {1, 1};
   const Real behind = std::sqrt(squared);
   const Real s = (etaBefore * cosine - etaBehind * behind) / (etaBefore * cosine + etaBehind * behind);
   const Real p = (etaBehind * cosine - etaBefore * behind) / (etaBehind * cosine + etaBefore * behind);
-  return (s * s + p * p) / 2;
+  return {s * s, p * p};
+}
+/// The mean of both.
+inline Real fresnelDielectric(Real cosine, Real etaBefore, Real etaBehind) {
+  const Reflectance r = reflectanceDielectric(cosine, etaBefore, etaBehind);
+  return (r.s + r.p) / 2;
 }
 
 /// From air or vacuum at a conductor of the complex index eta + i k, exactly (Born and Wolf, section 14.2; in

@@ -7,6 +7,7 @@
 namespace trace {
 namespace {
 
+/// Those that differ from the default, which another model may have another of.
 template <class From, class To>
 void copyFields(const From& from, To& to) {
   forEachField<To>([&](const auto& target) {
@@ -14,7 +15,8 @@ void copyFields(const From& from, To& to) {
     forEachField<From>([&](const auto& source) {
       using Value = std::remove_cvref_t<decltype(from.*source.member)>;
       if constexpr (std::is_same_v<Value, std::remove_cvref_t<decltype(value)>>)
-        if (source.keyword == target.keyword) value = from.*source.member;
+        if (source.keyword == target.keyword && !(from.*source.member == From{}.*source.member))
+          value = from.*source.member;
     });
   });
 }
@@ -43,6 +45,7 @@ Material withModel(Material material, const MaterialModel& to) {
   material.model = converted(material.model, to);
   std::erase_if(material.textures, [&](const FieldTexture& t) {
     bool known = false;
+    forEachField<Material>([&](const auto& f) { known |= f.keyword == t.field; });
     match(material.model, [&]<class M>(const M&) {
       forEachField<M>([&](const auto& f) {
         using Value = std::remove_cvref_t<decltype(std::declval<M&>().*f.member)>;

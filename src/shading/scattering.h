@@ -16,6 +16,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "shading/frame.h"
+#include "shading/interior.h"
 #include "shading/rules.h"
 
 namespace trace {
@@ -42,7 +43,15 @@ struct WhittedTerms {
   Color reflective, transmissive;  ///< weights of the mirrored, along the normal, and of the refracted ray
   Real index = 1;                  ///< of refraction
   Real shadow = 1;                 ///< share of a light that a shadow takes away
+  Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
+  Color attenuation{1};            ///< what passes of a unit of length inside
+  Dispersion dispersion;           ///< of the index
 
+  void fill(const Interior& interior, Real index) {
+    priority = interior.priority;
+    attenuation = interior.passesPerUnit();
+    dispersion = {interior.dispersion, interior.abbe, index};
+  }
   bool transmits() const { return !isBlack(transmissive); }
   bool mirrors() const { return !isBlack(reflective); }
 };

@@ -106,5 +106,37 @@ TEST(Bump, NeverMirrorsIntoTheSurface) {
   }
 }
 
+// --- pictures of normals -----------------------------------------------------------------------------------
+
+Material withNormals(const Color& texel, Relief relief, Real scale) {
+  Picture picture(2, 2);
+  for (Color& c : picture.pixels) c = texel;
+  ImageMap map;
+  map.file.map = std::make_shared<const MipMap>(picture);
+  map.relief = relief;
+  Material material;
+  material.textures = {{"bump", Texture(TextureNode{.model = map})}};
+  material.bump = scale;
+  return material;
+}
+
+TEST(Bump, APictureOfNormalsSaysThemAlongUAndV) {
+  const auto normal = [](const Color& texel, Relief relief, Real scale) {
+    return seen(Plane{}, {}, withNormals(texel, relief, scale)).at({0.3, 0.4, 5}, {0, 0, -1}).shading;
+  };
+  expectNear(normal({0.5, 0.5, 1}, Relief::normals, 1), {0, 0, 1}, 1e-6);
+  expectNear(normal({0.625, 0.5, 1}, Relief::normals, 1), normalize({0.25, 0, 1}), 1e-6);
+  expectNear(normal({0.625, 0.5, 1}, Relief::normals, 0.5), normalize({0.125, 0, 1}), 1e-6);
+  expectNear(normal({0.5, 0.625, 1}, Relief::normals, 1), normalize({0, 0.25, 1}), 1e-6);
+  expectNear(normal({0.5, 0.625, 1}, Relief::normalsDown, 1), normalize({0, -0.25, 1}), 1e-6);
+  expectNear(normal({0.625, 0.625, 1}, Relief::heights, 1), {0, 0, 1}, 1e-6);
+}
+
+TEST(Bump, PicturesOfNormalsTurnWithTheObject) {
+  const Affine turned = Affine::rotation({0, 0, 1}, kPi / 2);
+  const Seen plane = seen(Plane{}, turned, withNormals({0.625, 0.5, 1}, Relief::normals, 1));
+  expectNear(plane.at({0.3, 0.4, 5}, {0, 0, -1}).shading, normalize({0, 0.25, 1}), 1e-6);
+}
+
 }  // namespace
 }  // namespace trace

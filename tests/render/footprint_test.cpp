@@ -165,9 +165,9 @@ struct Way {
     const Real t = dot(wall, wall * (glass ? -6 : 6) - hit.surface.point) / dot(wall, out);
     if (first) {
       const Differentials at = arrived(*first, ray.direction, hit.t, normal);
-      const Differentials onward = glass ? refractedAt(world, hit, at, ray.direction, out, normal, 1 / 1.5)
-                                         : mirroredAt(world, hit, at, ray.direction, normal);
-      last = arrived(onward, out, t, wall);
+      const Footprint onward = glass ? refractedAt(world, hit, &at, ray.direction, out, normal, 1 / 1.5)
+                                     : mirroredAt(world, hit, &at, ray.direction, normal);
+      last = arrived(*onward, out, t, wall);
     }
     return hit.surface.point + out * t;
   }

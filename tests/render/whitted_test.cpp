@@ -17,7 +17,8 @@ Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {},
             Statistics* statistics = nullptr) {
   const World world = build(scene, settings);
   Tracer tracer(world, settings);
-  const CameraRay camera{ray, tracer.cast(ray, RayKind::camera)};
+  CameraRay camera{ray, {}, tracer.interfacesAt(ray.origin)};
+  camera.hit = tracer.cast(ray, RayKind::camera, camera.inside);
   const SampleRules rules(settings, {1, 1});
   const Color color = Whitted().radiance(tracer, Sampler(rules, 0, 0, 0), camera);
   if (statistics) *statistics = tracer.statistics();

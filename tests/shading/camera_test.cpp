@@ -50,7 +50,8 @@ TEST(Camera, AxesByConvention) {
 }
 
 TEST(Camera, ALensBlursByItsCircleOfConfusion) {
-  // f = 0.05 at f/2, focused at 2: a point at 4 covers a disk of 3.205e-4 on the film, 0.0512821 behind the lens.
+  // f = 0.05 at f/2, focused at 2: a point at 4 covers a disk of 3.205e-4 on the film, 0.0512821 behind the
+  // lens.
   const Lens lens{.radius = 0.05 / 2 / 2, .focus = 2};
   const CameraFrame f = frame({}, CameraAxes::orthonormal, lens);
   const Real film = 0.05 * 2 / (2 - 0.05);
@@ -69,7 +70,8 @@ TEST(Camera, WhatIsInFocusIsSharp) {
   Camera camera;
   camera.position = {1, 2, 3}, camera.viewdir = {1, 1, -2};
   for (const int blades : {0, 5}) {
-    const CameraFrame f = frame(camera, CameraAxes::orthonormal, {.radius = 0.3, .focus = 7, .blades = blades});
+    const CameraFrame f =
+        frame(camera, CameraAxes::orthonormal, {.radius = 0.3, .focus = 7, .blades = blades});
     const Ray middle = f.ray({0.2, 0.9});
     const Vec3 sharp = middle.at(7 / dot(middle.direction, normalize(f.look)));
     for (const Vec2& u : {Vec2{0, 0}, Vec2{0.9, 0.3}, Vec2{0.5, 0.99}}) {

@@ -24,7 +24,9 @@ Real given(const L& light, const Vec3& normal, Vec3* direction = nullptr) {
 
 TEST(Light, ARectangleGivesItsFormFactor) {
   const Real a = 0.75, b = 1.25, c = 2, A = a / c, B = b / c;  // half its sides, and how far it is
-  const auto part = [](Real p, Real q) { return p / std::sqrt(1 + p * p) * std::atan(q / std::sqrt(1 + p * p)); };
+  const auto part = [](Real p, Real q) {
+    return p / std::sqrt(1 + p * p) * std::atan(q / std::sqrt(1 + p * p));
+  };
   RectangleLight light{.position = {0, 0, c}, .u = {2 * a, 0, 0}, .v = {0, -2 * b, 0}, .color = Color(1)};
   EXPECT_NEAR(given(light, {0, 0, 1}), 2 / kPi * (part(A, B) + part(B, A)), 1e-5);
   light.v = {0, 2 * b, 0};

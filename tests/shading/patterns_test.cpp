@@ -1,9 +1,9 @@
-#include "shading/texture.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+
+#include "shading/texture.h"
 
 namespace trace {
 namespace {
@@ -114,7 +114,14 @@ TEST(Checker, SquaresLieInUAndV) {
 // A square at z = 0 that was turned has points a little above and below.
 TEST(Checker, HasOneColourOnTheFaceOfCubes) {
   const Checker checker;
-  EXPECT_EQ(checker.at(at({0.5, 0.5, -1e-16})), checker.at(at({0.5, 0.5, 1e-16})));
+  for (const Real z : {-1e-16, 0.0, 1e-16}) {
+    TexturePlace place = wide({0.5, 0.5, z}, 0.01);
+    place.pointX.z = 1e-17;  // that of a pixel on a turned square
+    EXPECT_EQ(checker.at(place), checker.a);
+    EXPECT_EQ(checker.at(at({0.5, 0.5, z})), checker.a);
+    place.point = {1e6 + 1.5, 0.5, z};
+    EXPECT_EQ(checker.at(place), checker.b);
+  }
 }
 
 // The mean over the pixel, by a fine grid.

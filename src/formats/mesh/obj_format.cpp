@@ -131,7 +131,7 @@ bool isSound(const Material& material) {
     if constexpr (requires { value.r; })
       sound = sound && isFinite(value);
     else
-      sound = sound && std::isfinite(value);
+      sound = sound && std::isfinite(static_cast<double>(value));
   });
   return sound;
 }

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_format.h"
+#include "shading/substances.h"
 
 namespace trace::rayfile {
 namespace {
@@ -142,6 +143,7 @@ void Materials::field(Block& block, const Item& field) {
     rayfile::read(findings_, key, field.value(), block.material.name);
     return;
   }
+  if (key == kLibrary) return fromLibrary(block, field.value());
   Phong* phong = std::get_if<Phong>(&block.material.model);
   if (phong && key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
     block.gaveReflective = false, phong->mirrorsSpecular = true;
@@ -187,12 +189,29 @@ void Materials::unknownField(const Block& block, const Item& field) {
       });
     });
     if (having.empty())
-      return findings_.unknownField(Material::kKeyword, field, keywords<Model>({"name", "bump", kModel}));
+      return findings_.unknownField(Material::kKeyword, field,
+                                    keywords<Model>({"name", "bump", kModel, kLibrary}));
     findings_.warn(field,
                    "unknown field \"" + std::string(key) +
                        "\" of material is ignored: it is one of model = " + list(having, "or"),
                    "say which model, before the field");
   });
+}
+
+/// Starts the block as a copy of a material of the library; its name stays.
+void Materials::fromLibrary(Block& block, const Item& value) {
+  std::string name;
+  if (!rayfile::read(findings_, kLibrary, value, name)) return;
+  const std::optional<Material> found = libraryMaterial(name);
+  if (!found) {
+    std::string hint = didYouMean(name, libraryNames());
+    if (hint.empty()) hint = "docs/indices.md lists them, as in library = water";
+    findings_.error(value, "library: expected the name of a material, found " + describe(value),
+                    std::move(hint));
+    return;
+  }
+  block.material.textures.clear();
+  block.material.model = found->model;
 }
 
 /// Is the field given by a pattern that Trace does not render? White shows where it goes.
@@ -237,7 +256,7 @@ void Materials::warnOfInheritedGlass(const Item& block, const Material& inherite
   bool looks = false;
   for (const Item item : block) {
     if (!item.keyed()) continue;
-    if (item.key() == "transmissive" || item.key() == "index") return;
+    if (item.key() == "transmissive" || item.key() == "index" || item.key() == kLibrary) return;
     looks |= item.key() == "diffuse";
   }
   if (!looks) return;

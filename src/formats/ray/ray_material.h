@@ -17,6 +17,9 @@
 
 namespace trace::rayfile {
 
+/// `library = water` makes a block start from that material (shading/substances.h), in place of what it
+/// inherits.
+inline constexpr std::string_view kLibrary = "library";
 /// The field of a material that says its shading model.
 inline constexpr std::string_view kModel = "model";
 
@@ -45,6 +48,7 @@ class Materials {
   static std::optional<Item> modelOf(const Item& block);
   void chooseModel(Block& block, const Item& value);
   void field(Block& block, const Item& field);
+  void fromLibrary(Block& block, const Item& value);
   void unknownField(const Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
   bool studentBump(Block& block, const Item& field);

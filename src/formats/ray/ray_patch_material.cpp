@@ -5,6 +5,7 @@
 
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
+#include "shading/substances.h"
 
 namespace trace::rayfile {
 namespace {
@@ -32,6 +33,14 @@ struct Mirror {
     }
   }
 };
+
+/// What a block starts as: what it inherits, or what it names of the library.
+Material startOf(const Item& block, const Material& inherited) {
+  const std::optional<Item> named = fieldOf(block, kLibrary);
+  const std::optional<Material> found =
+      named ? libraryMaterial(named->value().text()) : std::optional<Material>();
+  return found ? *found : inherited;
+}
 
 bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.text() == "specular"; }
 
@@ -110,7 +119,8 @@ void MaterialEdits::use(const Notes::Use& use) {
     return define(wanted);
   }
 
-  const Material& from = block.inherits == NotedMaterial::kNoBlock ? block.inherited : now_[block.inherits];
+  const Material from =
+      startOf(*item, block.inherits == NotedMaterial::kNoBlock ? block.inherited : now_[block.inherits]);
   if (instead != instead_.end()) {
     const Material& wanted = instead->second;
     now_[use.block] = wanted;

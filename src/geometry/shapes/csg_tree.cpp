@@ -240,6 +240,14 @@ MaterialMix CsgTree::material(std::int64_t part, std::uint32_t) const {
   return operands_[operand].shape().material(part / count, materials_[operand]);
 }
 
+MaterialMix CsgTree::inside(std::int64_t part, std::uint32_t) const {
+  const auto count = static_cast<std::int64_t>(operands_.size());
+  const std::int64_t owner = part % count;
+  const std::int64_t operand = rule_.operation == CsgOperation::unite ? owner : 0;
+  const auto filling = static_cast<std::size_t>(operand);
+  return operands_[filling].shape().inside(operand == owner ? part / count : 0, materials_[filling]);
+}
+
 void CsgTree::addMaterials(std::vector<std::uint32_t>& materials) const {
   for (std::size_t i = 0; i < operands_.size(); ++i) {
     materials.push_back(materials_[i]);

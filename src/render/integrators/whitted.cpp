@@ -1,7 +1,14 @@
 #include "render/integrators/whitted.h"
 
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "math/low_discrepancy.h"
 #include "render/footprint.h"
 #include "render/gather.h"
+#include "shading/dispersion.h"
+#include "shading/fresnel.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -11,14 +18,42 @@ struct Path {
   RayKind kind = RayKind::camera;
   int depth = 0;
   Color weight{1};  ///< the largest share of the pixel that this ray can still make
-  Color medium{1};  ///< what passes through a unit of length of what the ray runs in
+  Interfaces inside{};
+  Real spread = 0.5;                             ///< where the wavelengths of a fan lie: spectralFan()
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
 };
 
-/// Branches of a place's numbers: its lights by their number, and the rays that go on.
+/// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
+/// rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 
-Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sampler);
+/// Takes `path` to where the ray gets.
+Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler);
+
+/// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
+/// Corput 1935).
+Real spreadOf(int k) {
+  Real spread = 0, step = 0.5;
+  for (auto n = static_cast<unsigned>(k) + 1; n > 0; n >>= 1, step /= 2)
+    if (n & 1) spread += step;
+  return spread;
+}
+
+/// A path of all colours is split into wavelengths there.
+bool splits(const Sides& sides, const Path& path, const Settings& settings) {
+  return settings.wavelengths > 1 && path.inside.wavelength == 0 &&
+         (!sides.before.dispersion.none() || !sides.behind.dispersion.none());
+}
+
+/// The share that a surface mirrors by the angle; 0 if that is left to its material.
+Real mirroredShare(Fresnel fresnel, Real cosine, const Indices& indices) {
+  switch (fresnel) {
+    case Fresnel::constant: return 0;
+    case Fresnel::schlick: return schlick(cosine, indices.before, indices.behind);
+    case Fresnel::exact: return fresnelDielectric(cosine, indices.before, indices.behind);
+  }
+  return 0;
+}
 
 /// The radiance along the ray, which is the one cast last and met `hit`.
 Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
@@ -43,17 +78,30 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
   const Vec3 normal = turned ? -surface.shading : surface.shading;
   const Frame frame = world.frame(*hit, *bsdf, normal);
+  const Real cosine = -dot(ray.direction, normal);
+
+  Filling body;
+  Sides sides;
+  if (material.transmits() || settings.varnish || tracer.records()) {
+    body = tracer.filling(*hit, material);
+    sides = path.inside.at(hit->leaving, body, hit->solid);
+  }
+  const Indices indices(sides, path.inside.wavelength, path.inside.nested());
+  const bool coated = settings.varnish && !material.transmits() && material.index != 1 && cosine > 0;
+  const Real coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
 
   sum.add(Term::Kind::emissive, material.emissive);
-  sum.add(Term::Kind::ambient, material.ambient, world.ambient());
+  sum.add(Term::Kind::ambient, material.ambient * (1 - coat), world.ambient());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const auto light = [&](const Vec2& place, Real share) {
       const auto arriving = world.illuminate(i, surface.point, place);
       if (!arriving) return;
-      const Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
+      Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
+      parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;
-      const Color passed =
-          isBlack(scattered) ? Color(0) : tracer.visible(*hit, arriving->toLight, arriving->distance);
+      const Color passed = isBlack(scattered)
+                               ? Color(0)
+                               : tracer.visible(*hit, arriving->toLight, arriving->distance, path.inside);
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
       if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
     };
@@ -63,7 +111,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     }
     Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
     const int rays = settings.lightSamples;
-    for (int n = 0; n < rays; ++n) light(numbers.next2(), 1.0 / rays);
+    const Vec2 first = numbers.next2();
+    for (int n = 0; n < rays; ++n)
+      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
   }
 
   const auto worthwhile = [&](const Path& next) {
@@ -75,43 +125,61 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       return true;
     return false;
   };
-  const Indices indices = Interfaces(settings.airIndex).at(hit->leaving, material.index);
+  const auto onward = [&](RayKind kind, const Color& share) {
+    return Path{kind, path.depth + 1, path.weight * share, path.inside, path.spread};
+  };
   sum.note(indices);
-  // By Schlick's approximation of Fresnel's formula glass mirrors the share R and lets 1 - R through.
-  const bool fresnel = settings.fresnel == Fresnel::schlick && material.transmits();
-  const Real R = fresnel ? schlick(-dot(ray.direction, normal), indices.before, indices.behind) : 0;
-  const Color mirror = fresnel ? Color(R) : mirrorWeight(*bsdf, -dot(ray.direction, normal));
+  const SpectralShare whole{path.inside.wavelength, Color(1)};
+  std::vector<SpectralShare> fan;
+  if (material.transmits() && splits(sides, path, settings))
+    fan = spectralFan(settings.wavelengths, path.spread);
+  const std::span<const SpectralShare> shares =
+      fan.empty() ? std::span(&whole, material.transmits() ? 1 : 0) : std::span(std::as_const(fan));
+  // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
+  const auto shareMirrored = [&](const SpectralShare& share) {
+    return mirroredShare(settings.fresnel, cosine, Indices(sides, share.nanometres, false));
+  };
+  Color mirror;
+  if (settings.fresnel != Fresnel::constant && material.transmits())
+    for (const SpectralShare& share : shares) mirror += share.weight * shareMirrored(share);
+  else
+    mirror = Color(coat) + mirrorWeight(*bsdf, cosine) * (1 - coat);
   if (!isBlack(mirror)) {
-    Path next{RayKind::reflection, path.depth + 1, path.weight * mirror, path.medium};
+    Path next = onward(RayKind::reflection, mirror);
     if (worthwhile(next)) {
-      const Footprint onward = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
-      next.differentials = onward.get();
+      const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
+      next.differentials = widened.get();
       sum.add(Term::Kind::reflection, mirror,
               follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, sampler.branch(kMirrored)));
     }
   }
-  if (material.transmits()) {
+  std::uint32_t branch = kRefracted;
+  bool total = false;
+  for (const SpectralShare& share : shares) {
     const bool perCrossing = settings.glass == Glass::perCrossing;
-    const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - R);
-    Path next{RayKind::refraction, path.depth + 1, path.weight * filter,
-              perCrossing || hit->leaving ? Color(1) : material.transmissive};
-    if (worthwhile(next)) {
-      const Real ratio = indices.before / indices.behind;
-      if (const auto direction = refracted(ray.direction, normal, ratio)) {
-        const Footprint onward =
-            refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
-        next.differentials = onward.get();
-        sum.add(Term::Kind::refraction, filter,
-                follow(tracer, hit->leave(*direction), next, sampler.branch(kRefracted)));
-      } else
-        sum.stop(TotalInternalReflection{});
+    const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - shareMirrored(share));
+    Path next = onward(RayKind::refraction, share.weight * filter);
+    const std::uint32_t number = branch++;
+    if (!worthwhile(next)) continue;
+    const Real ratio = sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
+    if (const auto direction = refracted(ray.direction, normal, ratio)) {
+      next.inside.pass(hit->leaving, body, hit->solid);
+      next.inside.wavelength = share.nanometres;
+      const Footprint widened =
+          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
+      next.differentials = widened.get();
+      sum.add(Term::Kind::refraction, share.weight * filter,
+              follow(tracer, hit->leave(*direction), next, sampler.branch(number)));
+    } else if (!std::exchange(total, true)) {
+      sum.stop(TotalInternalReflection{});
     }
   }
-  return sum.radiance(path.medium == Color(1) ? Color(1) : pow(path.medium, hit->t));  // Beer's law
+  const Color& medium = path.inside.around().passes;
+  return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, hit->t));  // Beer's law
 }
 
-Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sampler) {
-  const std::optional<Hit> hit = tracer.cast(ray, path.kind);
+Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler) {
+  const std::optional<Hit> hit = tracer.cast(ray, path.kind, path.inside);
   return radianceAlong(tracer, ray, hit, path, sampler);
 }
 
@@ -119,6 +187,8 @@ Color follow(Tracer& tracer, const Ray& ray, const Path& path, const Sampler& sa
 
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
+  path.inside = camera.inside;
+  path.spread = spreadOf(sampler.sample());
   path.differentials = camera.differentials;
   return radianceAlong(tracer, camera.ray, camera.hit, path, sampler);
 }

@@ -14,7 +14,7 @@ namespace trace {
 
 struct PhongBsdf;
 
-struct Phong {
+struct Phong : Interior {
   static constexpr std::string_view kKeyword = "phong";
   static constexpr std::string_view kHelp = "Phong or Blinn-Phong surface with mirror and glass terms";
   static constexpr bool kReciprocal = false, kKeepsEnergy = false;
@@ -26,18 +26,20 @@ struct Phong {
   Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-        Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
-        Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
-        Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
-        Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
-        Field{"transmissive", &Phong::transmissive, "", 0, 1,
-              "weight of the refracted ray, filter of shadows"},
-        Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
-        Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
-        Field{"shadow", &Phong::shadow, "", 0, 1,
-              "share of a light that a shadow on the surface takes away"}};
+    return std::tuple_cat(
+        std::tuple{
+            Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
+            Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
+            Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
+            Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
+            Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
+            Field{"transmissive", &Phong::transmissive, "", 0, 1,
+                  "weight of the refracted ray, filter of shadows"},
+            Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
+            Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
+            Field{"shadow", &Phong::shadow, "", 0, 1,
+                  "share of a light that a shadow on the surface takes away"}},
+        Interior::fields());
   }
   bool operator==(const Phong&) const = default;
 
@@ -156,6 +158,7 @@ inline PhongBsdf Phong::at(const Rules& rules) const {
   bsdf.transmissive = transmissive;
   bsdf.shininess = shininess * rules.shininessScale;
   bsdf.index = index;
+  bsdf.fill(*this, index);
   bsdf.shadow = shadow;
   bsdf.highlight = rules.highlight;
   bsdf.litFromBehind = rules.diffuseSides == DiffuseSides::bothOnGlass && transmits();

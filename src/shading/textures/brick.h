@@ -48,13 +48,13 @@ struct Brick {
     if (!(joint > 0)) return 1;
     if (joint >= 1) return 0;
     const Real t = x / length - joint / 2, w = width / length;
-    if (!(w > 0)) return cellOf(t).rest < 1 - joint;
+    if (!(w > kLeastWidth)) return cellOf(t).rest < 1 - joint;
     if (w >= 0x1p30) return 1 - joint;
     const auto upTo = [&](Real s) {  // the length of brick between 0 and s
       const Lattice cell(s);
       return static_cast<Real>(cell.whole) * (1 - joint) + min(cell.rest, 1 - joint);
     };
-    return min((upTo(t + w / 2) - upTo(t - w / 2)) / w, 1);
+    return max(min((upTo(t + w / 2) - upTo(t - w / 2)) / w, 1), 0);
   }
 };
 

@@ -27,6 +27,14 @@ constexpr std::array<std::string_view, 5> names(Channel) {
   return {"color", "red", "green", "blue", "alpha"};
 }
 
+/// What it tells where it is a material's `bump`.
+enum class Relief {
+  heights,
+  normals,      ///< in the frame of tangents; green counts up, as in OpenGL and glTF
+  normalsDown,  ///< the same with green counting down, as in Direct3D
+};
+constexpr std::array<std::string_view, 3> names(Relief) { return {"heights", "normals", "normals_down"}; }
+
 struct ImageMap {
   static constexpr std::string_view kKeyword = "image";
   static constexpr std::string_view kHelp = "a picture, by u and v: (0, 0) is its bottom left corner";
@@ -37,6 +45,7 @@ struct ImageMap {
   bool centersAtEnds = false;
   bool srgb = false;
   Channel channel = Channel::color;
+  Relief relief = Relief::heights;
   std::array<Real, 6> transform{1, 0, 0, 0, 1, 0};
 
   static constexpr auto fields() {
@@ -51,6 +60,8 @@ struct ImageMap {
               "its numbers are sRGB and are made linear, before they are mixed; otherwise they are taken as "
               "they are"},
         Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
+        Field{"relief", &ImageMap::relief, "", -kNoLimit, kNoLimit,
+              "what it tells as a bump: heights, or normals whose green counts up or down"},
         Field{
             "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
             "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};

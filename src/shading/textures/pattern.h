@@ -39,18 +39,19 @@ struct PatternPlace {
 /// The cell of x in a lattice of whole numbers. A face of an object often lies on the border of two cells;
 /// what rounding leaves of it counts as the upper one.
 inline Lattice cellOf(Real x) { return Lattice(x + 0x1p-30); }
+/// A pixel that is no wider, in cells, is a point: across a face, its width is only rounding.
+inline constexpr Real kLeastWidth = 0x1p-25;
 
 /// The share of the pixel [x - width/2, x + width/2] where an even cell is: its mean (Ebert and others,
 /// Texturing and Modeling, 3rd ed., section 2.8, box filtering).
 inline Real evenShare(Real x, Real width) {
-  const auto isEven = [](Real t) { return cellOf(t).whole % 2 == 0; };
-  if (!(width > 0)) return isEven(x);
+  if (!(width > kLeastWidth)) return cellOf(x).whole % 2 == 0;
   if (width >= 0x1p30) return 0.5;
   const auto evenUpTo = [](Real t) {  // the length of even cells between 0 and t
     const Lattice pair(t / 2);
     return static_cast<Real>(pair.whole) + min(2 * pair.rest, 1);
   };
-  return (evenUpTo(x + width / 2) - evenUpTo(x - width / 2)) / width;
+  return max(min((evenUpTo(x + width / 2) - evenUpTo(x - width / 2)) / width, 1), 0);
 }
 
 /// From 0 to 1 without a corner.

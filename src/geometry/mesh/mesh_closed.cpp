@@ -1,0 +1,40 @@
+#include "geometry/mesh/mesh_closed.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace trace {
+
+bool closed(const MeshData& mesh) {
+  std::map<std::array<float, 3>, std::uint32_t> first;  // of the points at a place
+  std::vector<std::uint32_t> place;
+  place.reserve(mesh.points.size());
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3f& p = mesh.points[i];
+    place.push_back(first.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, i).first->second);
+  }
+  struct Edge {
+    std::uint32_t low, high;
+    int sense;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(mesh.triangles.size() * 3);
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = place[t[i]], b = place[t[(i + 1) % 3]];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+    }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  for (std::size_t i = 0; i < edges.size();) {
+    int balance = 0;
+    const Edge edge = edges[i];
+    for (; i < edges.size() && edges[i].low == edge.low && edges[i].high == edge.high; ++i)
+      balance += edges[i].sense;
+    if (balance != 0) return false;
+  }
+  return !edges.empty();
+}
+
+}  // namespace trace

@@ -1,0 +1,31 @@
+// THE table of substances: indices of refraction, and the materials that scenes may take by their names.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "shading/material.h"
+
+namespace trace {
+
+/// Light passes all of them. Indices are those at the line d or D (588 or 589 nm), of liquids at 20 degrees
+/// Celsius, of gases at 0; of crystals that refract doubly that of the ordinary ray.
+struct Substance {
+  std::string_view name;   ///< "heavy flint"
+  std::string_view group;  ///< "glass", "liquid", "gem", ...
+  Real index;
+  Real abbe = 0;  ///< Abbe's number; 0: not in the table
+  std::string_view source{};
+  Disperses dispersion = Disperses::byAbbe;
+  Color color{1};  ///< what passes of a unit of length, as a picture of it looks; chosen by eye
+};
+
+std::span<const Substance> substances();
+
+/// The material of that name: clear, polished, with a highlight. It mirrors as the rules say (--fresnel).
+std::optional<Material> libraryMaterial(std::string_view name);
+std::vector<std::string_view> libraryNames();
+
+}  // namespace trace
