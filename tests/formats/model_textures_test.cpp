@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,8 @@ std::string base64(std::string_view bytes) {
 }
 
 struct Read {
-  Scene scene;
   Messages messages;
+  Scene scene;
 
   Read(const std::string& file, const std::string& text) : scene(readScene(file, text, messages)) {}
   const Material& material(std::size_t object = 0) const {
