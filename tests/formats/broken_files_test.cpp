@@ -475,7 +475,8 @@ TEST(BrokenFiles, Obj) {
       {"disp deep.png", "warning the texture \"deep.png\" is not rendered yet"},
       {"norm normals.png", "warning the texture \"normals.png\" is not rendered yet"},
       {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
-      {"map_d holes.png", "warning the texture \"holes.png\" is not rendered yet"},
+      {"map_d holes.png", "warning the texture \"holes.png\" cannot be read"},
+      {"map_d -mm 0 2 holes.png", "warning the option \"-mm\" of a texture is ignored"},
       {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
        "warning the textures \"a.png\", \"b.png\", \"d.png\" and \"c.png\" cannot be read"},
   };
@@ -678,6 +679,12 @@ TEST(BrokenFiles, Gltf) {
        "warning intensity: expected at least 0"},
       {"a.gltf", gltfLight("\"type\": \"spot\", \"spot\": {\"innerConeAngle\": 1, \"outerConeAngle\": 0.5}"),
        "warning an innerConeAngle below"},
+      {"a.gltf", gltfWith("\"samplers\": [{\"wrapS\": 1}]"),
+       "warning samplers[0].wrapS: expected one of 10497, 33071, 33648, found 1"},
+      {"a.gltf", gltfWith("\"images\": [{\"uri\": \"data:image/png;base64,AA!\"}]"),
+       "error images[0].uri: expected digits of base64, found \"!\" after 2 of them"},
+      {"a.gltf", gltfWith("\"images\": [{\"uri\": \"data:image/png;base64,\"}]"),
+       "error images[0].uri: expected a picture, found no bytes"},
       {"a.gltf", gltfWith("\"animations\": [{}]"), "warning animations are not played: 1"},
       {"a.gltf",
        gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 0}")
@@ -789,7 +796,8 @@ TEST(BrokenFiles, KeepTheNamesOfTheirTextures) {
   EXPECT_EQ(maps("a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }")), wood);
   EXPECT_EQ(maps("a.ray", ubc("Material \"n\" \"texture\" \"wood.png\" Sphere 1 \"n\"")), wood);
   EXPECT_EQ(maps("a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }")), wood);
-  EXPECT_EQ(maps("a.iv", "#Inventor V2.1 ascii\nTexture2 { filename \"wood.png\" } Sphere { }"), wood);
+  EXPECT_EQ(maps("a.iv", "#Inventor V2.1 ascii\nTexture2 { filename \"wood.png\" } Sphere { }"),
+            (Names{{"ambient", "wood.png"}, {"diffuse", "wood.png"}}));
 }
 
 TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {
