@@ -221,6 +221,8 @@ std::string explainJson(const PixelFacts& facts) {
   json["sample"] = e.tree.sample;
   json["samples"] = Json::list();
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
+  json["sampleWeights"] = Json::list();
+  for (const Real weight : e.weights) json["sampleWeights"].add(weight);
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
