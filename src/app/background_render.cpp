@@ -10,7 +10,7 @@ namespace {
 /// How much smaller the coarse pictures are: together they cost a twelfth of the real one.
 constexpr int kCoarse[] = {16, 8, 4};
 /// Smaller pictures than this show nothing.
-constexpr int kLeastWidth = 16;
+constexpr int kLeastPreview = 16;
 
 Settings reduced(const Settings& settings, Size whole, int factor) {
   Settings small = settings;
@@ -192,7 +192,7 @@ void BackgroundRender::run(const Request& request) {
 void BackgroundRender::coarsePasses(Session& session) {
   const Size size = session.size();
   for (const int factor : kCoarse) {
-    if (size.width / factor < kLeastWidth) continue;
+    if (size.width / factor < kLeastPreview) continue;
     const Settings settings = reduced(session.settings(), size, factor);
     Film film = makeFilm(settings, settings.width, settings.height);
     coarseJob_.done = 0, coarseJob_.total = 0;
