@@ -319,8 +319,7 @@ TEST(VrmlTextures, TransformsAreThoseOfTheSpecifications) {
   EXPECT_EQ(at("translation 0.5 0", kTopLeft), kGreen);
   EXPECT_EQ(at("scale 2 2", {0.375, 0.375}), kGreen);
   EXPECT_EQ(at("rotation 1.5707963267948966", kBottomLeft), kWhite) << "(0.25, 0.25) becomes (-0.25, 0.25)";
-  EXPECT_EQ(at("center 0.5 0.5 scale 3 1", {0, 0.25}), kWhite)
-      << "3 (0 + 0.5) - 0.5 = 1, the left column's edge";
+  EXPECT_EQ(at("center 0.5 0.5 scale 2 1", {0.125, 0.25}), kWhite) << "2 (0.125 + 0.5) - 0.5 = 0.75";
   const auto old = [](const std::string& transforms, const Vec2& uv) {
     return Read("a.iv", kOld + "Texture2 { " + kImage + "} " + transforms + " Sphere { }").at("diffuse", uv);
   };
