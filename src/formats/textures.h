@@ -28,9 +28,6 @@ std::string pictureFile(const std::string& from, const std::string& name);
 /// What nobody takes for the surface that was meant: a checker of magenta and black.
 std::shared_ptr<const MipMap> missingPicture();
 
-/// The path of a picture that a scene's file names: beside the scene, or where else one may look.
-std::string pathOfPicture(const std::string& sceneFile, const std::string& name);
-
 /// Pictures that a scene names and nobody will see.
 class UnusedTextures {
  public:

@@ -342,7 +342,7 @@ Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages
     changePixels(material, [&](Pixels& pixels) {
       nameless += pixels.map && pixels.file.empty();
       if (same || pixels.file.empty() || fs::path(pixels.file).is_absolute()) return;
-      const fs::path path = fs::absolute(pathOfPicture(scene.file, pixels.file), error).lexically_normal();
+      const fs::path path = fs::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();
       if (fs::exists(path, error)) pixels.file = path.lexically_relative(target).string();
     });
   if (nameless > 0)
