@@ -109,9 +109,7 @@ class Writer {
     const auto most =
         std::max_element(materials.begin(), materials.end(),
                          [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
-    const auto name = [&](const MaterialShare& share) -> std::string_view {
-      return isClear(share) ? "clear" : std::string_view(scene_.materials[share.material].name);
-    };
+    const auto name = [&](const MaterialShare& share) { return materialName(scene_, share.material); };
     Json shares = Json::list();
     for (const MaterialShare& share : materials)
       shares.add({{"index", isClear(share) ? Json() : Json(share.material)},

@@ -359,6 +359,10 @@ TEST(BrokenFiles, Inventor) {
        "warning unknown field \"radios\" of Sphere is ignored [did you mean \"radius\"?]"},
       {"a.iv", iv("Spere { radius 2 }"),
        "warning \"Spere\" is not rendered and is left out [did you mean \"Sphere\"?]"},
+      {"a.wrl",
+       "#VRML V2.0 utf8\nTransfrom { translation 1 0 0 scale 2 2 2 children [ Shape { geometry Box { } } ] }",
+       "warning \"Transfrom\" is not known: what it holds is rendered without its translation and scale "
+       "[did you mean \"Transform\"?]"},
       {"a.wrl", vrml2("IndexdFaceSet { }"), "warning left out [did you mean \"IndexedFaceSet\"?]"},
       {"a.wrl", vrml2("Sphere { }", "apearance Appearance { }"),
        "warning unknown field \"apearance\" of Shape is ignored [did you mean \"appearance\"?]"},

@@ -354,9 +354,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
   EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
-  EXPECT_EQ(warningsOf(text),
-            "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
-            "file or directory [a checker of magenta and black shows instead]");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
+      "file or directory [a checker of magenta and black shows instead]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------
@@ -592,7 +593,10 @@ TEST(RayFormat, WarnsOfUnknownWords) {
             "\"viewdir\"?]");
   EXPECT_EQ(warningsOf("sphere { material = { difuse = 4 } capped = true }"),
             "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
-            "2:36: unknown field \"capped\" of sphere is ignored");
+            "2:36: unknown field \"capped\" of sphere is ignored [it has material, name]");
+  EXPECT_EQ(
+      warningsOf("torus { tube = 1 }"),
+      "2:9: unknown field \"tube\" of torus is ignored [it has material, name, major_radius, minor_radius]");
   EXPECT_EQ(warningsOf("polymesh { point = () }"),
             "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]\n"
             "2:10: polymesh: nothing of it can be seen, for it has no faces");
