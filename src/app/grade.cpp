@@ -40,15 +40,16 @@ InputFiles filesOf(const GradeTask& task, const Grades& grades) {
 }
 
 LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
-  Budget budget(budgetOfThread.budget);  // the scene's own time limit counts from here
-  budget.limitTime(task.sceneLimit);
-  const BudgetScope scope(&budget);
+  Budget limit(budgetOfThread.budget);
+  limit.limitTime(task.sceneLimit);
+  Budget own(&limit);  // the session sets it to the scene's own time limit
+  const BudgetScope scope(&own);
   Session session;
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
   session.build();
   const RenderResult result = session.renderPicture();
-  if (result.end == End::timeLimit && task.sceneLimit > 0 && budget.seconds() > task.sceneLimit)
+  if (result.end == End::timeLimit && task.sceneLimit > 0 && limit.seconds() > task.sceneLimit)
     throw Error(Fault::limit, "it takes longer than the " + toText(task.sceneLimit) + " s of --scene-limit");
   if (result.end != End::finished)
     throw Error(Fault::limit,

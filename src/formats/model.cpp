@@ -161,4 +161,6 @@ std::vector<LightSource> plainLights(const Camera& camera) {
   return {light(0.6, -0.9, 0.85), light(-0.9, -0.1, 0.3), {AmbientLight{.color = Color(0.12)}, {}}};
 }
 
+bool isPlainView(const Scene& scene) { return scene.lights == plainLights(scene.camera); }
+
 }  // namespace trace

@@ -66,4 +66,7 @@ Camera framing(const Box3& box);
 /// Two directional lights, from above the left and from the right of the camera, and a little ambient light.
 std::vector<LightSource> plainLights(const Camera& camera);
 
+/// Whether the lights are plainLights() of the camera: the file had none.
+bool isPlainView(const Scene& scene);
+
 }  // namespace trace

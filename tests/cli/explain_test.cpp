@@ -229,7 +229,7 @@ TEST_F(Explain, NamesWhatBackFacesHides) {
             "SBT-raytracer 1.0\ncamera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }\n"
             "directional_light { direction = (0, 0, -1); color = (1, 1, 1); }\n"
             "polymesh { name = sail; points = ((-9,-9,0), (9,-9,0), (0,9,0)); faces = ((0,2,1)); }\n");
-  const std::vector<std::string> words{"explain", scene, "--pixel", "4,4", "-w", "8"};
+  const std::vector<std::string> words{"explain", scene, "--pixel", "4,3", "-w", "8"};
   EXPECT_EQ(out(words).find("passed through"), std::string::npos);
   std::vector<std::string> culled = words;
   culled.insert(culled.end(), {"--back-faces", "cull-all"});

@@ -144,7 +144,7 @@ TEST_F(Frames, CtrlCLeavesFinishedFrames) {
 }
 
 TEST_F(Frames, SayThatNothingMovesOrThatTheTimeIsTheirs) {
-  write("still.ray", std::string(kGlow) + "sphere { }");
+  write("still.ray", "SBT-raytracer 1.0\nsphere { material = { emissive = (1, 1, 1); } }");
   const Run still = run({"still.ray", "-w", "8", "--frames", "0-1", "-o", "s.#.png"});
   EXPECT_EQ(still.code, 0) << still.err;
   EXPECT_TRUE(contains(still.err, "nothing in still.ray changes with time")) << still.err;

@@ -20,14 +20,19 @@
 namespace trace {
 namespace {
 
-std::string written(const Scene& scene, const WriteOptions& options = {}) {
-  Messages messages;
-  return writeRay(scene, "out.ray", options, messages).at(0).bytes;
+/// Beside the scene's own file, so that both find the same pictures under the same names.
+std::string outFile(const Scene& scene) {
+  return (std::filesystem::path(scene.file).parent_path() / "out.ray").string();
 }
 
-Scene again(const std::string& text) {
+std::string written(const Scene& scene, const WriteOptions& options = {}) {
   Messages messages;
-  return readScene("out.ray", text, messages);
+  return writeRay(scene, outFile(scene), options, messages).at(0).bytes;
+}
+
+Scene again(const std::string& text, const std::string& file = "out.ray") {
+  Messages messages;
+  return readScene(file, text, messages);
 }
 
 /// What a file says, without where it says it: materials stand with their objects.
@@ -85,7 +90,7 @@ void expectEqual(const Scene& a, const Scene& b, const std::string& name) {
 
 void expectRoundTrip(const Scene& scene, const std::string& name) {
   const std::string text = written(scene);
-  const Scene back = again(text);
+  const Scene back = again(text, outFile(scene));
   expectEqual(scene, back, name);
   EXPECT_EQ(written(back), text) << name;
 }

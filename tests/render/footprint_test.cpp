@@ -207,7 +207,7 @@ Scene floorScene(TexelFilter filter) {
   TextureNode node;
   node.model = map;
   scene.materials[0].model = phong;
-  scene.materials[0].textures.push_back({"emissive", node});
+  scene.materials[0].textures = {{"emissive", node}};
   scene.camera.position = {0, 0, 1};
   scene.camera.viewdir = {0, 1, -0.5};
   scene.camera.updir = {0, 0, 1};
@@ -237,7 +237,10 @@ TEST(Footprint, AFloorBecomesGreyFarAway) {
 
 TEST(Footprint, NobodyAsksForItUnlessATextureIsFiltered) {
   EXPECT_FALSE(worldOf(floorScene(TexelFilter::bilinear)).wantsFootprints());
-  EXPECT_FALSE(worldOf(sceneOf(Sphere{})).wantsFootprints());
+  Scene untextured = sceneOf(Sphere{});
+  EXPECT_TRUE(worldOf(untextured).wantsFootprints());
+  untextured.materials[0].textures.clear();
+  EXPECT_FALSE(worldOf(untextured).wantsFootprints());
   TextureNode outer;
   outer.model = Checker{};
   outer.inputs.push_back(floorScene(TexelFilter::ewa).materials[0].textures[0]);

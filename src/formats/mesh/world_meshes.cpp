@@ -29,8 +29,9 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
 /// Says what of the scene a file of meshes has no words for.
 void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
   std::vector<std::string> parts;
-  if (!(scene.camera == Camera{})) parts.emplace_back("the camera");
-  if (const std::size_t n = scene.lights.size(); n > 0)
+  const bool hasView = !isPlainView(scene);  // a mesh file has none of its own
+  if (hasView && !(scene.camera == Camera{})) parts.emplace_back("the camera");
+  if (const std::size_t n = scene.lights.size(); hasView && n > 0)
     parts.push_back(n == 1 ? "the light" : "the " + std::to_string(n) + " lights");
   if (!(scene.background == Background{})) parts.emplace_back("the background");
   const auto textured = std::count_if(scene.materials.begin(), scene.materials.end(),
