@@ -47,14 +47,10 @@ TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
 
 /// The example scene of each extra, and a value that turns it on.
 const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
-    {"spp", {"antialias.ray", "9"}},
-    {"sampling", {"antialias.ray", "jittered"}},
-    {"filter", {"antialias.ray", "mitchell"}},
-    {"aperture", {"lens.ray", "0.4"}},
-    {"threshold", {"threshold.ray", "0.3"}},
-    {"nested-glass", {"nested-glass.ray", "off"}},
-    {"wavelengths", {"prism.ray", "5"}},
-    {"varnish", {"coloured-glass.ray", "on"}},
+    {"spp", {"antialias.ray", "9"}},           {"sampling", {"antialias.ray", "jittered"}},
+    {"filter", {"antialias.ray", "mitchell"}}, {"aperture", {"lens.ray", "0.4"}},
+    {"threshold", {"threshold.ray", "0.3"}},   {"nested-glass", {"nested-glass.ray", "off"}},
+    {"wavelengths", {"prism.ray", "5"}},       {"varnish", {"coloured-glass.ray", "on"}},
 };
 
 TEST(Extras, EachChangesThePictureOfItsExample) {

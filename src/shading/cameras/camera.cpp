@@ -13,8 +13,8 @@ CameraFrame frame(const Camera& camera, CameraAxes axes, const Lens& lens) {
     back = normalize(back), right = normalize(right);
   }
   const Real height = 2 * std::tan(camera.fov * kPi / 360);
-  return {camera.position, -back,       right * (height * camera.aspectratio),
-          up * height,     camera.near, camera.far, lens};
+  return {camera.position, -back, right * (height * camera.aspectratio), up * height, camera.near,
+          camera.far,      lens};
 }
 
 }  // namespace trace
