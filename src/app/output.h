@@ -35,6 +35,10 @@ bool isRendered(const Output& output, const Size& size, const Metadata& metadata
 /// all but those of the group Resources, which do not change the picture.
 Metadata describe(const Scene& scene, const Settings& settings);
 
+/// What the file shows of what was rendered: two eyes in one place, if that is asked for.
+Picture finished(Picture rendered, const Settings& settings);
+Size finished(const Size& rendered, const Settings& settings);
+
 /// Throws Error(Fault::usage) if the file is one of the inputs: what is read, or only named, is not written
 /// over.
 void checkIsNoInput(const std::string& path, const InputFiles& inputs);

@@ -217,11 +217,10 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   return kinds;
 }
 
-void World::focusOnMiddle() {
-  const Ray ray = camera_.ray({0.5, 0.5});
+void World::measureMiddle() {
   Statistics uncounted;
-  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
-  camera_.lens.focus = found ? found->t : kInfinity;
+  const std::optional<Found> found = closest({camera_.eye, camera_.ahead}, Faces::both, uncounted);
+  camera_.setMiddle(found ? found->t : kInfinity);
 }
 
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
@@ -263,7 +262,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
+  world.camera_ = frame(camera, settings.cameraAxes, opticsOf(settings));
   world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
@@ -335,7 +334,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
-  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
+  if (world.camera_.wantsMiddle()) world.measureMiddle();
   return world;
 }
 

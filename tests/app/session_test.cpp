@@ -51,6 +51,8 @@ const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
     {"filter", {"antialias.ray", "mitchell"}}, {"aperture", {"lens.ray", "0.4"}},
     {"threshold", {"threshold.ray", "0.3"}},   {"nested-glass", {"nested-glass.ray", "off"}},
     {"wavelengths", {"prism.ray", "5"}},       {"varnish", {"coloured-glass.ray", "on"}},
+    {"projection", {"room.ray", "panorama"}},  {"distortion", {"room.ray", "0.3"}},
+    {"stereo", {"room.ray", "side-by-side"}},
 };
 
 TEST(Extras, EachChangesThePictureOfItsExample) {
