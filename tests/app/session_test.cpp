@@ -25,7 +25,7 @@ Picture renderFile(const std::string& file, std::vector<Choice> choices) {
   session.open(file, choices);
   session.build();
   session.renderPicture();
-  return session.picture();
+  return developed(finished(session.picture(), session.settings()), developmentOf(session.settings()));
 }
 
 TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
@@ -52,7 +52,9 @@ const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
     {"threshold", {"threshold.ray", "0.3"}},   {"nested-glass", {"nested-glass.ray", "off"}},
     {"wavelengths", {"prism.ray", "5"}},       {"varnish", {"coloured-glass.ray", "on"}},
     {"projection", {"room.ray", "panorama"}},  {"distortion", {"room.ray", "0.3"}},
-    {"stereo", {"room.ray", "side-by-side"}},
+    {"stereo", {"room.ray", "side-by-side"}},  {"exposure", {"lamps.ray", "1"}},
+    {"white-balance", {"lamps.ray", "3200"}},  {"transfer", {"lamps.ray", "srgb"}},
+    {"bloom", {"lamps.ray", "0.1"}},           {"dither", {"lamps.ray", "on"}},
 };
 
 TEST(Extras, EachChangesThePictureOfItsExample) {
