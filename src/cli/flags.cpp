@@ -17,7 +17,8 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
     kStrict{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade, Verb::convert},
     kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
              Verb::diff,   Verb::grade, Verb::convert, Verb::texture},
-    kWithOutput{Verb::render, Verb::explain, Verb::lint, Verb::diff, Verb::grade, Verb::texture},
+    kWithOutput{Verb::render, Verb::explain, Verb::lint,    Verb::diff,
+                Verb::grade,  Verb::texture, Verb::features},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
     kEverywhere{Verb::render, Verb::gui,   Verb::info,    Verb::bench,   Verb::explain,  Verb::lint,
                 Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::features, Verb::help};
@@ -297,6 +298,16 @@ std::span<const Flag> flags() {
            false,
            "print docs/options.md, or of texture docs/texture-fields.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
+      Flag{
+          "examples",
+          0,
+          Takes::value,
+          "FOLDER",
+          "",
+          {Verb::features},
+          false,
+          "make the page of all extensions and its pictures in the folder of -o, from the scenes in this one",
+          [](Arguments& a, std::string_view value) { a.examples = value; }},
       Flag{"print-defaults", 0, Takes::nothing, "", "", kRender, false,
            "print every option as NAME=VALUE with its default, and end",
            [](Arguments& a, std::string_view) { a.printDefaults = true; }},
@@ -338,7 +349,7 @@ std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
   constexpr std::pair<std::string_view, std::string_view> kUseful[] = {
       {"spp", "9"},           {"sampling", "stratified"}, {"filter", "mitchell"}, {"aperture", "0.1"},
-      {"threshold", "0.003"}, {"nested-glass", "on"},     {"wavelengths", "9"}};
+      {"threshold", "0.003"}, {"nested-glass", "on"},     {"wavelengths", "9"},   {"outlines", "2"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};
