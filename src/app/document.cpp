@@ -19,7 +19,7 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
   return std::filesystem::last_write_time(file, ignored);
 }
 
-std::string placeText(const Place& place) {
+std::string briefPlace(const Place& place) {
   std::string text = std::filesystem::path(place.file).filename().string();
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text.empty() ? "scene file" : text;
@@ -38,8 +38,6 @@ std::vector<Choice> ofTheScene(const Settings& settings) {
                 [](const Choice& choice) { return findOption(choice.option).repeats == Repeats::nothing; });
   return choices;
 }
-
-bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
 
 }  // namespace
 
@@ -170,19 +168,10 @@ bool Document::apply(const Change& change, const Reading& reading) {
 }
 
 std::string Document::chooser(const Option& option) const {
-  std::string from = "default";
-  const auto look = [&](const std::vector<Choice>& layer, const std::string& name) {
-    for (const bool byName : {false, true})
-      for (const Choice& choice : layer) {
-        if (byName ? choice.option != option.name : choice.option != "like" || !isConvention(option))
-          continue;
-        from = (name.empty() ? placeText(choice.place) : name) + (byName ? "" : ", by like");
-      }
-  };
-  look(scene().choices, "");
-  look(commandLine_, "command line");
-  look(editions_[current_].choices, "studio");
-  return from;
+  const Chosen chosen = chosenBy(option, {scene().choices, commandLine_, editions_[current_].choices});
+  if (!chosen.choice) return "default";
+  const std::string who[] = {briefPlace(chosen.choice->place), "command line", "studio"};
+  return who[chosen.layer] + (chosen.byLike ? ", by like" : "");
 }
 
 bool Document::chosenHere(const std::string& option) const {

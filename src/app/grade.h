@@ -47,8 +47,8 @@ struct Grades {
 };
 
 /// Pairs are files of the same name, wherever the suffixes differ, in the same sub-folder. What goes wrong
-/// with one pair is its verdict. When the time of all is over, the pairs that are left are not reached. Throws
-/// Error when a folder cannot be read or there is no reference picture.
+/// with one pair is its verdict. When the time of all is over, the pairs that are left are not reached.
+/// Throws Error when a folder cannot be read or there is no reference picture.
 Grades grade(const GradeTask& task);
 
 /// One self-contained HTML page: a table, worst first, with the pictures in it, and a viewer to swipe between

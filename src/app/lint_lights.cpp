@@ -44,6 +44,7 @@ Box3 boxAround(const Object& object) { return object.worldFromObject * prepare(o
 
 /// Some side of the picture, or the plane of the eye, has the whole box beyond it.
 bool isOutside(const CameraFrame& camera, const Box3& box) {
+  if (camera.optics.projection != Projection::perspective) return false;
   const Vec3 forward = cross(camera.right, camera.up);
   const Vec3 ahead = dot(forward, camera.look) < 0 ? -forward : forward;
   const Vec3 left = camera.look - camera.right * 0.5, right = camera.look + camera.right * 0.5;

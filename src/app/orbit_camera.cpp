@@ -37,6 +37,9 @@ std::array<double, 4> transform(const Matrix4& m, const Vec3& p) {
 CameraFrame fitted(const CameraFrame& camera, Real viewAspect) {
   const Real aspect = length(camera.right) / length(camera.up);
   CameraFrame wide = camera;
+  wide.look = camera.ahead * (dot(camera.look, camera.ahead));  // a window, whatever the camera is
+  wide.optics = {};
+  wide.plain = true;
   if (viewAspect > aspect)
     wide.right = camera.right * (viewAspect / aspect);
   else

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "image/anaglyph.h"
 #include "image/codec.h"
 #include "render/passes.h"
 
@@ -54,7 +55,7 @@ template <class Use>
 void withPictureOf(const Output& output, const Film& film, const Settings& settings, Use use) {
   const PictureFormat& format = pictureFormatFor(output.path);
   if (output.layer < 0) {
-    const Picture picture = film.picture();
+    const Picture picture = finished(film.picture(), settings);
     if (format.keepsBright || settings.tone == Tone::clamp)
       use(picture);
     else
@@ -158,6 +159,20 @@ Metadata describe(const Scene& scene, const Settings& settings) {
   return {{"Software", "Trace " TRACE_VERSION},
           {"Title", fs::path(scene.file).filename().string()},
           {kSettings, changed.empty() ? kDefaults : changed}};
+}
+
+Picture finished(Picture rendered, const Settings& settings) {
+  switch (settings.stereo) {
+    case Stereo::redCyan: return anaglyph(rendered, kRedCyan);
+    case Stereo::halfColor: return anaglyph(rendered, kHalfColor);
+    case Stereo::grey: return anaglyph(rendered, kGrey);
+    case Stereo::dubois: return anaglyph(rendered, kDubois);
+    default: return rendered;
+  }
+}
+
+Size finished(const Size& rendered, const Settings& settings) {
+  return isAnaglyph(settings.stereo) ? Size{rendered.width / 2, rendered.height} : rendered;
 }
 
 void checkIsNoInput(const std::string& path, const InputFiles& inputs) {

@@ -35,6 +35,10 @@ bool isRendered(const Output& output, const Size& size, const Metadata& metadata
 /// all but those of the group Resources, which do not change the picture.
 Metadata describe(const Scene& scene, const Settings& settings);
 
+/// What the file shows of what was rendered: two eyes in one place, if that is asked for.
+Picture finished(Picture rendered, const Settings& settings);
+Size finished(const Size& rendered, const Settings& settings);
+
 /// Throws Error(Fault::usage) if the file is one of the inputs: what is read, or only named, is not written
 /// over.
 void checkIsNoInput(const std::string& path, const InputFiles& inputs);
@@ -54,8 +58,8 @@ class PictureFiles {
   /// Pass, of a pass, and Incomplete are added. A picture gets the tone of the settings unless its format
   /// keeps values above 1; passes are raw in OpenEXR only. Returns the picture's name: path(), or where a
   /// fragment went. The whole picture takes away the fragment that this wrote beside it, and those of earlier
-  /// runs whose words say that they are fragments of the very same picture, all with any passes. Throws Error(Fault::io),
-  /// Error(Fault::usage).
+  /// runs whose words say that they are fragments of the very same picture, all with any passes. Throws
+  /// Error(Fault::io), Error(Fault::usage).
   std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
 
   /// The fragments that were taken away so.

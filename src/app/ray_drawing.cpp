@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/ray_segments.h"
 #include "render/passes.h"
@@ -17,7 +18,7 @@ constexpr Color kInk{0.15, 0.15, 0.15};
 class Panel {
  public:
   Panel(const CameraFrame& camera, const Point2& at, double width, double height)
-      : at_(at), width_(width), height_(height), eye_(camera.eye) {
+      : camera_(camera), at_(at), width_(width), height_(height), eye_(camera.eye) {
     // p = eye + s (look + a right + b up): (s a, s b, s) = inverse of the axes' matrix.
     Affine axes;
     for (int i = 0; i < 3; ++i) axes.row[i] = {camera.right[i], camera.up[i], camera.look[i]};
@@ -28,6 +29,7 @@ class Panel {
 
   /// Nothing of a segment outside the view is drawn.
   void line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const {
+    if (!camera_.plain) return bent(drawing, from, to, color, width, dashed);
     Vec3 a = linear(toPlane_, from - eye_), b = linear(toPlane_, to - eye_);
     const Real near = 1e-6 * std::max(std::abs(a.z), std::abs(b.z));  // just before the eye
     if (!isFinite(a) || !isFinite(b) || (a.z <= near && b.z <= near)) return;
@@ -38,14 +40,34 @@ class Panel {
   }
 
   void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
-    const Vec3 p = linear(toPlane_, point - eye_);
-    if (!isFinite(p) || !(p.z > 0)) return;
-    const Point2 at = place(p);
+    const auto seen = isFinite(point) ? camera_.placeOf(point) : std::nullopt;
+    if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return;
+    const Point2 at = place(*seen);
     if (at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_)
       drawing.things.push_back(DrawnDisk{at, radius, color});
   }
 
  private:
+  /// In a projection that bends lines, or from two eyes: piece by piece.
+  void bent(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double width,
+            bool dashed) const {
+    constexpr int kPieces = 48;
+    std::optional<Point2> last;
+    for (int i = 0; i <= kPieces; ++i) {
+      const Vec3 at = from + (to - from) * (static_cast<Real>(i) / kPieces);
+      const auto seen = isFinite(at) ? camera_.placeOf(at) : std::nullopt;
+      const bool finite = seen && std::isfinite(seen->x) && std::isfinite(seen->y);
+      const std::optional<Point2> here = finite ? std::optional(place(*seen)) : std::nullopt;
+      // A panorama's line may leave at one side and come back at the other.
+      if (last && here && std::abs(here->x - last->x) < width_ / 2) {
+        Point2 p = *last, q = *here;
+        if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
+      }
+      last = here;
+    }
+  }
+
+  Point2 place(const Vec2& p) const { return {at_.x + width_ * p.x, at_.y + height_ * (1 - p.y)}; }
   Point2 place(const Vec3& p) const {
     return {at_.x + width_ * (p.x / p.z + 0.5), at_.y + height_ * (0.5 - p.y / p.z)};
   }
@@ -72,6 +94,7 @@ class Panel {
     return true;
   }
 
+  CameraFrame camera_;
   Point2 at_;
   double width_, height_;
   Vec3 eye_;
@@ -166,7 +189,8 @@ class RayDrawing {
 
 Drawing drawRays(const Scene& scene, const Settings& settings, const World& world, const RayTree& tree) {
   const RayDrawing rays(tree);
-  const double aspect = length(world.camera().right) / length(world.camera().up);
+  const double aspect =
+      length(world.camera().right) / length(world.camera().up) * eyesAcross(settings.stereo);
   const double height = std::clamp(std::round(kPanelWidth / aspect), 100.0, 4 * kPanelWidth);
   const double top = kMargin + 2 * kLine, right = 2 * kMargin + kPanelWidth;
   Drawing drawing;
@@ -179,6 +203,12 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   sideScene.camera = sideCamera(world.camera(), scene.camera.updir, rays.segments(), kPanelWidth / height);
   Settings sideSettings = settings;
   sideSettings.cameraAxes = CameraAxes::orthonormal;
+  const Settings defaults;
+  sideSettings.projection = defaults.projection;
+  sideSettings.shiftX = sideSettings.shiftY = 0;
+  sideSettings.distortion = 0;
+  sideSettings.stereo = Stereo::off;
+  sideSettings.aperture = 0;
   Messages ignored;  // said before, of the same scene
   const Compiled here{scene, settings, world};
   const World sideWorld = compile(sideScene, sideSettings, ignored, &here);

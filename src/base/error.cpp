@@ -37,14 +37,16 @@ std::string joined(const std::vector<Message>& messages) {
 
 }  // namespace
 
+std::string placeText(const Place& place) {
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+  return text;
+}
+
 std::string toString(const Message& message) {
   std::string text;
   const Place& place = message.place;
-  if (!place.file.empty()) {
-    text += printable(place.file) + ":";
-    if (place.line > 0) text += std::to_string(place.line) + ":" + std::to_string(place.column) + ":";
-    text += " ";
-  }
+  if (!place.file.empty()) text += printable(placeText(place)) + ": ";
   text += message.severity == Message::Severity::error ? "error: " : "warning: ";
   text += printable(message.what) + "\n";
   if (!place.text.empty()) text += excerpt(place);

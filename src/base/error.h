@@ -21,6 +21,9 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
+/// "scene.ray:12:3", as far as known.
+std::string placeText(const Place& place);
+
 struct Message {
   enum class Severity { warning, error };
 

@@ -19,7 +19,21 @@
 namespace trace::cli {
 
 /// The sub-commands, in the order of their table (commands.h).
-enum class Verb { render, gui, info, bench, explain, lint, diff, grade, convert, texture, features, help };
+enum class Verb {
+  render,
+  gui,
+  info,
+  bench,
+  explain,
+  lint,
+  diff,
+  grade,
+  convert,
+  texture,
+  stereogram,
+  features,
+  help
+};
 using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
@@ -53,6 +67,11 @@ struct Arguments {
   std::string examples;               ///< features: --examples, the folder of the scenes
   std::array<int, 2> size{256, 256};  ///< texture: --size, width and height
   std::optional<double> across;       ///< texture: --across, steps of the pattern
+  // stereogram
+  std::string pattern;           ///< a picture, repeated instead of dots
+  double dotsPerInch = 72;       ///< of the screen
+  double stereoDepth = 1.0 / 3;  ///< StereogramRules::depth
+  bool guides = false;
   // diff and grade
   double tolerance = 0;  ///< levels or values
   std::vector<Limit> limits;

@@ -64,6 +64,7 @@ int gradeCommand(const Arguments& arguments, const Console& console);
 int failedDiff(const Arguments& arguments);
 int convertCommand(const Arguments& arguments, const Console& console);
 int textureCommand(const Arguments& arguments, const Console& console);
+int stereogramCommand(const Arguments& arguments, const Console& console);
 int featuresCommand(const Arguments& arguments, const Console& console);
 int guiCommand(const Arguments& arguments, const Console& console);
 

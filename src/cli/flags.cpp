@@ -12,16 +12,19 @@ namespace {
 
 using Takes = Flag::Takes;
 constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
-    kConvert{Verb::convert}, kTexture{Verb::texture}, kComparing{Verb::diff, Verb::grade},
-    kOfScenes{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade},
-    kStrict{Verb::render, Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::grade, Verb::convert},
+    kConvert{Verb::convert}, kTexture{Verb::texture}, kStereogram{Verb::stereogram},
+    kComparing{Verb::diff, Verb::grade}, kOfScenes{Verb::render, Verb::info,  Verb::bench,     Verb::explain,
+                                                   Verb::lint,   Verb::grade, Verb::stereogram},
+    kStrict{Verb::render, Verb::info,  Verb::bench,   Verb::explain,
+            Verb::lint,   Verb::grade, Verb::convert, Verb::stereogram},
     kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
-             Verb::diff,   Verb::grade, Verb::convert, Verb::texture},
-    kWithOutput{Verb::render, Verb::explain, Verb::lint,    Verb::diff,
-                Verb::grade,  Verb::texture, Verb::features},
+             Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::stereogram},
+    kWithOutput{Verb::render, Verb::explain, Verb::lint,       Verb::diff,
+                Verb::grade,  Verb::texture, Verb::stereogram, Verb::features},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render, Verb::gui,   Verb::info,    Verb::bench,   Verb::explain,  Verb::lint,
-                Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::features, Verb::help};
+    kEverywhere{Verb::render,     Verb::gui,      Verb::info,  Verb::bench,   Verb::explain,
+                Verb::lint,       Verb::diff,     Verb::grade, Verb::convert, Verb::texture,
+                Verb::stereogram, Verb::features, Verb::help};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -235,6 +238,23 @@ std::span<const Flag> flags() {
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "
            "scene",
            [](Arguments& a, std::string_view value) { a.across = numberOf("across", value, 1e-6); }},
+      Flag{"pattern", 0, Takes::value, "FILE", "", kStereogram, true,
+           "a picture to repeat instead of random dots",
+           [](Arguments& a, std::string_view value) { a.pattern = value; }},
+      Flag{"dpi", 0, Takes::value, "N", "", kStereogram, true,
+           "dots an inch of the screen, for eyes 2.5 inches apart; default 72",
+           [](Arguments& a, std::string_view value) { a.dotsPerInch = wholeNumber("dpi", value, 8, 10000); }},
+      Flag{"relief", 0, Takes::value, "X", "", kStereogram, true,
+           "how near the nearest comes, of the way from the farthest to the eyes, 0.01 to 0.9; default 0.333",
+           [](Arguments& a, std::string_view value) {
+             a.stereoDepth = numberOf("relief", value, 0.01);
+             if (a.stereoDepth > 0.9)
+               throw Error(Fault::usage, "--relief: expected a number from 0.01 to 0.9, found \"" +
+                                             std::string(value) + "\"");
+           }},
+      Flag{"guides", 0, Takes::nothing, "", "", kStereogram, true,
+           "two dots near the lower edge: look so that they become three",
+           [](Arguments& a, std::string_view) { a.guides = true; }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", kWorking, false,
            "which messages are shown; default info",
            [](Arguments& a, std::string_view value) { a.logLevel = logLevel("--log-level", value); }},
@@ -347,9 +367,17 @@ std::span<const ShortFlag> shortFlags() {
 
 std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
-  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {
-      {"spp", "9"},           {"sampling", "stratified"}, {"filter", "mitchell"}, {"aperture", "0.1"},
-      {"threshold", "0.003"}, {"nested-glass", "on"},     {"wavelengths", "9"},   {"outlines", "2"}};
+  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {{"spp", "9"},
+                                                                       {"sampling", "stratified"},
+                                                                       {"filter", "mitchell"},
+                                                                       {"aperture", "0.1"},
+                                                                       {"projection", "panorama"},
+                                                                       {"distortion", "0.2"},
+                                                                       {"stereo", "side-by-side"},
+                                                                       {"threshold", "0.003"},
+                                                                       {"nested-glass", "on"},
+                                                                       {"wavelengths", "9"},
+                                                                       {"outlines", "2"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};

@@ -30,8 +30,10 @@ bool isThere(const Arguments& arguments, int frame, const std::string& picture) 
   open(session, arguments, frame);
   const std::vector<Output> files = outputs(picture, session.settings());
   const Metadata metadata = session.metadata();
-  return std::all_of(files.begin(), files.end(),
-                     [&](const Output& file) { return isRendered(file, session.size(), metadata); });
+  return std::all_of(files.begin(), files.end(), [&](const Output& file) {
+    return isRendered(file, file.layer < 0 ? finished(session.size(), session.settings()) : session.size(),
+                      metadata);
+  });
 }
 
 /// Throws Error if a frame lies where the scene reads from: better told before the first one is rendered.

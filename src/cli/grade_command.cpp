@@ -1,7 +1,8 @@
 // ray grade DIR --reference DIR: a table of all pairs, worst first, and a page to look at.
 //
-// Keys of the JSON object: folder, reference, passed, stopped (or null), pairs[] of {name, file, verdict, problem, unit, width,
-// height, then each metric by name, null where it is infinite or there is none}, extra[], page (or null).
+// Keys of the JSON object: folder, reference, passed, stopped (or null), pairs[] of {name, file, verdict,
+// problem, unit, width, height, then each metric by name, null where it is infinite or there is none},
+// extra[], page (or null).
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -10,18 +10,12 @@ namespace {
 
 /// Who gave the option its value, by the rules of settingsFor().
 std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
+  const Chosen chosen = chosenBy(option, {scene.choices, commandLine});
   std::string from = "default";
-  for (std::span<const Choice> layer : {std::span<const Choice>(scene.choices), commandLine})
-    for (const bool byName : {false, true})
-      for (const Choice& choice : layer) {
-        const bool byLike = choice.option == "like" && option.group == "Conventions" && option.name != "like";
-        if (byName ? choice.option != option.name : !byLike) continue;
-        // A scene file's convention can follow from its dialect, at no place in particular.
-        const bool fromFile = layer.data() == scene.choices.data();
-        from = fromFile ? placeText(choice.place) : "command line";
-        if (from.empty()) from = "scene file";
-        if (byLike && !byName) from += ", by like";
-      }
+  if (chosen.choice) from = chosen.layer == 0 ? placeText(chosen.choice->place) : "command line";
+  if (from.empty())
+    from = "scene file";  // a convention can follow from the dialect, at no place in particular
+  if (chosen.byLike) from += ", by like";
   const auto typed = [&](std::string_view name) {
     return std::any_of(commandLine.begin(), commandLine.end(),
                        [&](const Choice& choice) { return choice.option == name; });
@@ -78,12 +72,6 @@ std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& setti
   for (const Choice& choice : trace::changedOptions(settings))
     facts.push_back({choice.option, choice.value, chooser(findOption(choice.option), scene, commandLine)});
   return facts;
-}
-
-std::string placeText(const Place& place) {
-  std::string text = place.file;
-  if (place.line > 0) text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-  return text;
 }
 
 }  // namespace trace::cli

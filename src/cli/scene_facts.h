@@ -31,7 +31,4 @@ std::vector<OptionFact> optionsOf(std::string_view group, const Scene& scene, co
 std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& settings,
                                        std::span<const Choice> commandLine);
 
-/// "scene.ray:12:3", as far as known.
-std::string placeText(const Place& place);
-
 }  // namespace trace::cli

@@ -23,7 +23,7 @@ Progress makeProgress(ProgressStyle style, const Console& console) {
 }
 
 std::string pictureText(const Session& session, double fraction) {
-  const Size size = session.size();
+  const Size size = finished(session.size(), session.settings());
   std::string text = std::to_string(size.width) + "x" + std::to_string(size.height);
   if (fraction == 1) return text;
   const int samples = samplesOf(session.settings());

@@ -19,10 +19,10 @@
 #include "formats/mesh/off_format.h"
 #include "formats/mesh/ply_format.h"
 #include "formats/mesh/stl_format.h"
-#include "formats/textures.h"
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_writer.h"
+#include "formats/textures.h"
 #include "formats/ubc/ubc_format.h"
 
 namespace trace {

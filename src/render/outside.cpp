@@ -8,13 +8,15 @@ namespace trace {
 namespace {
 
 /// Between the centres of the pixels around; at the border the outermost pixels.
-Color lookUp(const Picture& p, const Vec2& fromTopLeft) {
-  const Real x = std::clamp(fromTopLeft.x * p.width - 0.5, 0.0, p.width - 1.0);
-  const Real y = std::clamp(fromTopLeft.y * p.height - 0.5, 0.0, p.height - 1.0);
+Color lookUp(const Picture& p, const Vec2& place) {
+  const Real x = std::clamp(place.x * p.width - 0.5, 0.0, p.width - 1.0);
+  const Real y = std::clamp(place.y * p.height - 0.5, 0.0, p.height - 1.0);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const int x1 = std::min(x0 + 1, p.width - 1), y1 = std::min(y0 + 1, p.height - 1);
   return lerp(y - y0, lerp(x - x0, p.at(x0, y0), p.at(x1, y0)), lerp(x - x0, p.at(x0, y1), p.at(x1, y1)));
 }
+
+Vec2 fromTopLeft(const Vec2& fromBottomLeft) { return {fromBottomLeft.x, 1 - fromBottomLeft.y}; }
 
 Real elevationOf(const Vec3& d) { return std::atan2(d.y, std::hypot(d.x, d.z)) * 180 / kPi; }
 
@@ -37,7 +39,8 @@ Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame
                                               : Source::gradient;
 }
 
-Outside::View Outside::view(const Vec3& direction, RayKind kind) const {
+Outside::View Outside::view(const Ray& ray, RayKind kind) const {
+  const Vec3& direction = ray.direction;
   View view;
   view.direction = direction;
   const bool camera = kind == RayKind::camera;
@@ -50,11 +53,11 @@ Outside::View Outside::view(const Vec3& direction, RayKind kind) const {
   switch (view.source) {
     case Source::nothing: break;
     case Source::backdrop:
-      view.place = {camera_.acrossOf(direction), 1 - camera_.heightOf(direction)};
+      view.place = fromTopLeft(camera_.placeOf(ray));
       view.color = lookUp(*backdrop_, view.place);
       break;
     case Source::bands:
-      if (background_.colors.size() > 1) view.place = {0, 1 - camera_.heightOf(direction)};
+      if (background_.colors.size() > 1) view.place = {0, fromTopLeft(camera_.placeOf(ray)).y};
       view.color = background_.at(view.place.y);
       break;
     case Source::environment: {

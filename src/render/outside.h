@@ -38,8 +38,8 @@ class Outside {
 
   /// Rays of the kind see something there, though it may be black.
   bool isSeenBy(RayKind kind) const { return kind == RayKind::camera || allAround_ != Source::nothing; }
-  /// `direction` of length 1.
-  View view(const Vec3& direction, RayKind kind) const;
+  /// Its direction has length 1.
+  View view(const Ray& ray, RayKind kind) const;
 
  private:
   CameraFrame camera_{};

@@ -27,8 +27,7 @@ Picture mapped(Picture picture, Show show) {
 Color depthValue(const Hit& hit, const Ray& ray, const Tracer& tracer) {
   const Real length = hit.t * trace::length(ray.direction);
   if (tracer.settings().passDepth == PassDepth::ray) return Color(length);
-  const Vec3 axis = normalize(tracer.world().camera().look);
-  return Color(hit.t * dot(ray.direction, axis));
+  return Color(hit.t * dot(ray.direction, tracer.world().camera().ahead));
 }
 
 constexpr Color kTooNear(0);  // which no surface that is seen has

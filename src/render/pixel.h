@@ -29,8 +29,9 @@ class PixelTracer {
     const Sampler sampler(rules_, x, y, k);
     const World& world = tracer_.world();
     const CameraFrame& frame = world.camera();
-    const auto [place, weight] = sampler.film();
-    const Vec2 lens = frame.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
+    const auto [drawn, weight] = sampler.film();
+    const Vec2 place = frame.inEyeOf(rules_.middle(x, y), drawn);
+    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
     const Ray ray = frame.ray(place, lens);
     Footprint differentials;
     if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);

@@ -82,14 +82,16 @@ class TileRenderer {
 
 Size pictureSize(const Settings& settings, const Camera& camera) {
   constexpr double kMost = 1 << 20;
+  const double aspect = camera.aspectratio * eyesAcross(settings.stereo);
+  const int width = settings.width * (isAnaglyph(settings.stereo) ? 2 : 1);
   double height = settings.height;
-  if (settings.height == 0) height = std::max(1.0, std::floor(settings.width / camera.aspectratio + 0.5));
+  if (settings.height == 0) height = std::max(1.0, std::floor(width / aspect + 0.5));
   if (!(height <= kMost))
     throw Error(Fault::limit,
                 "the picture would be " + std::to_string(settings.width) + " pixels wide and more than " +
                     std::to_string(static_cast<int>(kMost)) + " high",
                 "the camera's aspect ratio (width / height) is very small; --height N sets the height");
-  return {settings.width, static_cast<int>(height)};
+  return {width, static_cast<int>(height)};
 }
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {

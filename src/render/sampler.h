@@ -50,6 +50,10 @@ class SampleRules {
   /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left, and what it
   /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, but for the generator "grid".
   FilmSample film(int x, int y, int k, const Vec2& u) const;
+  /// The middle of the pixel, likewise.
+  Vec2 middle(int x, int y) const {
+    return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};
+  }
   /// From a sample to the next on the right and above, on the average.
   Vec2 spacing() const { return {1.0 / (size_.width * grid_), 1.0 / (size_.height * grid_)}; }
 

@@ -38,7 +38,7 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside
       node.ends.push_back(
           found ? RayEnd(CutOff{found->object, found->t, limit, sharesOf(world_.materialMix(*found))})
                 : hiddenFrom(ray, kind));
-      if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray.direction, kind);
+      if (world_.outside().isSeenBy(kind)) node.outside = world_.outside().view(ray, kind);
     }
     return std::nullopt;
   }

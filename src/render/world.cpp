@@ -232,11 +232,10 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
   return materials;
 }
 
-void World::focusOnMiddle() {
-  const Ray ray = camera_.ray({0.5, 0.5});
+void World::measureMiddle() {
   Statistics uncounted;
-  const std::optional<Found> found = closest(ray, Faces::both, uncounted);
-  camera_.lens.focus = found ? found->t : kInfinity;
+  const std::optional<Found> found = closest({camera_.eye, camera_.ahead}, Faces::both, uncounted);
+  camera_.setMiddle(found ? found->t : kInfinity);
 }
 
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
@@ -279,7 +278,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes, lensOf(settings));
+  world.camera_ = frame(camera, settings.cameraAxes, opticsOf(settings));
   world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
@@ -351,7 +350,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
-  if (world.camera_.lens.radius > 0 && world.camera_.lens.focus == 0) world.focusOnMiddle();
+  if (world.camera_.wantsMiddle()) world.measureMiddle();
   return world;
 }
 

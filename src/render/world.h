@@ -211,7 +211,7 @@ class World {
                         const Visit& visit) const;
 
   /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
-  void focusOnMiddle();
+  void measureMiddle();
 
   struct Forms;  ///< complete in world_queries.cpp
   /// Takes the forms out of the shapes of all objects, to lie side by side.

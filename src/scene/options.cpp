@@ -33,6 +33,12 @@ template <>
 constexpr std::array<std::string_view, 5> kNames<FilterKind>{"box", "tent", "gaussian", "mitchell",
                                                              "blackman-harris"};
 template <>
+constexpr std::array<std::string_view, 5> kNames<Projection>{"perspective", "orthographic", "fisheye",
+                                                             "panorama", "cylinder"};
+template <>
+constexpr std::array<std::string_view, 8> kNames<Stereo>{
+    "off", "side-by-side", "cross-eyed", "over-under", "red-cyan", "half-color", "grey", "dubois"};
+template <>
 constexpr std::array<std::string_view, 7> kNames<Like>{"uw",  "uw2009", "uw2001", "ut",
                                                        "ubc", "uw1998", "usc"};
 template <>
@@ -366,37 +372,6 @@ const std::array kTable{
          .least = 1,
          .most = 1024,
          .unit = "rays"}),
-    row<&Settings::aperture>({.name = "aperture",
-                              .group = "Lens",
-                              .help = "diameter of the lens: what is not in focus blurs; 0 is a pinhole",
-                              .source = "Cook, Porter and Carpenter 1984; docs/lens.md",
-                              .least = 0,
-                              .most = 1e9,
-                              .unit = "units",
-                              .extra = true}),
-    row<&Settings::focus>({.name = "focus",
-                           .group = "Lens",
-                           .help = "distance along the view at which things are sharp; 0 is that of what the "
-                                   "middle of the picture shows",
-                           .source = "docs/lens.md",
-                           .repeats = Repeats::world,
-                           .least = 0,
-                           .most = 1e30,
-                           .unit = "units"}),
-    row<&Settings::blades>(
-        {.name = "blades",
-         .group = "Lens",
-         .help = "corners of the lens opening, the shape of blurred lights; below 3 it is round",
-         .source = "docs/lens.md",
-         .least = 0,
-         .most = 100}),
-    row<&Settings::bladeAngle>({.name = "blade-angle",
-                                .group = "Lens",
-                                .help = "turns the corners of the lens opening",
-                                .source = "",
-                                .least = -360,
-                                .most = 360,
-                                .unit = "degrees"}),
     row<&Settings::integrator>({.name = "integrator",
                                 .group = "Tracing",
                                 .help = "how light is found; whitted is recursive ray tracing",
@@ -476,6 +451,118 @@ const std::array kTable{
                           .help = "leave out all objects of these kinds",
                           .source = "British Columbia, whose own pictures lack the conics",
                           .repeats = Repeats::world}),
+    row<&Settings::projection>(
+        {.name = "projection",
+         .group = "Camera",
+         .help = "how directions become places of the picture; a panorama is all around",
+         .source = "docs/cameras.md",
+         .repeats = Repeats::world,
+         .extra = true}),
+    row<&Settings::viewHeight>(
+        {.name = "view-height",
+         .group = "Camera",
+         .help = "of the scene in an orthographic picture; 0 is what the perspective shows at the middle",
+         .source = "docs/cameras.md",
+         .repeats = Repeats::world,
+         .least = 0,
+         .most = 1e30,
+         .unit = "units"}),
+    row<&Settings::fisheyeAngle>({.name = "fisheye-angle",
+                                  .group = "Camera",
+                                  .help = "that a fisheye sees across the shorter side of the picture",
+                                  .source = "docs/cameras.md",
+                                  .repeats = Repeats::world,
+                                  .least = 1,
+                                  .most = 360,
+                                  .unit = "degrees"}),
+    row<&Settings::shiftX>({.name = "shift-x",
+                            .group = "Camera",
+                            .help = "moves the film to the right, so that more of what is there is seen",
+                            .source = "tilt-shift lenses; docs/cameras.md",
+                            .repeats = Repeats::world,
+                            .least = -100,
+                            .most = 100,
+                            .unit = "widths"}),
+    row<&Settings::shiftY>({.name = "shift-y",
+                            .group = "Camera",
+                            .help = "moves the film up: towers stay upright if the camera looks level",
+                            .source = "tilt-shift lenses; docs/cameras.md",
+                            .repeats = Repeats::world,
+                            .least = -100,
+                            .most = 100,
+                            .unit = "heights"}),
+    row<&Settings::distortion>({.name = "distortion",
+                                .group = "Camera",
+                                .help = "of the lens: above 0 as a barrel, below as a pincushion",
+                                .source = "Brown 1966; docs/cameras.md",
+                                .repeats = Repeats::world,
+                                .least = -0.1,
+                                .most = 10,
+                                .extra = true}),
+    row<&Settings::stereo>(
+        {.name = "stereo",
+         .group = "Camera",
+         .help = "two eyes in one picture: beside each other, or for glasses of red and cyan",
+         .source = "courses; docs/stereo.md",
+         .repeats = Repeats::world,
+         .extra = true}),
+    row<&Settings::eyeSeparation>({.name = "eye-separation",
+                                   .group = "Camera",
+                                   .help = "of the two eyes; 0 is a thirtieth of zero-parallax",
+                                   .source = "docs/stereo.md",
+                                   .repeats = Repeats::world,
+                                   .least = 0,
+                                   .most = 1e30,
+                                   .unit = "units"}),
+    row<&Settings::zeroParallax>({.name = "zero-parallax",
+                                  .group = "Camera",
+                                  .help =
+                                      "distance of what seems to lie in the screen; nearer things stand out "
+                                      "of it; 0 is that of the middle of the picture",
+                                  .source = "docs/stereo.md",
+                                  .repeats = Repeats::world,
+                                  .least = 0,
+                                  .most = 1e30,
+                                  .unit = "units"}),
+    row<&Settings::aperture>({.name = "aperture",
+                              .group = "Lens",
+                              .help = "diameter of the lens: what is not in focus blurs; 0 is a pinhole",
+                              .source = "Cook, Porter and Carpenter 1984; docs/lens.md",
+                              .least = 0,
+                              .most = 1e9,
+                              .unit = "units",
+                              .extra = true}),
+    row<&Settings::focus>({.name = "focus",
+                           .group = "Lens",
+                           .help = "distance along the view at which things are sharp; 0 is that of what the "
+                                   "middle of the picture shows",
+                           .source = "docs/lens.md",
+                           .repeats = Repeats::world,
+                           .least = 0,
+                           .most = 1e30,
+                           .unit = "units"}),
+    row<&Settings::blades>(
+        {.name = "blades",
+         .group = "Lens",
+         .help = "corners of the lens opening, the shape of blurred lights; below 3 it is round",
+         .source = "docs/lens.md",
+         .least = 0,
+         .most = 100}),
+    row<&Settings::bladeAngle>({.name = "blade-angle",
+                                .group = "Lens",
+                                .help = "turns the corners of the lens opening",
+                                .source = "",
+                                .least = -360,
+                                .most = 360,
+                                .unit = "degrees"}),
+    row<&Settings::tilt>({.name = "tilt",
+                          .group = "Lens",
+                          .help = "turns the plane in focus: above 0 its upper half comes nearer",
+                          .source = "Scheimpflug 1904; docs/lens.md",
+                          .repeats = Repeats::world,
+                          .least = -89,
+                          .most = 89,
+                          .unit = "degrees"}),
     row<&Settings::backdrop>(
         {.name = "backdrop",
          .group = "Background",
@@ -754,13 +841,28 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
       apply(settings, choice);
       const Settings& given = convention(settings.like).settings;
       for (const Option& option : kTable)
-        if (option.group == "Conventions") option.assign(settings, option.get(given));
+        if (isConvention(option)) option.assign(settings, option.get(given));
     }
     for (const Choice& choice : layer)
       if (choice.option != "like") apply(settings, choice);
   }
   return settings;
 }
+
+Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers) {
+  Chosen chosen;
+  std::size_t number = 0;
+  for (std::span<const Choice> layer : layers) {
+    for (const bool byLike : {true, false})
+      for (const Choice& choice : layer)
+        if (byLike ? choice.option == "like" && isConvention(option) : choice.option == option.name)
+          chosen = {&choice, number, byLike};
+    ++number;
+  }
+  return chosen;
+}
+
+bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }
 
 bool sameValue(const Option& option, const Settings& a, const Settings& b) {
   const std::string x = option.get(a), y = option.get(b);

@@ -53,6 +53,17 @@ struct Choice {
 /// lies beside the scene. Throws Error with the choice's place.
 Settings resolve(std::initializer_list<std::span<const Choice>> layers);
 
+/// The choice that gives the option its value in resolve().
+struct Chosen {
+  const Choice* choice = nullptr;  ///< null: it has its default
+  std::size_t layer = 0;           ///< where that stands
+  bool byLike = false;             ///< the choice is one of `like`
+};
+Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers);
+
+/// Is it one of those that `like` sets?
+bool isConvention(const Option& option);
+
 /// Has the option one value in both? Other spellings of a file's name count as that file.
 bool sameValue(const Option& option, const Settings& a, const Settings& b);
 

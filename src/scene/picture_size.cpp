@@ -25,6 +25,9 @@ int side(std::string_view option, double pixels) {
   return std::max(1, static_cast<int>(std::floor(pixels + 0.5)));
 }
 
+/// How much wider, against its height, the finished picture is than that of one eye.
+Real shownAcross(Stereo stereo) { return isAnaglyph(stereo) ? 1 : eyesAcross(stereo); }
+
 }  // namespace
 
 Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const Choice>> layers) {
@@ -39,7 +42,8 @@ Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const
     const bool width = gives(layer, "width"), height = gives(layer, "height");
     if (!isScene && width && !height && ratio > 0) sizes.height = side("height", sizes.width / ratio);
     if (!isScene && height && !width && sizes.height > 0)
-      sizes.width = side("width", sizes.height * (ratio > 0 ? ratio : camera.aspectratio));
+      sizes.width = side(
+          "width", sizes.height * (ratio > 0 ? ratio : camera.aspectratio * shownAcross(settings.stereo)));
     isScene = false;
   }
   settings.width = sizes.width, settings.height = sizes.height;

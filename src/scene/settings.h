@@ -73,11 +73,21 @@ struct Settings {
   FilterKind filter = FilterKind::box;
   Real filterRadius = 0;
   int lightSamples = 1;
+  // Camera
+  Projection projection = Projection::perspective;
+  Real viewHeight = 0;
+  Real fisheyeAngle = 180;
+  Real shiftX = 0, shiftY = 0;
+  Real distortion = 0;
+  Stereo stereo = Stereo::off;
+  Real eyeSeparation = 0;
+  Real zeroParallax = 0;
   // Lens
   Real aperture = 0;
   Real focus = 0;
   int blades = 0;
   Real bladeAngle = 0;
+  Real tilt = 0;
   // Tracing
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
@@ -132,8 +142,18 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-inline Lens lensOf(const Settings& s) {
-  return {s.aperture / 2, s.focus, s.blades, s.bladeAngle * kPi / 180};
+inline Optics opticsOf(const Settings& s) {
+  constexpr Real kDegree = kPi / 180;
+  return {.projection = s.projection,
+          .viewHeight = s.viewHeight,
+          .fisheyeAngle = s.fisheyeAngle * kDegree,
+          .shift = {s.shiftX, s.shiftY},
+          .distortion = s.distortion,
+          .tilt = s.tilt * kDegree,
+          .lens = {s.aperture / 2, s.focus, s.blades, s.bladeAngle * kDegree},
+          .stereo = s.stereo,
+          .eyeSeparation = s.eyeSeparation,
+          .zeroParallax = s.zeroParallax};
 }
 
 inline Rules rulesOf(const Settings& s) {

@@ -166,7 +166,7 @@ TEST(Explain, EveryOptionHasADrawing) {
       Session session;
       session.open(test::sourceFolder() + "/scenes/mesh.ray", choices);
       session.build();
-      const RayTree tree = session.explain(20, 12, 0).tree;
+      const RayTree tree = session.explain(20, session.size().height / 2, 0).tree;
       EXPECT_GT(drawRays(session.scene(), session.settings(), session.world(), tree).things.size(), 10u);
     }
   }

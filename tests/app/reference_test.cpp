@@ -108,9 +108,8 @@ TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
         "simple_box", "simple_box_dist_atten", "simple_box_cyl_opaque_shadow"}) {
     const std::string picture = kReference + "ut-w400-r5/" + name + ".png";
     if (!fs::exists(picture)) continue;
-    EXPECT_GE(
-        renderAndCompare(sceneOf(name), picture, {{"camera-axes", "raw", {}}, {"like", "uw", {}}}),
-        0.999)
+    EXPECT_GE(renderAndCompare(sceneOf(name), picture, {{"camera-axes", "raw", {}}, {"like", "uw", {}}}),
+              0.999)
         << name;
     ++compared;
   }

@@ -127,10 +127,15 @@ TEST(RayPatch, SettingsAreChangedOrAdded) {
 }
 
 TEST(RayPatch, FilesOfSettingsAreWrittenSoThatTheyAreFound) {
-  EXPECT_EQ(after("sphere { }", [](Scene& s) { s.choices = {{"environment", "/sky/a b.hdr", {}}}; }),
+  EXPECT_EQ(after("sphere { }",
+                  [](Scene& s) {
+                    s.choices = {{"environment", "/sky/a b.hdr", {}}};
+                  }),
             "settings { environment = \"/sky/a b.hdr\"; }\nsphere { }");
   EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
-                  [](Scene& s) { s.choices = {{"backdrop", "none", {}}}; }),
+                  [](Scene& s) {
+                    s.choices = {{"backdrop", "none", {}}};
+                  }),
             "settings { backdrop = none; } sphere { }");
   // The same file by the name that the program has for it: the text stays.
   EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
@@ -159,7 +164,10 @@ TEST(RayPatch, DirectionsReplaceWhatSaidThemBefore) {
       "background { color = (0.5, 0, 1); } sphere { }");
   EXPECT_EQ(after("sphere { }", [](Scene& s) { s.background.turbidity = 3; }),
             "background { turbidity = 3; }\nsphere { }");
-  EXPECT_EQ(after("background { turbidity = 3; } sphere { }", [](Scene& s) { s.background.sun = {0, 1, 0}; }),
+  EXPECT_EQ(after("background { turbidity = 3; } sphere { }",
+                  [](Scene& s) {
+                    s.background.sun = {0, 1, 0};
+                  }),
             "background { turbidity = 3; sun = (0, 1, 0); } sphere { }");
 }
 

@@ -43,7 +43,8 @@ struct Seen {
 Seen seen(Shape shape, const Affine& worldFromObject, Material material) {
   Scene scene;
   scene.materials = {std::move(material)};
-  Object object{.shape = std::move(shape)};
+  Object object;
+  object.shape = std::move(shape);
   object.worldFromObject = worldFromObject;
   scene.objects = {std::move(object)};
   return Seen(std::move(scene));

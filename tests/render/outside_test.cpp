@@ -38,7 +38,7 @@ const Phong& mirror() {
 }
 
 Color seen(const Scene& scene, const Settings& settings, const Ray& ray, RayKind kind = RayKind::camera) {
-  return build(scene, settings).outside().view(ray.direction, kind).color;
+  return build(scene, settings).outside().view(ray, kind).color;
 }
 
 TEST(Outside, IsBlackAsBeforeForMirroredRaysWhereNothingIsAround) {
@@ -57,12 +57,13 @@ TEST(Outside, CameraRaysSeeTheBackdropOtherRaysTheEnvironment) {
   scene.surroundings.backdrop = backdrop;
   scene.background.gradient = {Color(2)};
   const Outside all = build(scene).outside();
-  EXPECT_EQ(all.view({0, 0, -1}, RayKind::camera).source, Outside::Source::backdrop);
-  EXPECT_EQ(all.view({0, 0, -1}, RayKind::reflection).source, Outside::Source::environment);
+  EXPECT_EQ(all.view({{}, {0, 0, -1}}, RayKind::camera).source, Outside::Source::backdrop);
+  EXPECT_EQ(all.view({{}, {0, 0, -1}}, RayKind::reflection).source, Outside::Source::environment);
   scene.surroundings = {};
-  EXPECT_EQ(build(scene).outside().view({0, 0, -1}, RayKind::refraction).source, Outside::Source::gradient);
+  EXPECT_EQ(build(scene).outside().view({{}, {0, 0, -1}}, RayKind::refraction).source,
+            Outside::Source::gradient);
   scene.background.turbidity = 3;
-  EXPECT_EQ(build(scene).outside().view({0, 0, -1}, RayKind::camera).source, Outside::Source::sky);
+  EXPECT_EQ(build(scene).outside().view({{}, {0, 0, -1}}, RayKind::camera).source, Outside::Source::sky);
 }
 
 /// A backdrop of the size of the picture is seen pixel for pixel, whatever the camera.
@@ -159,18 +160,18 @@ TEST(Outside, GradientsAndSkiesFollowTheHeight) {
 }
 
 TEST(Outside, SentencesNameThePlace) {
-  EXPECT_EQ(sentence(build(around(rainbow())).outside().view({1, 0, 0}, RayKind::reflection)),
+  EXPECT_EQ(sentence(build(around(rainbow())).outside().view({{}, {1, 0, 0}}, RayKind::reflection)),
             "environment at (0.75, 0.5) from its top left");
   std::array<Picture, 6> faces;
   for (Picture& face : faces) face = Picture(2, 2);
   const Scene cube = around(std::make_shared<const EnvironmentMap>(faces));
-  EXPECT_EQ(sentence(build(cube).outside().view({1, 0, 0}, RayKind::camera)),
+  EXPECT_EQ(sentence(build(cube).outside().view({{}, {1, 0, 0}}, RayKind::camera)),
             "environment, face right at (0.5, 0.5) from its top left");
   Scene sky;
   sky.background.gradient = {Color(1), Color(0)};
-  EXPECT_EQ(sentence(build(sky).outside().view({0, 0.5, std::sqrt(0.75)}, RayKind::camera)),
+  EXPECT_EQ(sentence(build(sky).outside().view({{}, {0, 0.5, std::sqrt(0.75)}}, RayKind::camera)),
             "gradient at 30 degrees above the horizon");
-  EXPECT_EQ(sentence(build(Scene{}).outside().view({1, 0, 0}, RayKind::camera)), "background");
+  EXPECT_EQ(sentence(build(Scene{}).outside().view({{}, {1, 0, 0}}, RayKind::camera)), "background");
 }
 
 }  // namespace

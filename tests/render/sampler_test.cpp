@@ -71,7 +71,8 @@ TEST(Sampler, NumbersAreFunctionsOfWhereTheyAreDrawn) {
     EXPECT_EQ(seen.size(), 4u * 4 * 4 * 4) << row.name;
     Settings other = with(row, 16);
     other.seed = 1;
-    EXPECT_NE(Sampler(SampleRules(other, {100, 100}), 0, 0, 0).next(), Sampler(rules, 0, 0, 0).next()) << row.name;
+    EXPECT_NE(Sampler(SampleRules(other, {100, 100}), 0, 0, 0).next(), Sampler(rules, 0, 0, 0).next())
+        << row.name;
   }
 }
 

@@ -101,7 +101,8 @@ TEST(Options, ExtrasAreOffByDefault) {
     if (!option.extra) continue;
     const std::string value = option.get({});
     const bool first = option.kind == Option::Kind::choice && value == option.choices.front();
-    EXPECT_TRUE(value == "off" || value == "0" || first || ((option.name == "spp" || option.name == "wavelengths") && value == "1"))
+    EXPECT_TRUE(value == "off" || value == "0" || first ||
+                ((option.name == "spp" || option.name == "wavelengths") && value == "1"))
         << option.name << " " << value;
   }
 }

@@ -89,8 +89,10 @@ TEST(Surroundings, WhatTheCommandLineNamesAndIsNoPictureIsAnErrorWithAHint) {
   };
   for (const char* option : {"backdrop", "environment"}) {
     const std::string flag = "--" + std::string(option) + ": ";
-    wrong({{option, folder / "missing.png", {}}}, (flag + "cannot read \"" + folder.path() + "/missing.png\"").c_str());
-    wrong({{option, folder / "broken.png", {}}}, (flag + "cannot read \"" + folder.path() + "/broken.png\"").c_str());
+    wrong({{option, folder / "missing.png", {}}},
+          (flag + "cannot read \"" + folder.path() + "/missing.png\"").c_str());
+    wrong({{option, folder / "broken.png", {}}},
+          (flag + "cannot read \"" + folder.path() + "/broken.png\"").c_str());
   }
   wrong({{"backdrop", folder.path(), {}}}, "--backdrop: ");
   wrong({{"environment", folder / "empty", {}}},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "formats/directions.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/inventor/inventor_transform.h"
@@ -90,12 +91,12 @@ void Reader::perspectiveCamera(const Values& v, State& s) {
 }
 
 void Reader::orthographicCamera(const Values& v, State& s) {
-  constexpr Real kFar = 100;
   if (hasCamera_) return;
-  const Real height = v.number("height", 2);
-  camera(v, s, {0, 0, 1}, 2 * std::atan(0.5 / kFar), v.number("aspectRatio", 1));
-  if (hasCamera_) scene_.camera.position += scene_.camera.viewdir * (-kFar * height);
-  warn(v.node(), "an orthographic camera becomes one that looks from far away", "orthographic");
+  camera(v, s, {0, 0, 1}, kPi / 4, v.number("aspectRatio", 1));
+  if (!hasCamera_) return;
+  const Place place = document_.place(v.node().token);
+  scene_.choices.push_back({"projection", "orthographic", place});
+  scene_.choices.push_back({"view-height", toText(v.number("height", 2)), place});
 }
 
 void Reader::viewpoint(const Values& v, State& s) {

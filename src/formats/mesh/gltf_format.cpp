@@ -365,20 +365,24 @@ class GltfReader {
 
   void readCamera(const tinygltf::Camera& from, const Affine& worldFromNode) {
     if (model_.camera) return;
-    const double fov = from.perspective.yfov * 180 / kPi;
+    const bool parallel = from.type == "orthographic";
+    const double fov = parallel ? 45 : from.perspective.yfov * 180 / kPi;
+    const double aspect =
+        parallel ? from.orthographic.xmag / from.orthographic.ymag : from.perspective.aspectRatio;
     Camera camera;
     camera.position = worldFromNode * Vec3{};
     camera.viewdir = linear(worldFromNode, {0, 0, -1});
     camera.updir = linear(worldFromNode, {0, 1, 0});
-    if (from.type != "perspective" || !(fov > 0 && fov < 180) || !canLook(camera.viewdir, camera.updir) ||
-        !isFinite(camera.position))
-      return messages_.warn(
-          place_, "camera \"" + from.name + "\" is not one for a picture in perspective; it is left out");
+    if (!(fov > 0 && fov < 180) || (parallel && !(std::abs(aspect) > 0 && std::isfinite(aspect))) ||
+        !canLook(camera.viewdir, camera.updir) || !isFinite(camera.position))
+      return messages_.warn(place_, "camera \"" + from.name + "\" cannot look; it is left out");
     camera.viewdir = normalize(camera.viewdir), camera.updir = normalize(camera.updir);
     camera.fov = fov;
-    if (from.perspective.aspectRatio > 0 && std::isfinite(from.perspective.aspectRatio))
-      camera.aspectratio = from.perspective.aspectRatio;
+    if (std::abs(aspect) > 0 && std::isfinite(aspect)) camera.aspectratio = std::abs(aspect);
     model_.camera = camera;
+    if (!parallel) return;
+    model_.choices.push_back({"projection", "orthographic", place_});
+    model_.choices.push_back({"view-height", toText(std::abs(2 * from.orthographic.ymag)), place_});
   }
 
   /// Candela and lux become the courses' colours, whose matt surfaces do not divide by pi.
@@ -403,7 +407,8 @@ class GltfReader {
                                place_});
     else
       model_.lights.push_back({PointLight{.position = position, .color = color}, place_});
-    if (model_.choices.empty()) model_.choices.push_back({"limit-attenuation", "off", place_});
+    if (!limitsLifted_) model_.choices.push_back({"limit-attenuation", "off", place_});
+    limitsLifted_ = true;
   }
 
   // --- meshes ---
@@ -661,7 +666,8 @@ class GltfReader {
 
   Place place_;
   Messages& messages_;
-  Model model_;  // parsing notes files in it
+  Model model_;                // parsing notes files in it
+  bool limitsLifted_ = false;  // light falls off as in nature
   tinygltf::Model gltf_;
   std::map<int, std::vector<Object>> parts_;  ///< of meshes
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read

@@ -62,7 +62,8 @@ void read(Findings& findings, const Item& call) {
     if (!isField(findings, item, L::kKeyword)) continue;
     repeats.note(item);
     if constexpr (std::is_same_v<L, PointLight>)
-      if (call.key() == kAreaLight && std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
+      if (call.key() == kAreaLight &&
+          std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
         rayfile::read(findings, item.key(), item.value(), light.radius);
         continue;
       }

@@ -18,11 +18,6 @@ constexpr std::array<std::string_view, 8> kFields{"uv",         "crease",   "fil
 
 bool isFile(const Item& item) { return item.keyed() && (item.key() == "file" || item.key() == "objfile"); }
 
-std::string placeText(const Place& place) {
-  if (place.line == 0) return place.file;
-  return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
 }  // namespace
 
 bool namesMeshFile(const Item& block) {

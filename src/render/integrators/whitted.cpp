@@ -65,7 +65,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const World& world = tracer.world();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
-      sum.add(Term::Kind::background, world.outside().view(ray.direction, path.kind).color);
+      sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
     sum.draw(path.ink);
     return sum.radiance();
   }

@@ -1,6 +1,7 @@
-// Pinhole cameras: what a scene says, and the frame that turns picture positions into rays.
+// Cameras: what a scene says, what the options say, and the frame that turns places of the picture into rays.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "base/field.h"
@@ -58,40 +59,95 @@ struct Lens {
   }
 };
 
-/// The ray through film = (x, y) in [0, 1]^2, (0, 0) at the bottom left, has direction look + (x - 0.5) right
-/// + (y - 0.5) up, normalised.
+/// How the directions around the eye become places of the picture.
+enum class Projection {
+  perspective,   ///< as through a window: straight lines stay straight
+  orthographic,  ///< parallel rays: no foreshortening
+  fisheye,       ///< the distance from the middle is the angle from the view (equidistant)
+  panorama,      ///< all around: across is the azimuth, upward the elevation (equirectangular)
+  cylinder,      ///< across is the azimuth; upright lines stay straight
+};
+
+/// Where the pictures of two eyes stand in one. From redCyan on they are rendered side by side, and the
+/// finished picture shows both in one place, for glasses of two colours (image/anaglyph.h).
+enum class Stereo { off, sideBySide, crossEyed, overUnder, redCyan, halfColor, grey, dubois };
+
+constexpr bool isAnaglyph(Stereo stereo) { return stereo >= Stereo::redCyan; }
+
+/// How much wider, against its height, what is rendered is than the picture of one eye.
+constexpr Real eyesAcross(Stereo stereo) {
+  return stereo == Stereo::off ? 1 : stereo == Stereo::overUnder ? 0.5 : 2;
+}
+
+/// What the options say of the camera, beside what the scene says.
+struct Optics {
+  Projection projection = Projection::perspective;
+  Real viewHeight = 0;      ///< of an orthographic picture, in the scene; 0: as the perspective at the middle
+  Real fisheyeAngle = kPi;  ///< across the shorter side, radians
+  Vec2 shift{};         ///< of the film, in widths and heights of the picture (as a tilt-shift lens shifts)
+  Real distortion = 0;  ///< k of r' = r (1 + k r^2), r = 1 at the upper edge; above 0 it is a barrel
+  Real tilt = 0;        ///< of the plane in focus, radians: above 0 its upper half comes nearer
+  Lens lens{};
+  Stereo stereo = Stereo::off;
+  Real eyeSeparation = 0;  ///< 0: a thirtieth of the next
+  Real zeroParallax = 0;   ///< distance of what both eyes see in one place; 0: that of the middle
+  bool operator==(const Optics&) const = default;
+};
+
+/// A scene's camera with its optics, and what follows from them: the way from places of the picture to rays.
+/// Places are in [0, 1]^2, (0, 0) at the bottom left. In perspective the ray through (x, y) has the direction
+/// look + (x - 0.5) right + (y - 0.5) up, normalised.
 struct CameraFrame {
   Vec3 eye, look, right, up;
   Real near = 0, far = kInfinity;
-  Lens lens{};
-  /// The y of the ray of that direction; for one that looks backward, of its opposite.
-  Real heightOf(const Vec3& direction) const {
-    const Vec3 upward = cross(look, right), forward = cross(right, up);
-    return 0.5 + dot(direction, upward) / dot(up, upward) * (dot(look, forward) / dot(direction, forward));
-  }
-  /// The x of the ray of that direction, in the same way.
-  Real acrossOf(const Vec3& direction) const {
-    const Vec3 sideways = cross(look, up), forward = cross(right, up);
-    return 0.5 +
-           dot(direction, sideways) / dot(right, sideways) * (dot(look, forward) / dot(direction, forward));
-  }
+  Optics optics{};
+  Vec3 ahead{};       ///< where it looks, of length 1; without the film's shift
+  bool plain = true;  ///< perspective of one eye, neither distorted nor tilted
+
   bool sees(Real distance) const { return near <= distance && distance <= far; }
-  Ray ray(const Vec2& film) const {
-    return {eye, normalize(look + right * (film.x - 0.5) + up * (film.y - 0.5))};
-  }
+
+  Ray ray(const Vec2& place) const { return plain ? pinhole(place) : bent(place, nullptr); }
   /// The same from the place of the lens that `u` chooses.
-  Ray ray(const Vec2& film, const Vec2& u) const {
-    const Ray middle = ray(film);
-    if (!(lens.radius > 0)) return middle;
+  Ray ray(const Vec2& place, const Vec2& u) const {
+    if (!plain) return bent(place, &u);
+    const Ray middle = pinhole(place);
+    return optics.lens.radius > 0 ? through(middle, u, ahead) : middle;
+  }
+
+  /// Where ray(place) of a pinhole goes that way; of a ray that looks backward, where its opposite does. With
+  /// two eyes, in the picture of one.
+  Vec2 placeOf(const Ray& ray) const;
+  /// Where a point is seen in the whole picture, by the left of two eyes; nothing if it is behind.
+  std::optional<Vec2> placeOf(const Vec3& point) const;
+
+  /// Of two eyes: the place of the whole picture that is nearest to `place` in the same eye's as `pixel`.
+  Vec2 inEyeOf(const Vec2& pixel, Vec2 place) const;
+
+  /// Something is left to the first surface in the middle of the picture.
+  bool wantsMiddle() const;
+  /// That surface is at this distance.
+  void setMiddle(Real distance);
+
+ private:
+  struct Path;  // a ray on its way through the parts of the camera
+
+  Ray pinhole(const Vec2& place) const {
+    return {eye, normalize(look + right * (place.x - 0.5) + up * (place.y - 0.5))};
+  }
+  /// From a place of the lens to where the ray through its middle meets the plane in focus.
+  Ray through(const Ray& middle, const Vec2& u, const Vec3& normal) const {
+    const Lens& lens = optics.lens;
     const Vec2 place = lens.at(u);
     const Vec3 offset = normalize(right) * place.x + normalize(up) * place.y;
-    if (lens.focus == kInfinity) return {eye + offset, middle.direction};
-    const Vec3 sharp = middle.direction * (lens.focus / dot(middle.direction, normalize(look)));
-    return {eye + offset, normalize(sharp - offset)};
+    if (lens.focus == kInfinity) return {middle.origin + offset, middle.direction};
+    const Vec3 sharp = middle.direction * (lens.focus / dot(middle.direction, normal));
+    return {middle.origin + offset, normalize(sharp - offset)};
   }
+  Ray bent(const Vec2& place, const Vec2* u) const;
+  Path path(const Vec2& fromMiddle) const;
 };
 
 /// Precondition: viewdir and updir finite, neither zero nor parallel; 0 < fov < 180.
-CameraFrame frame(const Camera& camera, CameraAxes axes, const Lens& lens = {});
+CameraFrame frame(const Camera& camera, CameraAxes axes, const Optics& optics = {});
 
 }  // namespace trace
