@@ -64,6 +64,7 @@ struct Arguments {
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool markdown = false;              ///< features: as docs/options.md
+  std::string examples;               ///< features: --examples, the folder of the scenes
   std::array<int, 2> size{256, 256};  ///< texture: --size, width and height
   std::optional<double> across;       ///< texture: --across, steps of the pattern
   // stereogram

@@ -26,6 +26,12 @@ Json toJson(const Place& place) {
   return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
 }
 
+Json toJson(const ColorRamp& ramp) {
+  Json json = Json::list();
+  for (const auto& [position, red, green, blue] : ramp) json.add(Json::list({position, red, green, blue}));
+  return json;
+}
+
 template <class Struct>
 Json fieldsOf(const Struct& value) {
   Json json = Json::object();

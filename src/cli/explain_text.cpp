@@ -106,7 +106,9 @@ class TreeText {
       if (!indices.nested) return text(value);
       return text(value) + " (" + printable(fillingText(scene_, body, priority)) + ")";
     };
-    if (whitted(*node.bsdf).transmits())
+    if (whitted(*node.bsdf).passage == Passage::straight)
+      side += ": a pane that bends nothing";
+    else if (whitted(*node.bsdf).transmits())
       side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
               index(indices.behind, indices.objectBehind, indices.priorityBehind);
     const Vec2 uv = s.uv;

@@ -1,6 +1,8 @@
 // ray features: what this program can do, from its tables.
 #include <string>
 
+#include "app/extensions.h"
+#include "base/file.h"
 #include "cli/commands.h"
 #include "cli/flags.h"
 #include "cli/help.h"
@@ -24,6 +26,14 @@ std::string featuresText() {
   for (const Option& option : options())
     if (option.extra)
       text += row(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
+  text += "extensions, with their examples (docs/features shows each off and on)\n";
+  for (const Extension& e : extensions()) {
+    std::string words(e.adds);
+    words += "; scenes/" + std::string(e.scene);
+    if (!e.off.empty()) words += "; off: " + std::string(e.off);
+    if (!e.on.empty()) words += "; on: " + std::string(e.on);
+    text += row(e.name, words);
+  }
   text += "integrators\n";
   for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
   text += "passes (--passes NAME,NAME)\n";
@@ -45,9 +55,19 @@ std::string featuresText() {
 
 }  // namespace
 
-int featuresCommand(const Arguments& arguments, const Console&) {
+int featuresCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.files.empty())
     throw Error(Fault::usage, "ray features: expected no file, found \"" + arguments.files.front() + "\"");
+  if (!arguments.examples.empty()) {
+    if (arguments.output.empty())
+      throw Error(Fault::usage,
+                  "ray features --examples: expected a folder for the page, as in -o docs/features");
+    writeExtensionPictures(arguments.examples, arguments.output, [&](std::string_view name) {
+      console.line(LogLevel::info, "the pictures of " + std::string(name));
+    });
+    writeFile(arguments.output + "/README.md", extensionsMarkdown());
+    return kDone;
+  }
   printResult(arguments.markdown ? optionsMarkdown() : featuresText());
   return kDone;
 }

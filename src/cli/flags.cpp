@@ -19,8 +19,8 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
             Verb::lint,   Verb::grade, Verb::convert, Verb::stereogram},
     kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
              Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::stereogram},
-    kWithOutput{Verb::render, Verb::explain, Verb::lint,      Verb::diff,
-                Verb::grade,  Verb::texture, Verb::stereogram},
+    kWithOutput{Verb::render, Verb::explain, Verb::lint,       Verb::diff,
+                Verb::grade,  Verb::texture, Verb::stereogram, Verb::features},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
     kEverywhere{Verb::render,     Verb::gui,      Verb::info,  Verb::bench,   Verb::explain,
                 Verb::lint,       Verb::diff,     Verb::grade, Verb::convert, Verb::texture,
@@ -318,6 +318,16 @@ std::span<const Flag> flags() {
            false,
            "print docs/options.md, or of texture docs/texture-fields.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
+      Flag{
+          "examples",
+          0,
+          Takes::value,
+          "FOLDER",
+          "",
+          {Verb::features},
+          false,
+          "make the page of all extensions and its pictures in the folder of -o, from the scenes in this one",
+          [](Arguments& a, std::string_view value) { a.examples = value; }},
       Flag{"print-defaults", 0, Takes::nothing, "", "", kRender, false,
            "print every option as NAME=VALUE with its default, and end",
            [](Arguments& a, std::string_view) { a.printDefaults = true; }},
@@ -362,7 +372,7 @@ std::string_view enabledValue(const Option& option) {
       {"aperture", "0.1"},    {"exposure", "1"},          {"white-balance", "3200"},
       {"transfer", "srgb"},   {"bloom", "0.1"},           {"projection", "panorama"},
       {"distortion", "0.2"},  {"stereo", "side-by-side"}, {"threshold", "0.003"},
-      {"nested-glass", "on"}, {"wavelengths", "9"}};
+      {"nested-glass", "on"}, {"wavelengths", "9"},       {"outlines", "2"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};

@@ -35,6 +35,11 @@ class Gather {
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
   }
 
+  /// An outline covers so much of what has been added.
+  void draw(Real ink) {
+    if (ink > 0) add(Term::Kind::outline, Color(ink), sum_ * -1);
+  }
+
   /// Notes what the place that was hit does with light.
   void note(const Bsdf& bsdf) {
     if (Tracer::recorded(node_)) tracer_.record(node_, bsdf);

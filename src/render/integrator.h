@@ -20,6 +20,7 @@ struct CameraRay {
   Interfaces inside;                             ///< what the ray is in when it gets there
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
   const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
+  Real ink = 0;                                  ///< how much of the sample is an outline, which is black
 };
 
 /// There is one for a render; it never changes once it is prepared.

@@ -4,6 +4,7 @@
 
 #include "render/footprint.h"
 #include "render/integrator.h"
+#include "render/outline.h"
 
 namespace trace {
 
@@ -36,6 +37,7 @@ class PixelTracer {
     if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
     CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin), weight, differentials.get()};
     camera.hit = tracer_.cast(ray, RayKind::camera, camera.inside);
+    if (tracer_.settings().outlines > 0) camera.ink = inkAt(tracer_, camera.hit, place, lens, rules_.size());
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);
   }

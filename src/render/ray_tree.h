@@ -100,9 +100,9 @@ struct LightTerm {
 
 /// factor * value, a summand of a ray's radiance.
 struct Term {
-  enum class Kind { emissive, ambient, light, reflection, refraction, background };
-  static constexpr std::array<std::string_view, 6> kNames{"emissive",   "ambient",    "light",
-                                                          "reflection", "refraction", "background"};
+  enum class Kind { emissive, ambient, light, reflection, refraction, background, outline };
+  static constexpr std::array<std::string_view, 7> kNames{"emissive",   "ambient",    "light",  "reflection",
+                                                          "refraction", "background", "outline"};
   Kind kind;
   Color factor, value;
   int ray = -1;  ///< the node whose radiance is the value; of a light: its shadow ray; -1: no ray was sent

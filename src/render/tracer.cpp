@@ -1,6 +1,7 @@
 #include "render/tracer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace trace {
@@ -74,7 +75,7 @@ bool Tracer::ignored(const Ray& ray, const Found& found, Interfaces& inside) {
   if (world_.opaque(found.object) || !world_.solid(found.object)) return false;
   const Hit hit(world_, ray, found);
   const PlaceBsdf bsdf = world_.shade(hit);
-  if (!whitted(*bsdf).transmits()) return false;
+  if (!whitted(*bsdf).transmits() || !whitted(*bsdf).encloses(hit.solid)) return false;
   const Filling body = filling(hit, whitted(*bsdf));
   const Sides sides = inside.at(hit.leaving, body, hit.solid);
   if (!sides.alike()) return false;
@@ -97,9 +98,11 @@ bool Tracer::tooNear(const Ray& ray) const {
   return found && found->t < near;
 }
 
-Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside) {
+Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
+                      bool litThrough) {
   count(RayKind::shadow);
-  const Ray ray = from.leave(toLight);
+  Ray ray = from.leave(toLight);
+  if (litThrough) ray.leaves = from.object;
   if (records()) begin(ray, RayKind::shadow, distance, inside.wavelength);
   const Color color =
       inside.nested() ? passedNested(from, ray, distance, inside) : passed(ray, distance, nullptr);
@@ -118,7 +121,8 @@ Color Tracer::passedNested(const Hit& from, const Ray& ray, Real distance, const
   Interfaces start = inside;
   if (from.leaving == (dot(ray.direction, from.surface.normal) > 0)) {  // on through the surface
     const PlaceBsdf bsdf = world_.shade(from);
-    if (whitted(*bsdf).transmits()) start.pass(from.leaving, filling(from, whitted(*bsdf)), from.solid);
+    if (whitted(*bsdf).transmits())
+      start.pass(from.leaving, filling(from, whitted(*bsdf)), whitted(*bsdf).encloses(from.solid));
   }
   return passed(ray, distance, &start);
 }
@@ -155,7 +159,13 @@ Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
     const WhittedTerms& terms = whitted(*bsdf);
     if (!terms.transmits()) return Color(0);
     const bool perCrossing = settings_.glass == Glass::perCrossing;
-    Color factor = perCrossing ? terms.transmissive : Color(1);
+    Color factor = perCrossing || terms.passage != Passage::asSaid ? terms.transmissive : Color(1);
+    if (terms.passage == Passage::straight) {
+      factor = passWeight(*bsdf, std::abs(dot(ray.direction, world_.surface(ray, found).shading)));
+      color *= factor;
+      if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
+      continue;
+    }
     if (inside) {
       if (ignored(ray, found, *inside)) continue;
       const Hit hit(world_, ray, found);

@@ -25,8 +25,14 @@ class Tracer {
 
   /// How much of each colour passes from what was hit toward a light at `distance` (may be infinite) in the
   /// unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive. `inside` is what
-  /// the ray that hit it is in.
-  Color visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside);
+  /// the ray that hit it is in. `litThrough`: the object that was hit is not in its own way.
+  Color visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
+                bool litThrough = false);
+  /// What a ray would meet first; counted as of that kind, and not recorded.
+  std::optional<Found> look(const Ray& ray, RayKind kind) {
+    count(kind);
+    return world_.closest(ray, facesSeenBy(kind), statistics_);
+  }
 
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);

@@ -91,7 +91,8 @@ Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) cons
     if (opaque(found.object) || !solid(found.object) || !met.insert(found.object).second) continue;
     const Hit hit(*this, ray, found);
     const PlaceBsdf bsdf = shade(hit);
-    if (hit.leaving && whitted(*bsdf).transmits()) around.push_back(filling(hit, whitted(*bsdf), settings));
+    if (hit.leaving && whitted(*bsdf).transmits() && whitted(*bsdf).encloses(true))
+      around.push_back(filling(hit, whitted(*bsdf), settings));
   }
   // The one that is left last is the outermost.
   for (auto body = around.rbegin(); body != around.rend(); ++body) inside.startInside(*body);
@@ -217,6 +218,20 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   return kinds;
 }
 
+/// The materials as the settings want them.
+std::vector<Material> shownAs(std::vector<Material> materials, const Settings& settings) {
+  for (Material& material : materials) {
+    if (!settings.textures) material.textures.clear();
+    if (settings.models == Models::asSaid || std::holds_alternative<Phong>(material.model)) continue;
+    const Phong nearest = phongOf(material);
+    for (FieldTexture& t : material.textures)
+      if (t.field == kColor) t.field = kDiffuse;
+    material = withModel(std::move(material), Phong{});
+    material.model = nearest;
+  }
+  return materials;
+}
+
 void World::measureMiddle() {
   Statistics uncounted;
   const std::optional<Found> found = closest({camera_.eye, camera_.ahead}, Faces::both, uncounted);
@@ -227,7 +242,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   World world;
   const World::Earlier earlier(before, scene, settings);
   world.rules_ = rulesOf(settings);
-  for (const Material& material : scene.materials)
+  const std::vector<Material> materials = shownAs(scene.materials, settings);
+  for (const Material& material : materials)
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
   world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
@@ -235,10 +251,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                         std::any_of(world.surfaces_.begin(), world.surfaces_.end(),
                                     [](const auto& s) { return whitted(s.bsdf).priority != 0; }));
   if (world.nestedGlass_) {
-    const std::vector<std::uint32_t> kinds = kindsOf(scene.materials, world.rules_);
+    const std::vector<std::uint32_t> kinds = kindsOf(materials, world.rules_);
     for (std::size_t i = 0; i < kinds.size(); ++i) world.surfaces_[i].kind = kinds[i];
   }
-  for (const Material& material : scene.materials)
+  for (const Material& material : materials)
     for (const FieldTexture& t : material.textures) {
       const bool footprint = wantsFootprint(t.texture);
       world.wantsFootprints_ |= footprint;

@@ -112,7 +112,7 @@ class World {
   /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
   /// asked for, u grows around the object's own axis z.
   Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
-    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}};
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}, dot(normal, hit.surface.shading) < 0};
   }
   /// What of it the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }

@@ -54,6 +54,8 @@ constexpr std::array<std::string_view, 2> kNames<GlassShadows>{"filtered", "blac
 template <>
 constexpr std::array<std::string_view, 2> kNames<MirrorDefault>{"specular", "zero"};
 template <>
+constexpr std::array<std::string_view, 2> kNames<Models>{"as-said", "phong"};
+template <>
 constexpr std::array<std::string_view, 3> kNames<BackFaces>{"both", "cull-seen", "cull-all"};
 template <>
 constexpr std::array<std::string_view, 3> kNames<PixelPosition>{"corner", "center", "border"};
@@ -418,6 +420,34 @@ const std::array kTable{
          .source = "docs/glass.md",
          .integrators = "whitted",
          .extra = true}),
+    row<&Settings::glossy>(
+        {.name = "glossy",
+         .group = "Tracing",
+         .help = "rough metal, varnish and glass send one ray in a direction chosen by chance, so that what "
+                 "they mirror is blurred; needs many samples a pixel",
+         .source = "Cook, Porter and Carpenter 1984; docs/materials.md",
+         .integrators = "whitted",
+         .extra = true}),
+    row<&Settings::models>(
+        {.name = "models",
+         .group = "Tracing",
+         .help = "shading models: those that materials name, or Phong's with the nearest values, to see what "
+                 "the others add",
+         .source = "docs/materials.md",
+         .repeats = Repeats::world}),
+    row<&Settings::textures>({.name = "textures",
+                              .group = "Tracing",
+                              .help = "textures and bumps are shown, or only the values that they scale",
+                              .source = "docs/textures.md",
+                              .repeats = Repeats::world}),
+    row<&Settings::outlines>({.name = "outlines",
+                              .group = "Tracing",
+                              .help = "lines so wide in black where objects end, and along their edges",
+                              .source = "Choudhury and Parker 2009; docs/materials.md",
+                              .least = 0,
+                              .most = 100,
+                              .unit = "pixels",
+                              .extra = true}),
     row<&Settings::omit>({.name = "omit",
                           .group = "Tracing",
                           .help = "leave out all objects of these kinds",

@@ -30,6 +30,8 @@ enum class Fresnel { constant, schlick, exact };
 /// never.
 enum class NestedGlass { byPriority, on, off };
 enum class GlassShadows { filtered, black };
+/// Which shading models hold: what materials say, or the nearest to Blinn and Phong.
+enum class Models { asSaid, phong };
 enum class BackFaces { both, cullSeen, cullAll };
 enum class PixelPosition { corner, center, border };
 enum class VertexNormals { unit, mean };
@@ -94,6 +96,10 @@ struct Settings {
   NestedGlass nestedGlass = NestedGlass::byPriority;
   int wavelengths = 1;
   bool varnish = false;
+  bool glossy = false;
+  Models models = Models::asSaid;
+  bool textures = true;
+  Real outlines = 0;
   EnumSet<ShapeKind> omit{};
   // Background
   FilePath backdrop{};

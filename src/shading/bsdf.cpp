@@ -36,8 +36,16 @@ Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   return match(bsdf, [&](const auto& model) { return model.mirrorWeight(cosine); });
 }
 
+Color passWeight(const Bsdf& bsdf, Real cosine) {
+  return match(bsdf, [&](const auto& model) { return model.passWeight(cosine); });
+}
+
 bool mirrorIsExact(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) { return model.mirrorIsExact(); });
+}
+
+bool isGlossy(const Bsdf& bsdf) {
+  return !std::holds_alternative<MixedBsdf>(bsdf) && !mirrorIsExact(bsdf) && whitted(bsdf).mirrors();
 }
 
 Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
@@ -116,6 +124,9 @@ bool MixedBsdf::mirrorIsExact() const {
 }
 Color MixedBsdf::mirrorWeight(Real cosine) const {
   return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::mirrorWeight(part, cosine); });
+}
+Color MixedBsdf::passWeight(Real cosine) const {
+  return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::passWeight(part, cosine); });
 }
 Scatter MixedBsdf::scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const {
   Scatter sum;

@@ -23,6 +23,7 @@ struct MixedBsdf : WhittedTerms {
   bool scatters() const;
   bool mirrorIsExact() const;
   Color mirrorWeight(Real cosine) const;
+  Color passWeight(Real cosine) const;
   Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const;
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const;
   std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
@@ -57,8 +58,12 @@ inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight
 /// The weight of the mirrored ray, of which and the normal `cosine` is. Of a surface that is not smooth it
 /// stands, where an integrator sends no ray into the lobe around it, for the core of that lobe.
 Color mirrorWeight(const Bsdf& bsdf, Real cosine);
+/// The weight of the ray that goes straight on, where the passage is straight.
+Color passWeight(const Bsdf& bsdf, Real cosine);
 /// False if `evaluate` has all that is mirrored.
 bool mirrorIsExact(const Bsdf& bsdf);
+/// It mirrors or refracts into a lobe, for the core of which Whitted's rays stand.
+bool isGlossy(const Bsdf& bsdf);
 
 /// f |cos(toLight)|, of what is spread over directions.
 Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,

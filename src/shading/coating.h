@@ -1,11 +1,13 @@
 // A matt base below a layer of microfacets of a dielectric: what plastic, varnish and glazed pots are. The
 // base gets what the layer lets through on the way in and on the way out (Kelemen and Szirmay-Kalos, A
 // Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001), so that with a white base all light
-// comes back. Fresnel's formula is Schlick's, for which albedos are tabulated. In the space of a Basis.
+// comes back. Fresnel's formula is Schlick's, for which albedos are tabulated; a thin film on the layer takes
+// its place, where there is one. In the space of a Basis.
 #pragma once
 
 #include "shading/fresnel.h"
 #include "shading/microfacet.h"
+#include "shading/thin_film.h"
 
 namespace trace {
 
@@ -14,8 +16,19 @@ struct Coating {
   Color alongNormal;    ///< what is mirrored of light along the normal
   MicrofacetLobe lobe;
   Color meanAlbedo;
+  ThinFilm film;  ///< of thickness 0 there is none
 
   Coating() = default;
+  /// With a film on it.
+  Coating(Distribution kind, Real roughness, const ThinFilm& onTop)
+      : Coating(kind, roughness, 0, onTop.mirrored(1)) {
+    film = onTop;
+    // Gauss's formula with three points, over the square of the cosine.
+    constexpr Real kAway = 0.3872983346207417;  // half the root of 0.6
+    meanAlbedo =
+        (albedo({0, 0, std::sqrt(0.5 - kAway)}) + albedo({0, 0, std::sqrt(0.5 + kAway)})) * (5. / 18) +
+        albedo({0, 0, std::sqrt(0.5)}) * (8. / 18);
+  }
   Coating(Distribution kind, Real roughness, Real anisotropy, const Color& mirroredAlongNormal)
       : smooth(!(roughness > 0)), alongNormal(mirroredAlongNormal) {
     if (smooth) {
@@ -26,14 +39,21 @@ struct Coating {
     }
   }
 
-  /// The share of light that goes to `v`, or comes from there, and is mirrored.
+  /// What one facet mirrors.
+  Color fresnel(Real cosine) const {
+    return film.nanometres > 0 ? film.mirrored(cosine) : schlick(cosine, alongNormal);
+  }
+  /// The share of light that goes to `v`, or comes from there, and is mirrored. Of rough films nearly.
   Color albedo(const Vec3& v) const {
+    if (film.nanometres > 0) {
+      const Real once = smooth ? 1 : lobe.white(v);
+      return film.mirrored(v.z) * once + lobe.multiple * (1 - once);
+    }
     return smooth ? schlick(v.z, alongNormal) : lobe.albedo(v, alongNormal);
   }
   /// f cos(light) of the layer.
   Color mirrored(const Vec3& eye, const Vec3& light) const {
-    return smooth ? Color(0)
-                  : lobe.value(eye, light, [&](Real cosine) { return schlick(cosine, alongNormal); });
+    return smooth ? Color(0) : lobe.value(eye, light, [&](Real cosine) { return fresnel(cosine); });
   }
   /// f cos(light) of a white base below it.
   Color base(const Vec3& eye, const Vec3& light) const {
@@ -45,9 +65,7 @@ struct Coating {
            light.z;
   }
   /// Weight of the mirrored ray.
-  Color mirrorWeight(Real cosine) const {
-    return schlick(cosine, alongNormal) * (smooth ? 1 : lobe.facets.sharpShare());
-  }
+  Color mirrorWeight(Real cosine) const { return fresnel(cosine) * (smooth ? 1 : lobe.facets.sharpShare()); }
 
   /// How often `direction` follows the layer.
   Real share(const Vec3& eye, Real base) const {

@@ -16,8 +16,9 @@ struct Basis {
 
 /// What a place gives; the rest is worked out where a material asks for it.
 struct Frame {
-  Vec3 normal;   ///< unit, turned as the integrator shades it
-  Vec3 along{};  ///< where u grows, of any length; 0 where that is not known or not asked
+  Vec3 normal;          ///< unit, turned as the integrator shades it
+  Vec3 along{};         ///< where u grows, of any length; 0 where that is not known or not asked
+  bool inside = false;  ///< the normal was turned: it points into the body
 
   /// The grain lies in the surface and starts `along`, or in any one direction of the surface if that is 0;
   /// `angle` turns it about the normal, in radians against the clock as seen from outside.

@@ -17,19 +17,24 @@
 #include "shading/materials/cook_torrance.h"
 #include "shading/materials/gooch.h"
 #include "shading/materials/hair.h"
+#include "shading/materials/hatching.h"
 #include "shading/materials/lambert.h"
+#include "shading/materials/marschner.h"
 #include "shading/materials/oren_nayar.h"
 #include "shading/materials/phong.h"
 #include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
 #include "shading/materials/schlick_brdf.h"
+#include "shading/materials/thin_glass.h"
 #include "shading/materials/velvet.h"
 #include "shading/materials/ward.h"
 #include "shading/texture.h"
 
 namespace trace {
 
-using MaterialModel = std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
-                                   Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Cel, Gooch>;
+using MaterialModel =
+    std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance, Ward, SchlickModel,
+                 AshikhminShirley, Velvet, Hair, Marschner, RoughGlass, ThinGlass, Cel, Gooch, Hatching>;
 
 /// The model of that keyword, with its defaults; null if there is none.
 inline std::optional<MaterialModel> modelCalled(std::string_view keyword) {

@@ -37,6 +37,11 @@ struct BsdfSample {
   Real density = 0;
 };
 
+/// How Whitted's equation weighs the mirrored and the refracted ray: as the material and the options say; by
+/// Fresnel's exact formula, whatever they say; or as mirrorWeight() and passWeight() say of a pane that light
+/// crosses straight on.
+enum class Passage { asSaid, byFresnel, straight };
+
 /// What Whitted's equation asks of a surface besides what it scatters.
 struct WhittedTerms {
   Color emissive, ambient;
@@ -46,6 +51,9 @@ struct WhittedTerms {
   Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
   Color attenuation{1};            ///< what passes of a unit of length inside
   Dispersion dispersion;           ///< of the index
+  Passage passage = Passage::asSaid;
+  Real sharp = 1;           ///< the part of a lobe for which one ray stands, where passage is byFresnel
+  bool litThrough = false;  ///< light from behind crosses the body, and `evaluate` knows how much is left
 
   void fill(const Interior& interior, Real index) {
     priority = interior.priority;
@@ -54,6 +62,7 @@ struct WhittedTerms {
   }
   bool transmits() const { return !isBlack(transmissive); }
   bool mirrors() const { return !isBlack(reflective); }
+  bool encloses(bool solid) const { return solid && passage != Passage::straight; }
 };
 
 /// Fields of every model but Phong's, which has them among its own.
@@ -125,11 +134,12 @@ inline Vec3 mirroredAt(const Vec3& half, const Vec3& eye) { return half * (2 * d
 ///   Vec3 direction(eye, choose, u) const    chosen by the numbers from 0 to 1; eye.z > 0
 ///   Real directionDensity(eye, light) const of that choice
 /// `Said` is the material's model, whose values are kept. Those that scatter to the other side say
-/// kTwoSided, and get any eye and light.
+/// kTwoSided, and get any eye and light; those that ask on which side the inside of the body is say
+/// kHasInside, and z points out of it.
 template <class Self, class SaidModel>
 struct LocalBsdf : WhittedTerms {
   using Said = SaidModel;
-  static constexpr bool kTwoSided = false;
+  static constexpr bool kTwoSided = false, kHasInside = false;
 
   Said said;
 
@@ -143,13 +153,15 @@ struct LocalBsdf : WhittedTerms {
   /// integrators that cannot follow that.
   bool mirrorIsExact() const { return false; }
   Color mirrorWeight(Real) const { return reflective; }
+  Color passWeight(Real) const { return transmissive; }
 
+  /// Whitted's light does not change where it enters another medium, as its rays do not; importance likewise.
   Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const {
     const Basis basis = basisOf(frame);
     const Vec3 light = basis.toLocal(toLight);
     Vec3 eye = basis.toLocal(toEye);
     if (!Self::kTwoSided) eye.z = std::abs(eye.z);  // normals between vertices may turn from the eye
-    const Scatter parts = checked(eye, light, Transport::radiance);
+    const Scatter parts = checked(eye, light, Transport::importance);
     return {parts.diffuse * kPi, parts.specular * kPi};
   }
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const {
@@ -179,7 +191,8 @@ struct LocalBsdf : WhittedTerms {
 
  private:
   const Self& self() const { return static_cast<const Self&>(*this); }
-  Basis basisOf(const Frame& frame) const {
+  Basis basisOf(Frame frame) const {
+    if (Self::kHasInside && frame.inside) frame.normal = -frame.normal;
     if constexpr (requires { said.angle; })
       return frame.basis(said.angle * kPi / 180);
     else

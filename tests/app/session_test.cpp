@@ -45,30 +45,6 @@ TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
   }
 }
 
-/// The example scene of each extra, and a value that turns it on.
-const std::map<std::string_view, std::pair<const char*, const char*>> kExtras{
-    {"spp", {"antialias.ray", "9"}},           {"sampling", {"antialias.ray", "jittered"}},
-    {"filter", {"antialias.ray", "mitchell"}}, {"aperture", {"lens.ray", "0.4"}},
-    {"threshold", {"threshold.ray", "0.3"}},   {"nested-glass", {"nested-glass.ray", "off"}},
-    {"wavelengths", {"prism.ray", "5"}},       {"varnish", {"coloured-glass.ray", "on"}},
-    {"projection", {"room.ray", "panorama"}},  {"distortion", {"room.ray", "0.3"}},
-    {"stereo", {"room.ray", "side-by-side"}},  {"exposure", {"lamps.ray", "1"}},
-    {"white-balance", {"lamps.ray", "3200"}},  {"transfer", {"lamps.ray", "srgb"}},
-    {"bloom", {"lamps.ray", "0.1"}},           {"dither", {"lamps.ray", "on"}},
-};
-
-TEST(Extras, EachChangesThePictureOfItsExample) {
-  for (const Option& option : options()) {
-    if (!option.extra) continue;
-    const auto extra = kExtras.find(option.name);
-    ASSERT_NE(extra, kExtras.end()) << option.name << " has no example scene";
-    const auto [scene, on] = extra->second;
-    const std::string file = kExamples + "/" + scene, name(option.name);
-    const Choice width{"width", "100", {}}, off{name, option.get({}), {}};
-    EXPECT_NE(renderFile(file, {width, off}), renderFile(file, {width, {name, on, {}}})) << name;
-  }
-}
-
 TEST(Session, PicturesKeepHowTheyWereMade) {
   const std::string path = testing::TempDir() + "/trace_metadata.png";
   Session session;

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "shading/bsdf.h"
+#include "shading/dispersion.h"
 #include "shading/fresnel.h"
+#include "shading/thin_film.h"
 #include "support/random.h"
 
 namespace trace {
@@ -98,6 +101,7 @@ TEST(Materials, ScatterForWhittedWhatTheyEvaluate) {
   });
 }
 
+/// What is given back of light: by power, which does not change with the medium as radiance does.
 /// The mean weight of samples whose numbers are spread evenly: multiples of powers of a root of
 /// x^4 = x + 1 (Roberts 2018).
 Color albedo(const Bsdf& bsdf, const Vec3& eye, int n = 12'000) {
@@ -109,7 +113,8 @@ Color albedo(const Bsdf& bsdf, const Vec3& eye, int n = 12'000) {
   Color sum;
   for (int i = 0; i < n; ++i) {
     const Vec2 u{number(i, 1 / kRoot), number(i, 1 / (kRoot * kRoot))};
-    if (const auto drawn = sample(bsdf, kFrame, eye, number(i, 1 / (kRoot * kRoot * kRoot)), u))
+    if (const auto drawn =
+            sample(bsdf, kFrame, eye, number(i, 1 / (kRoot * kRoot * kRoot)), u, Transport::importance))
       sum += drawn->weight;
   }
   return sum / n;
@@ -332,6 +337,149 @@ TEST(Materials, SmoothOnesOnlyMirror) {
     const Real base = albedo(varnish, world(local(cosine, 0))).r;
     EXPECT_NEAR(base + mirrorWeight(varnish, cosine).r, 1, 0.005) << "what is not mirrored comes back evenly";
   }
+}
+
+// --- glass
+// ------------------------------------------------------------------------------------------------------
+
+/// f(a, b) / n_b^2 = f(b, a) / n_a^2, where n is the index on the side of a direction.
+TEST(RoughGlass, IsReciprocalAcrossItsSurface) {
+  Random random(6);
+  for (const Real index : {1.5, 0.7}) {
+    const Bsdf glass = with<RoughGlass>([&](RoughGlass& m) { m.roughness = 0.6, m.index = index; });
+    int lit = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3 out = local(random.uniform(0.02, 1), random.uniform(0, 7));
+      const Vec3 in = local(-random.uniform(0.02, 1), random.uniform(0, 7));
+      const Real toOut = evaluate(glass, kFrame, world(out), world(in)).g / -in.z;
+      const Real toIn = evaluate(glass, kFrame, world(in), world(out)).g / out.z;
+      ASSERT_NEAR(toOut, toIn / (index * index), 1e-9 + 1e-6 * toOut);
+      lit += toOut > 0.01;
+    }
+    EXPECT_GT(lit, 500);
+  }
+}
+
+TEST(RoughGlass, LosesOnlyWhatMeetsSeveralFacets) {
+  for (const bool inside : {false, true})
+    for (const auto& [roughness, least] : {std::pair{0.2, 0.99}, std::pair{0.5, 0.8}, std::pair{1.0, 0.4}}) {
+      const Bsdf glass = with<RoughGlass>([&, r = roughness](RoughGlass& m) { m.roughness = r; });
+      for (const Real cosine : {1.0, 0.7, 0.4}) {
+        const Real all = albedo(glass, world(local(inside ? -cosine : cosine, 0.3))).g;
+        EXPECT_LT(all, 1.001) << roughness << " " << cosine;
+        EXPECT_GT(all, least) << roughness << " " << cosine << (inside ? " inside" : "");
+      }
+    }
+}
+
+TEST(RoughGlass, KnowsWhichSideIsInside) {
+  const Bsdf glass = with<RoughGlass>([](RoughGlass&) {});
+  const Frame turned{-kFrame.normal, kFrame.along, true};
+  const Vec3 eye = world(local(-0.8, 0.4)), light = world(local(0.6, 3));
+  EXPECT_GT(evaluate(glass, kFrame, eye, light).g, 0);
+  EXPECT_NEAR(evaluate(glass, kFrame, eye, light).g, evaluate(glass, turned, eye, light).g, 1e-12)
+      << "a normal that was turned to the eye says so";
+}
+
+TEST(RoughGlass, OfRoughnessZeroIsGlass) {
+  const Bsdf glass = with<RoughGlass>([](RoughGlass& m) { m.roughness = 0; });
+  EXPECT_FALSE(scatters(glass));
+  EXPECT_EQ(whitted(glass).sharp, 1);
+  EXPECT_EQ(whitted(glass).passage, Passage::byFresnel);
+}
+
+TEST(ThinFilm, OfNoThicknessIsNotThere) {
+  for (const Real cosine : {1.0, 0.5, 0.1}) {
+    const Real bare = fresnelDielectric(cosine, 1, 1.5);
+    EXPECT_NEAR((ThinFilm{1.33, 1.5, 0}.mirrored(cosine, 550)), bare, 1e-12);
+    EXPECT_NEAR((ThinFilm{1.33, 1.5, 0}.mirrored(cosine).g), bare, 1e-4);
+  }
+  EXPECT_NEAR((ThinFilm{1.33, 1, 0}.mirrored(1).g), 0, 1e-4) << "the black film of a bubble that bursts";
+}
+
+TEST(ThinFilm, CancelsAndAddsByTheWavelength) {
+  const Real coat = std::sqrt(1.5);
+  EXPECT_NEAR((ThinFilm{coat, 1.5, 550 / coat / 4}.mirrored(1, 550)), 0, 1e-12) << "a lens with its coat";
+  const Real bare = (1.33 - 1) / (1.33 + 1), most = 2 * bare / (1 + bare * bare);
+  EXPECT_NEAR((ThinFilm{1.33, 1, 550 / 1.33 / 4}.mirrored(1, 550)), most * most, 1e-12) << "both faces";
+  EXPECT_NEAR((ThinFilm{1.33, 1, 550 / 1.33 / 2}.mirrored(1, 550)), 0, 1e-12);
+}
+
+/// By the sum over wavelengths that the tables stand for.
+TEST(ThinFilm, WhiteLightIsTheSumOverWavelengths) {
+  for (const ThinFilm film : {ThinFilm{1.33, 1, 300}, ThinFilm{1.47, 1.33, 450}, ThinFilm{2.4, 1.5, 120}})
+    for (const Real cosine : {1.0, 0.6, 0.2}) {
+      Color sum, weights;
+      for (int nm = 400; nm <= 700; nm += 5) {
+        sum += spectralColor(nm) * film.mirrored(cosine, nm);
+        weights += spectralColor(nm);
+      }
+      const Color white = film.mirrored(cosine);
+      EXPECT_NEAR(white.r, std::clamp(sum.r / weights.r, 0.0, 1.0), 2e-4);
+      EXPECT_NEAR(white.g, std::clamp(sum.g / weights.g, 0.0, 1.0), 2e-4);
+      EXPECT_NEAR(white.b, std::clamp(sum.b / weights.b, 0.0, 1.0), 2e-4);
+    }
+  const Color thick = ThinFilm{1.33, 1, 9000}.mirrored(1);
+  EXPECT_NEAR(thick.r, thick.b, 1e-3) << "a thick one has no colour";
+}
+
+TEST(ThinGlass, GivesBackAllLight) {
+  const auto shares = [](Real index, Real film, Real cosine) {
+    ThinGlass glass;
+    glass.index = index, glass.film = film;
+    return glass.shares(cosine);
+  };
+  for (const Real film : {0.0, 350.0})
+    for (const Real cosine : {1.0, 0.4, 0.05, 0.0}) {
+      const auto [mirrored, passed] = shares(1.4, film, cosine);
+      EXPECT_NEAR((mirrored + passed).r, 1, 1e-12);
+      EXPECT_NEAR((mirrored + passed).b, 1, 1e-12);
+    }
+  // A pane of R = 0.04 mirrors 2 R / (1 + R), to and fro included.
+  EXPECT_NEAR(shares(1.5, 0, 1).mirrored.g, 0.08 / 1.04, 1e-12);
+  EXPECT_EQ(shares(1, 0, 0.3).passed, Color(1)) << "index 1 is not there";
+  const Bsdf pane = with<ThinGlass>([](ThinGlass& m) { m.color = {0.5, 1, 1}; });
+  EXPECT_FALSE(scatters(pane));
+  EXPECT_LT(passWeight(pane, 0.3).r, passWeight(pane, 1).r) << "a longer way inside";
+}
+
+// --- strands and drawings
+// ------------------------------------------------------------------------------------------------------
+
+TEST(Marschner, WhiteStrandsGiveBackAllLight) {
+  const Bsdf strand = with<Marschner>([](Marschner& m) { m.color = Color(1); });
+  for (const Real cosine : {1.0, 0.6, 0.2})
+    EXPECT_NEAR(albedo(strand, world(local(cosine, 0.4)), 50'000).g, 1, 0.01) << cosine;
+}
+
+TEST(Marschner, LightComesThroughAndIsColoured) {
+  const Bsdf strand = with<Marschner>([](Marschner& m) { m.color = {0.8, 0.4, 0.1}, m.angle = 0; });
+  const Vec3 eye = world({0, 0, 1});
+  const Color front = evaluate(strand, kFrame, eye, world(normalize(Vec3{0, 0.3, 1})));
+  const Color through = evaluate(strand, kFrame, eye, world({0, 0, -1}));
+  EXPECT_GT(through.r, 1.3 * through.b) << "by what it absorbs";
+  EXPECT_GT(front.b / front.r, 1.1 * through.b / through.r) << "the first highlight is white";
+  EXPECT_TRUE(whitted(strand).litThrough);
+}
+
+TEST(Cel, RampsGiveTheColoursOfLight) {
+  const Bsdf cel = with<Cel>([](Cel& m) {
+    m.diffuse = Color(1);
+    m.ramp = {{0, 0.1, 0, 0}, {0.5, 0.1, 0, 0}, {0.5, 0, 0.7, 0}};
+  });
+  const Vec3 eye = world({0, 0, 1});
+  const auto at = [&](Real cosine) { return scatter(cel, kFrame, world(local(cosine, 0)), eye).sum(); };
+  EXPECT_NEAR(at(0.4).r, 0.1, 1e-12);
+  EXPECT_NEAR(at(0.6).g, 0.7, 1e-12);
+  EXPECT_NEAR(at(-0.6).r, 0.1, 1e-12) << "the side away has the first";
+}
+
+TEST(Hatching, IsInkWhereLightIsBelowTheScreen) {
+  const Bsdf drawn = with<Hatching>([](Hatching& m) { m.screen = 0.5, m.softness = 0; });
+  const Vec3 eye = world({0, 0, 1});
+  const auto at = [&](Real cosine) { return scatter(drawn, kFrame, world(local(cosine, 0)), eye).sum(); };
+  EXPECT_NEAR(at(0.51).r, Hatching().paper.r, 1e-12);
+  EXPECT_NEAR(at(0.49).r, Hatching().ink.r, 1e-12);
 }
 
 TEST(Fresnel, OfDielectrics) {

@@ -35,6 +35,8 @@ std::vector<Value> otherValues(const Field& field, const Value& value) {
     return all;
   } else if constexpr (std::is_same_v<Value, bool>) {
     return {!value};
+  } else if constexpr (std::is_same_v<Value, ColorRamp>) {
+    return {{{0, 0.1, 0.1, 0.3}, {0.4, 0.1, 0.1, 0.3}, {0.4, 0.8, 0.5, 0.3}}};
   } else if constexpr (std::is_same_v<Value, int>) {
     return {static_cast<int>(std::min(field.most, value + 2.0))};
   } else {

@@ -30,6 +30,8 @@ std::size_t hashOf(const Material& material) {
       const auto& value = model.*f.member;
       if constexpr (requires { value.r; })
         add(value.r), add(value.g), add(value.b);
+      else if constexpr (requires { value.size(); })
+        add(static_cast<double>(value.size()));
       else
         add(static_cast<double>(value));
     });

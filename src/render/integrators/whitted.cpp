@@ -21,11 +21,14 @@ struct Path {
   Interfaces inside{};
   Real spread = 0.5;                             ///< where the wavelengths of a fan lie: spectralFan()
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  Real ink = 0;                                  ///< how much of it an outline covers
 };
 
 /// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
 /// rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
+/// The numbers by which a direction into a lobe is chosen.
+constexpr std::uint32_t kLobe = 0x7fffffffu;
 
 /// Takes `path` to where the ray gets.
 Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler);
@@ -63,6 +66,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
+    sum.draw(path.ink);
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
@@ -86,6 +90,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     body = tracer.filling(*hit, material);
     sides = path.inside.at(hit->leaving, body, hit->solid);
   }
+  const bool straight = material.passage == Passage::straight;
   const Indices indices(sides, path.inside.wavelength, path.inside.nested());
   const bool coated = settings.varnish && !material.transmits() && material.index != 1 && cosine > 0;
   const Real coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
@@ -99,9 +104,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
       parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;
-      const Color passed = isBlack(scattered)
-                               ? Color(0)
-                               : tracer.visible(*hit, arriving->toLight, arriving->distance, path.inside);
+      const Color passed = isBlack(scattered) ? Color(0)
+                                              : tracer.visible(*hit, arriving->toLight, arriving->distance,
+                                                               path.inside, material.litThrough);
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
       if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
     };
@@ -131,19 +136,44 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   sum.note(indices);
   const SpectralShare whole{path.inside.wavelength, Color(1)};
   std::vector<SpectralShare> fan;
-  if (material.transmits() && splits(sides, path, settings))
+  if (material.transmits() && !straight && splits(sides, path, settings))
     fan = spectralFan(settings.wavelengths, path.spread);
   const std::span<const SpectralShare> shares =
       fan.empty() ? std::span(&whole, material.transmits() ? 1 : 0) : std::span(std::as_const(fan));
   // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
+  const Fresnel fresnel = straight                                 ? Fresnel::constant
+                          : material.passage == Passage::byFresnel ? Fresnel::exact
+                                                                   : settings.fresnel;
   const auto shareMirrored = [&](const SpectralShare& share) {
-    return mirroredShare(settings.fresnel, cosine, Indices(sides, share.nanometres, false));
+    return mirroredShare(fresnel, cosine, Indices(sides, share.nanometres, false));
   };
-  Color mirror;
-  if (settings.fresnel != Fresnel::constant && material.transmits())
-    for (const SpectralShare& share : shares) mirror += share.weight * shareMirrored(share);
-  else
-    mirror = Color(coat) + mirrorWeight(*bsdf, cosine) * (1 - coat);
+  const bool asSaid = material.passage != Passage::asSaid || settings.glass == Glass::perCrossing;
+  const Color filters = asSaid ? material.transmissive : Color(1);
+  const bool glossy = settings.glossy && isGlossy(*bsdf);
+  Color mirror(coat);
+  if (fresnel != Fresnel::constant && material.transmits())
+    for (const SpectralShare& share : shares)
+      mirror += share.weight * (shareMirrored(share) * material.sharp);
+  else if (!glossy)
+    mirror += mirrorWeight(*bsdf, cosine) * (1 - coat);
+  if (glossy) {  // one ray into the lobe, in place of those that stand for its core
+    if (material.transmits()) mirror = Color(0);
+    Sampler numbers = sampler.branch(kLobe);
+    const Real choose = numbers.next();
+    const auto drawn = sample(*bsdf, frame, -ray.direction, choose, numbers.next2(), Transport::importance);
+    const Color lobe =
+        drawn ? scatter(*bsdf, frame, drawn->toLight, -ray.direction).specular * (1 / (kPi * drawn->density))
+              : Color(0);
+    if (!isBlack(lobe)) {
+      const bool through = dot(drawn->toLight, normal) < 0;
+      Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - coat));
+      if (worthwhile(next)) {
+        if (through) next.inside.pass(hit->leaving, body, hit->solid);
+        sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - coat),
+                follow(tracer, hit->leave(drawn->toLight), next, sampler.branch(kMirrored + through)));
+      }
+    }
+  }
   if (!isBlack(mirror)) {
     Path next = onward(RayKind::reflection, mirror);
     if (worthwhile(next)) {
@@ -155,15 +185,17 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   }
   std::uint32_t branch = kRefracted;
   bool total = false;
-  for (const SpectralShare& share : shares) {
-    const bool perCrossing = settings.glass == Glass::perCrossing;
-    const Color filter = (perCrossing ? material.transmissive : Color(1)) * (1 - shareMirrored(share));
+  for (const SpectralShare& share : glossy ? shares.first(0) : shares) {
+    const Color filter =
+        straight ? passWeight(*bsdf, cosine) : filters * ((1 - shareMirrored(share)) * material.sharp);
     Path next = onward(RayKind::refraction, share.weight * filter);
     const std::uint32_t number = branch++;
     if (!worthwhile(next)) continue;
-    const Real ratio = sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
-    if (const auto direction = refracted(ray.direction, normal, ratio)) {
-      next.inside.pass(hit->leaving, body, hit->solid);
+    const Real ratio =
+        straight ? 1 : sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
+    const auto direction = straight ? std::optional(ray.direction) : refracted(ray.direction, normal, ratio);
+    if (direction) {
+      if (!straight) next.inside.pass(hit->leaving, body, hit->solid);
       next.inside.wavelength = share.nanometres;
       const Footprint widened =
           refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
@@ -174,6 +206,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       sum.stop(TotalInternalReflection{});
     }
   }
+  sum.draw(path.ink);
   const Color& medium = path.inside.around().passes;
   return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, hit->t));  // Beer's law
 }
@@ -190,6 +223,7 @@ Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera
   path.inside = camera.inside;
   path.spread = spreadOf(sampler.sample());
   path.differentials = camera.differentials;
+  path.ink = camera.ink;
   return radianceAlong(tracer, camera.ray, camera.hit, path, sampler);
 }
 

@@ -1,5 +1,6 @@
 // Cel shading: light falls in a few flat steps, and the highlight has a hard edge (Lake, Marshall, Harris and
-// Blackstein, Stylized Rendering Techniques for Scalable Real-Time 3D Animation, NPAR 2000).
+// Blackstein, Stylized Rendering Techniques for Scalable Real-Time 3D Animation, NPAR 2000). A ramp gives the
+// colours of the light instead, from the side away from it to full light. `--outlines` draws outlines.
 // Not reciprocal. Energy: steps are rounded up, so that more than arrives may be given back.
 #pragma once
 
@@ -8,6 +9,7 @@
 
 #include "shading/materials/phong.h"
 #include "shading/scattering.h"
+#include "shading/textures/pattern.h"
 
 namespace trace {
 
@@ -19,7 +21,8 @@ struct Cel : SurfaceFields {
   static constexpr bool kReciprocal = false, kKeepsEnergy = false;
   using Bsdf = CelBsdf;
 
-  Color diffuse{0.7}, specular;
+  Color diffuse{0.7}, specular, shadeColor;
+  ColorRamp ramp;
   int steps = 2;
   Real softness = 0.02, shade = 0;
   Real highlight = 12;
@@ -27,6 +30,11 @@ struct Cel : SurfaceFields {
   static constexpr auto fields() {
     return after(Field{"diffuse", &Cel::diffuse, "", 0, 1, "colour in full light"},
                  Field{"specular", &Cel::specular, "", 0, 1, "colour of the highlight; black has none"},
+                 Field{"shade_color", &Cel::shadeColor, "", 0, 1,
+                       "colour where there is no light, into which the steps go"},
+                 Field{"ramp", &Cel::ramp, "", -kNoLimit, kNoLimit,
+                       "((light, red, green, blue), ...): colours at rising light from 0 to 1, in place of "
+                       "steps; they scale diffuse"},
                  Field{"steps", &Cel::steps, "", 1, 100, "of light, besides the shade"},
                  Field{"softness", &Cel::softness, "", 0, 1, "of the edges, as a share of a step"},
                  Field{"shade", &Cel::shade, "", 0, 1, "share of the light that the side away from it gets"},
@@ -39,6 +47,8 @@ struct Cel : SurfaceFields {
 };
 
 struct CelBsdf : LocalBsdf<CelBsdf, Cel> {
+  static constexpr bool kTwoSided = true;  // what turns away from the light is painted, too
+
   CelBsdf() = default;
   explicit CelBsdf(const Cel& model) : LocalBsdf(model) {}
 
@@ -49,16 +59,29 @@ struct CelBsdf : LocalBsdf<CelBsdf, Cel> {
     const Real t = max(0, min(1, x / width + 0.5));
     return t * t * (3 - 2 * t);
   }
-  Scatter value(const Vec3& eye, const Vec3& light) const {
+  Scatter value(const Vec3& toEye, const Vec3& light, Transport) const {
+    const Vec3 eye{toEye.x, toEye.y, std::abs(toEye.z)};
     const Real n = said.steps;
+    const Real spot = light.z > 0 ? spotOf(eye, light) : 0;
+    const Color highlight = said.specular * (spot / kPi);
+    if (!said.ramp.empty())  // its first colour is that of the side away
+      return {said.diffuse * colorAt(said.ramp, light.z) * ((1 - spot) / kPi), highlight};
     Real level = 0;  // each step begins where the even law passes the level of the step before
     for (int i = 0; i < said.steps; ++i) level += edge(light.z * n - i, max(0, said.softness)) / n;
-    const Vec3 half = halfway(eye, light);
-    const Real lean = std::acos(min(1, half.z)) * 180 / kPi;
-    const Real spot =
-        isBlack(said.specular) ? 0 : edge(said.highlight - lean, max(0, said.softness) * said.highlight);
     const Real lit = max(said.shade, level) * (1 - spot);
-    return {said.diffuse * (lit / kPi), said.specular * (spot / kPi)};
+    Color painted = said.diffuse * (lit / kPi);
+    if (!isBlack(said.shadeColor)) painted += said.shadeColor * ((1 - spot - lit) / kPi);
+    return {painted, highlight};
+  }
+  Vec3 direction(const Vec3&, Real, Vec2 u) const { return sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y); }
+  Real directionDensity(const Vec3&, const Vec3&) const { return 1 / (4 * kPi); }
+
+ private:
+  /// Inside the highlight 1.
+  Real spotOf(const Vec3& eye, const Vec3& light) const {
+    if (isBlack(said.specular)) return 0;
+    const Real lean = std::acos(min(1, halfway(eye, light).z)) * 180 / kPi;
+    return edge(said.highlight - lean, max(0, said.softness) * said.highlight);
   }
 };
 

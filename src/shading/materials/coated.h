@@ -1,4 +1,5 @@
-// Plastic, glazed clay, varnished wood: a matt base below a clear layer (shading/coating.h).
+// Plastic, glazed clay, varnished wood: a matt base below a clear layer (shading/coating.h); with a thin film
+// on it oil on wet asphalt, the shells of beetles, pearl (shading/thin_film.h).
 // Reciprocal. Energy: gives back at most what arrives, all of it if the base is white.
 //
 // Under Whitted's equation a smooth layer sends one mirrored ray by Schlick's formula; of a rough one the ray
@@ -22,6 +23,7 @@ struct Coated : SurfaceFields {
 
   Color diffuse{0.6};
   Real index = 1.5, roughness = 0.2;
+  Real film = 0, filmIndex = 1.45;
   Distribution distribution = Distribution::ggx;
 
   static constexpr auto fields() {
@@ -29,7 +31,10 @@ struct Coated : SurfaceFields {
                  Field{"index", &Coated::index, "", 0, kNoLimit, "of refraction of the layer"},
                  Field{"roughness", &Coated::roughness, "", 0, 1,
                        "of the layer, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
-                 Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"});
+                 Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"},
+                 Field{"film", &Coated::film, "nanometres", 0, 5000,
+                       "thickness of a film on the layer, whose faces make colours; 0 is none"},
+                 Field{"film_index", &Coated::filmIndex, "", 0, kNoLimit, "of refraction of the film"});
   }
   bool operator==(const Coated&) const = default;
 
@@ -50,7 +55,10 @@ struct CoatedBsdf : LocalBsdf<CoatedBsdf, Coated> {
   CoatedBsdf() = default;
   explicit CoatedBsdf(const Coated& model)
       : LocalBsdf(model),
-        coat(model.distribution, model.roughness, 0, Color(mirroredAlongNormal(model.index))) {
+        coat(model.film > 0
+                 ? Coating(model.distribution, model.roughness,
+                           ThinFilm{model.filmIndex, model.index, model.film})
+                 : Coating(model.distribution, model.roughness, 0, Color(mirroredAlongNormal(model.index)))) {
     index = model.index;
     reflective = coat.mirrorWeight(1);
   }

@@ -76,6 +76,7 @@ struct PhongBsdf : WhittedTerms {
   bool scatters() const { return !isBlack(diffuse) || !isBlack(specular); }
   bool mirrorIsExact() const { return true; }
   Color mirrorWeight(Real) const { return reflective; }
+  Color passWeight(Real) const { return transmissive; }
 
   /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
   /// The highlight is not multiplied by N.L.

@@ -1,0 +1,183 @@
+#include "app/extensions.h"
+
+#include <array>
+
+#include "app/difference.h"
+#include "app/session.h"
+#include "base/file.h"
+#include "image/codec.h"
+#include "image/flip.h"
+
+namespace trace {
+namespace {
+
+/// One ball of scenes/materials-models.ray: columns and rows from 0.
+#define BALL(left, top, right, bottom) "--width 1116 --region " #left "," #top "," #right "," #bottom
+constexpr std::string_view kModels = "materials-models.ray", kPhong = "--models phong";
+
+constexpr std::array kTable{
+    Extension{"spp", "several rays a pixel: smooth edges", "antialias.ray", "--spp 1", "--spp 9", ""},
+    Extension{"sampling", "samples by chance: edges of little noise in place of steps", "antialias.ray",
+              "--spp 4", "--spp 4 --sampling stratified", ""},
+    Extension{"filter", "samples count by their distance from the middle of the pixel", "antialias.ray",
+              "--spp 9", "--spp 9 --filter gaussian", ""},
+    Extension{"light-samples", "soft shadows of lights that have a size", "soft-shadows.ray",
+              "--spp 1 --light-samples 1", "--spp 1 --light-samples 32", ""},
+    Extension{"aperture", "depth of field: what is not in focus blurs", "lens.ray", "--aperture 0", "", ""},
+    Extension{"projection", "other cameras than the pinhole: panoramas, fisheyes, orthographic views",
+              "room.ray", "--projection perspective", "--projection panorama", ""},
+    Extension{"distortion", "the barrel and cushion of real lenses", "room.ray", "--distortion 0",
+              "--distortion 0.3", ""},
+    Extension{"stereo", "two eyes, side by side or for coloured glasses", "room.ray", "--stereo off",
+              "--stereo side-by-side", ""},
+    Extension{"exposure", "brighter or darker, after the render", "lamps.ray", "--exposure 0", "--exposure 1",
+              ""},
+    Extension{"white-balance", "the lamps' light becomes white", "lamps.ray", "--white-balance 0",
+              "--white-balance 3200", ""},
+    Extension{"transfer", "levels as screens expect them", "lamps.ray", "--transfer linear",
+              "--transfer srgb", ""},
+    Extension{"tone", "a film's curve: bright colours fade to white", "lamps.ray",
+              "--transfer srgb --tone clamp", "--transfer srgb --tone agx", ""},
+    Extension{"bloom", "light that lens and eye scatter around lamps", "lamps.ray", "--bloom 0",
+              "--bloom 0.15", ""},
+    Extension{"dither", "noise of one level in place of steps", "lamps.ray", "--dither off", "--dither on",
+              ""},
+    Extension{"threshold", "rays that would add less are not sent: faster, and nearly the same",
+              "threshold.ray", "--threshold 0", "--threshold 0.3", ""},
+    Extension{"fresnel", "glass mirrors the more the flatter it is looked at", "coloured-glass.ray",
+              "--fresnel constant", "--fresnel exact", ""},
+    Extension{"nested-glass", "bodies of glass in and across one another", "nested-glass.ray",
+              "--nested-glass off", "--nested-glass on", ""},
+    Extension{"wavelengths", "glass that bends colours differently", "prism.ray", "--wavelengths 1", "", ""},
+    Extension{"varnish", "opaque surfaces mirror as a clear coat does", "coloured-glass.ray", "--varnish off",
+              "--varnish on", ""},
+    Extension{"textures", "patterns and pictures on and in things", "textures.ray", "--textures off", "", ""},
+    Extension{"bumps", "normals bent by a texture", "bumps.ray", "--textures off", "", ""},
+    Extension{"backdrop", "a picture behind everything", "backdrop.ray", "--backdrop none", "", ""},
+    Extension{"environment", "a picture all around", "environment.ray", "--environment none", "", ""},
+    Extension{"glossy", "rough metal and glass blur what they mirror and show", "frosted-glass.ray",
+              "--glossy off", "", ""},
+    Extension{"outlines", "lines around things and along their edges", "ink.ray", "--outlines 0", "", ""},
+    Extension{"thin film", "colours of soap bubbles, by the thickness of their film", "bubbles.ray",
+              "--models phong", "", ""},
+    Extension{"frost", "a pane that frost makes rough", "frost.ray", "--textures off", "", ""},
+    Extension{"rain", "drops, and oil on a wet street", "rain.ray", "--models phong", "", ""},
+    Extension{"lambert", "evenly scattered light, and no highlight", kModels, kPhong, "",
+              BALL(258, 60, 458, 260)},
+    Extension{"oren_nayar", "clay and the moon: flat, with a bright rim towards the light", kModels, kPhong,
+              "", BALL(458, 60, 658, 260)},
+    Extension{"cook_torrance", "highlights that move off the mirror direction at grazing angles", kModels,
+              kPhong, "", BALL(658, 60, 858, 260)},
+    Extension{"ward", "highlights drawn out across brushed grain", kModels, kPhong, "",
+              BALL(858, 60, 1058, 260)},
+    Extension{"schlick", "from mirror to chalk in one number, with grain", kModels, kPhong, "",
+              BALL(58, 260, 258, 460)},
+    Extension{"ashikhmin_shirley", "grain, and a base that fades below the highlight", kModels, kPhong, "",
+              BALL(258, 260, 458, 460)},
+    Extension{"coated", "plastic: what is mirrored grows towards the edge", kModels, kPhong, "",
+              BALL(458, 260, 658, 460)},
+    Extension{"principled", "metalness, clear coat and sheen, as glTF has them", kModels, kPhong, "",
+              BALL(658, 260, 858, 460)},
+    Extension{"conductor", "metal in the colour of its measured indices", kModels, kPhong, "",
+              BALL(858, 260, 1058, 460)},
+    Extension{"velvet", "cloth with bright edges", kModels, kPhong, "", BALL(58, 460, 258, 660)},
+    Extension{"hair", "highlights across strands that lie on a surface", kModels, kPhong, "",
+              BALL(258, 460, 458, 660)},
+    Extension{"cel", "flat steps of light with hard edges", kModels, kPhong, "", BALL(458, 460, 658, 660)},
+    Extension{"gooch", "warm towards the light, cool away from it", kModels, kPhong, "",
+              BALL(658, 460, 858, 660)},
+    Extension{"marschner", "strands that mirror light and let it through", "strands.ray", kPhong, "", ""},
+    Extension{"rough_glass", "glass whose surface blurs what is behind it", "frosted-glass.ray", kPhong, "",
+              ""},
+    Extension{"thin_glass", "panes that mirror by the angle, and do not bend light", "rain.ray", kPhong, "",
+              ""},
+    Extension{"hatching", "strokes and dots that grow in the shade", "ink.ray", kPhong, "", ""},
+};
+#undef BALL
+
+std::string commandOf(const Extension& extension, std::string_view words) {
+  std::string command = "ray scenes/" + std::string(extension.scene);
+  if (!words.empty()) command += " " + std::string(words);
+  return command;
+}
+
+std::string fileName(const Extension& extension, std::string_view which) {
+  std::string name(extension.name);
+  for (char& c : name)
+    if (c == ' ' || c == '_') c = '-';
+  return name + "-" + std::string(which) + ".jpg";
+}
+
+Picture cut(const Picture& whole, const Region& part) {
+  if (part.whole()) return whole;
+  Picture picture(part.x1 - part.x0, part.y1 - part.y0);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) picture.at(x, y) = whole.at(part.x0 + x, part.y0 + y);
+  return picture;
+}
+
+}  // namespace
+
+std::span<const Extension> extensions() { return kTable; }
+
+std::vector<Choice> choicesIn(std::string_view words) {
+  std::vector<Choice> choices;
+  while (!words.empty()) {
+    const std::size_t space = words.find(' '), end = words.find(' ', space + 1);
+    choices.push_back(
+        {std::string(words.substr(2, space - 2)), std::string(words.substr(space + 1, end - space - 1)), {}});
+    words = end == words.npos ? "" : words.substr(end + 1);
+  }
+  return choices;
+}
+
+Picture pictureOf(const Extension& extension, bool on, const std::string& scenes,
+                  std::span<const Choice> more) {
+  std::vector<Choice> choices = choicesIn(extension.view.empty() ? "--width 240" : extension.view);
+  for (const Choice& choice : choicesIn(on ? extension.on : extension.off)) choices.push_back(choice);
+  choices.insert(choices.end(), more.begin(), more.end());
+  Session session;
+  session.open(scenes + "/" + std::string(extension.scene), choices);
+  session.build();
+  session.renderPicture();
+  const Settings& settings = session.settings();
+  const Picture shown = developed(finished(session.picture(), settings), developmentOf(settings));
+  return cut(shown, settings.region);
+}
+
+std::string extensionsMarkdown() {
+  std::string text =
+      "# Extensions\n\nMade by `./dev features` from the table in src/app/extensions.cpp; do not edit.\n\n"
+      "What Trace has beyond the ray tracer of the courses: each example without it, with it, and where the "
+      "two "
+      "pictures differ. All is off unless the scene or the command line asks for it. Shading models are "
+      "shown beside the "
+      "nearest that Blinn and Phong's can do (`--models phong`).\n";
+  for (const Extension& e : kTable) {
+    text += "\n## " + std::string(e.name) + "\n\n" + std::string(e.adds) + ".\n\n";
+    for (const std::string_view which : {"off", "on", "difference"})
+      text += "![" + std::string(which) + "](" + fileName(e, which) + ")\n";
+    text += "\n    " + commandOf(e, e.off) + "\n    " + commandOf(e, e.on) + "\n";
+  }
+  return text;
+}
+
+void writeExtensionPictures(const std::string& scenes, const std::string& folder,
+                            const std::function<void(std::string_view)>& told) {
+  for (const Extension& e : kTable) {
+    if (told) told(e.name);
+    const auto write = [&](std::string_view which, const Picture& picture) {
+      writePicture(folder + "/" + fileName(e, which), picture);
+    };
+    const auto levels = [](const Picture& picture) {
+      return LoadedPicture{fromBytes(toBytes(picture, Rounding::truncate))};
+    };
+    const Picture off = pictureOf(e, false, scenes), on = pictureOf(e, true, scenes);
+    const PictureDifference d =
+        difference(levels(off), levels(on), {.pixelsPerDegree = usualPixelsPerDegree()});
+    write("off", off), write("on", on);
+    write("difference", shows().front().picture(d.pictures(), 2));
+  }
+}
+
+}  // namespace trace

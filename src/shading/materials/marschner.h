@@ -1,0 +1,75 @@
+// A strand of hair as a fibre of glass: light is mirrored by it (R), goes through it (TT), and comes back
+// after one mirroring inside (TRT) (Marschner, Jensen, Cammarano, Worley and Hanrahan, Light Scattering from
+// Human Hair Fibers, SIGGRAPH 2003). Variant: the lobes along and around the strand of d'Eon and others (EGSR
+// 2011) and Chiang and others (A Practical and Controllable Hair and Fur Model, Eurographics 2016), with the
+// directions of all further mirrorings spread evenly.
+// Not reciprocal: widths around the strand are those of the eye's angle. Energy: at most what arrives; all of
+// it if `color` is white.
+//
+// It is meant for strands that have a shape: cylinders, capsules, sweeps. Where on its breadth a strand is
+// hit follows from the normal. Light from behind shines through the strand, as if its object were not in its
+// own way.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "shading/fresnel.h"
+#include "shading/materials/phong.h"
+#include "shading/scattering.h"
+
+namespace trace {
+
+struct MarschnerBsdf;
+
+struct Marschner : SurfaceFields {
+  static constexpr std::string_view kKeyword = "marschner";
+  static constexpr std::string_view kHelp = "a strand of hair that mirrors light and lets it through";
+  static constexpr bool kReciprocal = false, kKeepsEnergy = true;
+  using Bsdf = MarschnerBsdf;
+
+  Color color{0.35, 0.18, 0.08};
+  Real roughness = 0.3, roughnessAround = 0.3, index = 1.55, tilt = 2, angle = 90;
+
+  static constexpr auto fields() {
+    return after(
+        Field{"color", &Marschner::color, "", 0, 1, "of much hair; what a strand lets through follows"},
+        Field{"roughness", &Marschner::roughness, "", 0, 1, "along the strand"},
+        Field{"roughness_around", &Marschner::roughnessAround, "", 0, 1, "around the strand"},
+        Field{"index", &Marschner::index, "", 1, kNoLimit, "of refraction"},
+        Field{"tilt", &Marschner::tilt, "degrees", -20, 20,
+              "of the scales on the strand, which moves the highlights apart"},
+        Field{"angle", &Marschner::angle, "degrees", -360, 360,
+              "from the direction in which u grows to that of the strand; 90 is the direction of v"});
+  }
+  bool operator==(const Marschner&) const = default;
+
+  Phong asPhong() const { return phongLike(*this, color, Color(0.3), 40); }
+  MarschnerBsdf at(const Rules& rules) const;
+};
+
+struct MarschnerBsdf : LocalBsdf<MarschnerBsdf, Marschner> {
+  static constexpr bool kTwoSided = true;
+  static constexpr std::size_t kLobes = 4;  ///< R, TT, TRT, and the rest
+
+  std::array<Real, kLobes> variance{};  ///< along the strand
+  Real scale = 0;                       ///< of the logistic curve around it
+  Color absorption;                     ///< along one radius
+
+  MarschnerBsdf() = default;
+  explicit MarschnerBsdf(const Marschner& model);
+
+  Scatter value(const Vec3& eye, const Vec3& light, Transport) const;
+  Vec3 direction(const Vec3& eye, Real choose, Vec2 u) const;
+  Real directionDensity(const Vec3& eye, const Vec3& light) const;
+
+ private:
+  struct Seen;  ///< what follows from the eye alone
+  /// How dense the lobe is towards the light, per solid angle.
+  Real lobe(std::size_t p, const Seen& seen, const Vec3& light) const;
+};
+
+inline MarschnerBsdf Marschner::at(const Rules&) const { return MarschnerBsdf(*this); }
+
+}  // namespace trace

@@ -1,0 +1,26 @@
+// Colours of thin films: light from the two faces of a film adds up or cancels by its wavelength, as on soap
+// bubbles, oil on water and tempered steel (Airy 1833; Born and Wolf, Principles of Optics, section 7.6).
+#pragma once
+
+#include "math/color.h"
+#include "math/vec.h"
+
+namespace trace {
+
+/// A layer so thin that light from both its faces interferes.
+struct ThinFilm {
+  Real index = 1.33;    ///< of refraction, of the film
+  Real behind = 1;      ///< and of what is behind it; before it is air
+  Real nanometres = 0;  ///< its thickness
+
+  /// The share that it mirrors of unpolarised light of one wavelength, in nanometres; `cosine` is that of the
+  /// light to the normal. 1 under total internal reflection. Of thickness 0 it is as if there were no film.
+  Real mirrored(Real cosine, Real wavelength) const;
+
+  /// The same of white light, in linear Rec. 709: from 400 to 700 nm, by the CIE's observer of 1931
+  /// (spectralColor), for light that holds as much of every wavelength, which is white. Colours outside what
+  /// a screen shows are cut off. From a few micrometres on the colours wash out, as they do in life.
+  Color mirrored(Real cosine) const;
+};
+
+}  // namespace trace

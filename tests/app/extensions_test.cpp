@@ -1,0 +1,62 @@
+// The table of extensions is whole, and docs/features is of it.
+#include "app/extensions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/file.h"
+#include "shading/material.h"
+#include "support/paths.h"
+
+namespace trace::test {
+namespace {
+
+const std::string kScenes = sourceFolder() + "/scenes", kPage = sourceFolder() + "/docs/features";
+
+bool listed(std::string_view name) {
+  return std::any_of(extensions().begin(), extensions().end(),
+                     [&](const Extension& e) { return e.name == name; });
+}
+
+TEST(Extensions, EveryExtraAndEveryShadingModelHasAnExample) {
+  for (const Option& option : options())
+    if (option.extra) EXPECT_TRUE(listed(option.name)) << option.name;
+  for (const std::string_view model : modelKeywords())
+    if (model != Phong::kKeyword) EXPECT_TRUE(listed(model)) << model;
+}
+
+TEST(Extensions, EachChangesThePictureOfItsExample) {
+  for (const Extension& e : extensions()) {
+    SCOPED_TRACE(e.name);
+    ASSERT_TRUE(std::filesystem::exists(kScenes + "/" + std::string(e.scene)));
+    std::vector<Choice> small;
+    if (e.view.empty()) small.push_back({"width", "80", {}});
+    if (!e.view.empty()) small.push_back({"spp", "1", {}});
+    const Picture off = pictureOf(e, false, kScenes, small), on = pictureOf(e, true, kScenes, small);
+    ASSERT_EQ(off.width, on.width);
+    EXPECT_NE(off, on);
+    if (!e.view.empty()) EXPECT_EQ(off.width, 200) << "the region alone";
+  }
+}
+
+TEST(Extensions, ChoicesAreReadFromWords) {
+  EXPECT_TRUE(choicesIn("").empty());
+  const std::vector<Choice> two = choicesIn("--spp 9 --filter tent");
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0], (Choice{"spp", "9", {}}));
+  EXPECT_EQ(two[1], (Choice{"filter", "tent", {}}));
+}
+
+TEST(Extensions, ThePageIsOfTheTableAndHasItsPictures) {
+  const std::string page = readFile(kPage + "/README.md");
+  EXPECT_EQ(page, extensionsMarkdown()) << "run: ./dev features";
+  for (std::size_t at = page.find("]("); at != page.npos; at = page.find("](", at + 1)) {
+    const std::string picture = page.substr(at + 2, page.find(')', at) - at - 2);
+    EXPECT_TRUE(std::filesystem::exists(kPage + "/" + picture)) << picture << "; run: ./dev features";
+  }
+}
+
+}  // namespace
+}  // namespace trace::test
