@@ -43,6 +43,7 @@ std::vector<Found> allCrossings(const World& world, const Ray& ray, Real tMost) 
 /// The picture that is surveyed: small, one ray a pixel.
 Settings sparse(const Settings& settings) {
   Settings result = settings;
+  result.outlines = 0;  // lines that wide would cover small things
   result.width = kWidth, result.height = kHeight, result.spp = 1, result.region = {};
   result.threshold = std::max(result.threshold, kCounts / 2);
   return result;
