@@ -21,18 +21,19 @@ constexpr const char *kSettings = "Settings", *kDefaults = "defaults", *kPass = 
                      *kIncomplete = "Incomplete", *kPartial = ".partial";
 /// The group of options that say how a picture is computed, and nothing of what it shows.
 constexpr std::string_view kResources = "Resources";
+/// The group of options that say which pictures lie beside it, and nothing of itself.
+constexpr std::string_view kPasses = "Passes";
 
-std::string passFile(const fs::path& picture, std::string_view pass, const Settings& settings) {
-  const PassFormat format = settings.passFormat;
+std::string passFile(const fs::path& picture, std::string_view pass, PassFormat format, PassName name) {
   const std::string suffix = format == PassFormat::exr   ? ".exr"
                              : format == PassFormat::png ? ".png"
                                                          : picture.extension().string();
-  const char* between = settings.passName == PassName::dot ? "." : "_";
+  const char* between = name == PassName::dot ? "." : "_";
   return (picture.parent_path() / picture.stem()).string() + between + std::string(pass) + suffix;
 }
 
-/// The words, with only those options that change what is rendered.
-std::map<std::string, std::string> whatCounts(const Metadata& metadata) {
+/// The words, with only those options that change what is rendered, and are not of the group `without`.
+std::map<std::string, std::string> whatCounts(const Metadata& metadata, std::string_view without = {}) {
   std::map<std::string, std::string> words;
   for (const auto& [key, text] : metadata) words[key] = text;
   std::istringstream options(words[kSettings]);
@@ -41,7 +42,8 @@ std::map<std::string, std::string> whatCounts(const Metadata& metadata) {
     const std::string_view name = std::string_view(one).substr(0, one.find('='));
     const auto all = trace::options();
     const auto row = std::find_if(all.begin(), all.end(), [&](const Option& o) { return o.name == name; });
-    if (row == all.end() || row->repeats != Repeats::nothing) kept += one + " ";
+    const bool counts = row == all.end() || (row->repeats != Repeats::nothing && row->group != without);
+    if (counts) kept += one + " ";
   }
   words[kSettings] = kept == std::string(kDefaults) + " " ? "" : kept;
   return words;
@@ -84,15 +86,28 @@ std::string besidePicture(const fs::path& picture, int number) {
   return (picture.parent_path() / name).string();
 }
 
-/// Whether the words of the file say that it is a part of the picture, or pass, with these words.
+/// Whether the words of the file say that it is a part of the picture, or pass, with these words, whatever
+/// passes either has beside it.
 bool isFragmentOf(const Output& output, const Metadata& metadata) {
+  std::error_code ignored;
+  if (!fs::exists(output.path, ignored)) return false;
   try {
     Metadata stored = readMetadata(output.path);
     const bool incomplete = std::erase_if(stored, [](const auto& word) { return word.first == kIncomplete; });
-    return incomplete && whatCounts(stored) == whatCounts(wordsOf(output, metadata));
+    return incomplete && whatCounts(stored, kPasses) == whatCounts(wordsOf(output, metadata), kPasses);
   } catch (const std::exception&) {  // whatever it is, it is not ours
     return false;
   }
+}
+
+/// The picture and the passes that a render of any settings writes beside it.
+std::vector<Output> possibleOutputs(const std::string& picture) {
+  std::vector<Output> all{{picture, -1, ""}};
+  for (const PassRow& pass : passRows())
+    for (const PassFormat format : {PassFormat::exr, PassFormat::png, PassFormat::same})
+      for (const PassName name : {PassName::dot, PassName::underscore})
+        all.push_back({passFile(picture, pass.name, format, name), -1, pass.name});
+  return all;
 }
 
 /// Whether the file is a picture of which a part was never rendered.
@@ -116,7 +131,8 @@ bool keepsWords(const std::string& path) {
 std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   std::vector<Output> all{{path, -1, ""}};
   for (const PassRow* pass : passesOf(settings))
-    all.push_back({passFile(path, pass->name, settings), static_cast<int>(all.size()) - 1, pass->name});
+    all.push_back({passFile(path, pass->name, settings.passFormat, settings.passName),
+                   static_cast<int>(all.size()) - 1, pass->name});
   return all;
 }
 
@@ -183,10 +199,13 @@ void PictureFiles::removeFragments(const Settings& settings, const Metadata& met
   if (!fragment_.empty() && fragment_ != path_)
     for (const Output& output : outputs(fragment_, settings)) remove(output.path);
   fragment_.clear();
-  std::error_code ignored;
-  for (int i = 1; fs::exists(besidePicture(path_, i), ignored); ++i)
-    for (const Output& output : outputs(besidePicture(path_, i), settings))
+  const auto removeParts = [&](const std::string& picture) {
+    for (const Output& output : possibleOutputs(picture))
       if (isFragmentOf(output, metadata)) remove(output.path);
+  };
+  removeParts(path_);  // passes of a part that lay there itself
+  std::error_code ignored;
+  for (int i = 1; fs::exists(besidePicture(path_, i), ignored); ++i) removeParts(besidePicture(path_, i));
 }
 
 std::string PictureFiles::write(const Film& film, const Settings& settings, const Metadata& metadata) {

@@ -54,7 +54,7 @@ class PictureFiles {
   /// Pass, of a pass, and Incomplete are added. A picture gets the tone of the settings unless its format
   /// keeps values above 1; passes are raw in OpenEXR only. Returns the picture's name: path(), or where a
   /// fragment went. The whole picture takes away the fragment that this wrote beside it, and those of earlier
-  /// runs whose words say that they are fragments of the very same picture. Throws Error(Fault::io),
+  /// runs whose words say that they are fragments of the very same picture, all with any passes. Throws Error(Fault::io),
   /// Error(Fault::usage).
   std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
 

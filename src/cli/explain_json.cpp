@@ -109,9 +109,7 @@ class Writer {
     const auto most =
         std::max_element(materials.begin(), materials.end(),
                          [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
-    const auto name = [&](const MaterialShare& share) -> std::string_view {
-      return isClear(share) ? "clear" : std::string_view(scene_.materials[share.material].name);
-    };
+    const auto name = [&](const MaterialShare& share) { return materialName(scene_, share.material); };
     Json shares = Json::list();
     for (const MaterialShare& share : materials)
       shares.add({{"index", isClear(share) ? Json() : Json(share.material)},
@@ -221,6 +219,8 @@ std::string explainJson(const PixelFacts& facts) {
   json["sample"] = e.tree.sample;
   json["samples"] = Json::list();
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
+  json["sampleWeights"] = Json::list();
+  for (const Real weight : e.weights) json["sampleWeights"].add(weight);
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();

@@ -188,6 +188,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
+            (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
             (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"

@@ -27,13 +27,16 @@ Explanation explain(const World& world, const Integrator& integrator, const Sett
   Color sum;
   int count = 0;
   for (int k = 0; k < plain.samples() && !(cancelled && cancelled()); ++k) {
-    result.samples.push_back(plain.sample(x, y, k));
+    Real weight = 1;
+    result.samples.push_back(plain.sample(x, y, k, [&](const CameraRay& ray) { weight = ray.weight; }));
+    result.weights.push_back(weight);
     if (!isFinite(result.samples.back())) continue;
-    sum += result.samples.back();
+    sum += result.samples.back() * weight;
     ++count;
   }
   if (count > 0) result.pixel = sum / count;
-  weigh(result.tree, 1.0 / std::max(count, 1));
+  const auto shown = static_cast<std::size_t>(sample);
+  weigh(result.tree, (shown < result.weights.size() ? result.weights[shown] : 1) / std::max(count, 1));
   return result;
 }
 

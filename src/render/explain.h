@@ -14,7 +14,8 @@ namespace trace {
 struct Explanation {
   RayTree tree;                ///< of the sample asked for
   std::vector<Color> samples;  ///< all of the pixel's, in order; those that are not finite do not count
-  Color pixel;                 ///< the mean of those that count: the picture's, bit for bit
+  std::vector<Real> weights;   ///< what each counts in the pixel
+  Color pixel;                 ///< their weighted mean, of those that count: the picture's, bit for bit
 };
 
 /// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().

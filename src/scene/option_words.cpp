@@ -21,7 +21,7 @@ constexpr std::array kTable{
     Row{"time", "animation frame"},
     Row{"sampling", "noise random jitter stochastic distribution montecarlo sampler"},
     Row{"seed", "noise random"},
-    Row{"filter", "reconstruction sharp antialias"},
+    Row{"filter", "reconstruction sharp"},
     Row{"filter-radius", "reconstruction"},
     Row{"light-samples", "soft shadow shadows noise area penumbra"},
     Row{"aperture", "lens dof bokeh blur fstop pinhole"},

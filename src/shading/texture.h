@@ -126,8 +126,10 @@ bool wantsUv(const Texture& texture);
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);
 
-/// What a number takes of a colour.
-constexpr Real luminance(const Color& c) { return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b; }
+/// What a number takes of a colour: of a grey that grey, to the last bit.
+constexpr Real luminance(const Color& c) {
+  return c.r == c.g && c.g == c.b ? c.r : 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
+}
 
 /// Multiplies the field that has the texture by it.
 template <class Struct>

@@ -38,7 +38,7 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
           return rays;
         }
         Color sum;
-        for (const Color& s : e.samples) sum += s;
+        for (std::size_t i = 0; i < e.samples.size(); ++i) sum += e.samples[i] * e.weights[i];
         EXPECT_TRUE(sameBits(sum / static_cast<double>(e.samples.size()), e.pixel)) << file;
         rays += e.tree.nodes.size();
       }

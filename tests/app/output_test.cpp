@@ -187,6 +187,29 @@ TEST_F(Fragment, OfAnEarlierRunGoesWhenTheSamePictureIsWhole) {
   EXPECT_TRUE(exists("a.partial-2.png")) << "a part of another picture, perhaps a dearer one";
 }
 
+TEST_F(Fragment, GoesWithItsPassesWhenTheWholePictureHasNone) {
+  const auto wordsOf = [](const char* settings) {
+    return Metadata{{"Software", "a test"}, {"Settings", settings}};
+  };
+  const Film::LayerKind kinds[] = {{Color(0)}};
+  Film part(2 * Film::kTileSize, Film::kTileSize, 1, kinds);
+  part.add(0, 0, {});
+  Settings withPass;
+  withPass.passes = {Pass::depth}, withPass.passName = PassName::underscore;
+  for (const char* name : {"a.png", "b.png"}) {
+    if (name[0] == 'b') PictureFiles(path(name), {}).write(film(2), settings_, kWords);
+    PictureFiles(path(name), {}).write(part, withPass, wordsOf("passes=depth pass-name=underscore"));
+    EXPECT_TRUE(exists(name[0] == 'a' ? "a_depth.exr" : "b.partial_depth.exr"));
+    writeFile(path("kept"), readFile(path(name[0] == 'a' ? "a.png" : "b.partial.png")));
+    std::filesystem::rename(path("kept"),
+                            path(std::string(1, name[0]) + "_id.png"));  // a picture, not a pass
+    PictureFiles(path(name), {}).write(film(2), settings_, wordsOf("defaults"));
+  }
+  for (const char* name : {"a_depth.exr", "b.partial.png", "b.partial_depth.exr"})
+    EXPECT_FALSE(exists(name)) << name;
+  for (const char* name : {"a.png", "b.png", "a_id.png", "b_id.png"}) EXPECT_TRUE(exists(name)) << name;
+}
+
 TEST_F(Fragment, WhatOnlyHasTheNameOfOneStays) {
   writeFile(path("a.partial.png"), "notes");
   write("b.partial.png", 2);             // whole

@@ -116,6 +116,25 @@ translate(2, 0, 0, polymesh { name = "mixed"; points = ((-1,-1,0), (1,-1,0), (0,
   EXPECT_EQ(object["material"], "a");
 }
 
+TEST_F(Explain, AMaterialWithoutANameIsCalledAlikeInTextAndJson) {
+  const std::string scene = folder / "nameless.ray";
+  writeFile(scene,
+            "SBT-raytracer 1.0\ncamera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }\n"
+            "sphere { material = { name = \"red\"; diffuse = (1, 0, 0); } }\n"
+            "scale(2, sphere { material = { diffuse = (0, 0, 1); } })\n");
+  const std::vector<std::string> words{"explain", scene, "-w", "9", "--pixel", "4,4", "--format"};
+  const auto explain = [&](const char* format) {
+    std::vector<std::string> all = words;
+    all.emplace_back(format);
+    return out(all);
+  };
+  const json object = json::parse(explain("json"))["rays"][0]["hit"]["object"];
+  const std::string name = "material " + std::to_string(object["materials"][0]["index"].get<int>() + 1);
+  EXPECT_EQ(object["material"], name);
+  EXPECT_EQ(object["materials"][0]["name"], name);
+  EXPECT_NE(explain("text").find("made of " + name + ","), std::string::npos);
+}
+
 TEST_F(Explain, ThePageInTheDocsShowsTheRealOutput) {
   // The first block of docs/explain.md is what the command above it prints.
   const std::string page = readFile(test::sourceFolder() + "/docs/explain.md");

@@ -359,6 +359,10 @@ TEST(BrokenFiles, Inventor) {
        "warning unknown field \"radios\" of Sphere is ignored [did you mean \"radius\"?]"},
       {"a.iv", iv("Spere { radius 2 }"),
        "warning \"Spere\" is not rendered and is left out [did you mean \"Sphere\"?]"},
+      {"a.wrl",
+       "#VRML V2.0 utf8\nTransfrom { translation 1 0 0 scale 2 2 2 children [ Shape { geometry Box { } } ] }",
+       "warning \"Transfrom\" is not known: what it holds is rendered without its translation and scale "
+       "[did you mean \"Transform\"?]"},
       {"a.wrl", vrml2("IndexdFaceSet { }"), "warning left out [did you mean \"IndexedFaceSet\"?]"},
       {"a.wrl", vrml2("Sphere { }", "apearance Appearance { }"),
        "warning unknown field \"apearance\" of Shape is ignored [did you mean \"appearance\"?]"},
@@ -412,12 +416,14 @@ TEST(BrokenFiles, Inventor) {
        "warning corners use materials, colours or texture coordinates that are not there"},
       {"a.wrl", vrml1("Texture2 { filename \"wood.png\" } Sphere { }"),
        "warning the texture \"wood.png\" cannot be read"},
-      {"a.iv", iv("Texture2 { image 1 1 3 0xff0000 } Sphere { }"),
-       "warning the texture \"Texture2 (inside the file)\""},
+      {"a.iv", iv("Texture2 { image 2 2 3 0xff0000 } Sphere { }"),
+       "warning image of Texture2: expected width, height, 1 to 4 and the pixels"},
       {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture ImageTexture { url \"wood.png\" } }"),
        "warning the texture \"wood.png\" cannot be read"},
-      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture PixelTexture { image 1 1 1 0xff } }"),
-       "warning the texture \"PixelTexture (inside the file)\""},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture PixelTexture { image 1 1 9 0xff } }"),
+       "warning image of PixelTexture: expected"},
+      {"a.wrl", vrml2("Sphere { }", "appearance Appearance { texture MovieTexture { url \"film.mpg\" } }"),
+       "warning the texture \"film.mpg\" is not rendered yet"},
       {"a.wrl", "#VRML V2.0 utf8\nBackground { frontUrl \"sky.png\" }", "warning the texture \"sky.png\""},
       {"a.wrl", "#VRML V2.0 utf8\nFog { color 1 1 1 }", "warning \"Fog\" is not rendered"},
       {"a.wrl", "#VRML V2.0 utf8\nInline { }", "warning Inline names no file"},
@@ -475,7 +481,8 @@ TEST(BrokenFiles, Obj) {
       {"disp deep.png", "warning the texture \"deep.png\" is not rendered yet"},
       {"norm normals.png", "warning the texture \"normals.png\" is not rendered yet"},
       {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
-      {"map_d holes.png", "warning the texture \"holes.png\" is not rendered yet"},
+      {"map_d holes.png", "warning the texture \"holes.png\" cannot be read"},
+      {"map_d -mm 0 2 holes.png", "warning the option \"-mm\" of a texture is ignored"},
       {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
        "warning the textures \"a.png\", \"b.png\", \"d.png\" and \"c.png\" cannot be read"},
   };
@@ -678,6 +685,12 @@ TEST(BrokenFiles, Gltf) {
        "warning intensity: expected at least 0"},
       {"a.gltf", gltfLight("\"type\": \"spot\", \"spot\": {\"innerConeAngle\": 1, \"outerConeAngle\": 0.5}"),
        "warning an innerConeAngle below"},
+      {"a.gltf", gltfWith("\"samplers\": [{\"wrapS\": 1}]"),
+       "warning samplers[0].wrapS: expected one of 10497, 33071, 33648, found 1"},
+      {"a.gltf", gltfWith("\"images\": [{\"uri\": \"data:image/png;base64,AA!\"}]"),
+       "error images[0].uri: expected digits of base64, found \"!\" after 2 of them"},
+      {"a.gltf", gltfWith("\"images\": [{\"uri\": \"data:image/png;base64,\"}]"),
+       "error images[0].uri: expected a picture, found no bytes"},
       {"a.gltf", gltfWith("\"animations\": [{}]"), "warning animations are not played: 1"},
       {"a.gltf",
        gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 0}")
@@ -789,7 +802,8 @@ TEST(BrokenFiles, KeepTheNamesOfTheirTextures) {
   EXPECT_EQ(maps("a.ray", ray("sphere { material = { diffuse = map(\"wood.png\"); } }")), wood);
   EXPECT_EQ(maps("a.ray", ubc("Material \"n\" \"texture\" \"wood.png\" Sphere 1 \"n\"")), wood);
   EXPECT_EQ(maps("a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }")), wood);
-  EXPECT_EQ(maps("a.iv", "#Inventor V2.1 ascii\nTexture2 { filename \"wood.png\" } Sphere { }"), wood);
+  EXPECT_EQ(maps("a.iv", "#Inventor V2.1 ascii\nTexture2 { filename \"wood.png\" } Sphere { }"),
+            (Names{{"ambient", "wood.png"}, {"diffuse", "wood.png"}}));
 }
 
 TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "formats/model_textures.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/folder.h"
@@ -12,6 +13,16 @@
 
 namespace trace {
 namespace {
+
+/// What a picture of a model becomes, on those fields.
+std::vector<FieldTexture> pictureOn(std::initializer_list<const char*> fields, const std::string& file,
+                                    bool srgb = false) {
+  std::vector<FieldTexture> textures;
+  ImageMap map = modelPicture(file);
+  map.srgb = srgb;
+  for (const char* field : fields) setTexture(textures, field, TextureNode{.model = map});
+  return textures;
+}
 
 std::string corpusFile(const std::string& name) { return test::sourceFolder() + "/tests/corpus/" + name; }
 
@@ -63,7 +74,7 @@ TEST(Obj, MakesAnObjectOfEachNameAndMaterial) {
 
   const Material& red = scene.materials.at(scene.objects[0].material);
   EXPECT_EQ(red.name, "red");
-  EXPECT_EQ(red.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("bricks.png")}}));
+  EXPECT_EQ(red.textures, pictureOn({"ambient", "diffuse"}, "bricks.png"));
   EXPECT_NEAR(phongOf(scene, 0).reflective.r, 0.5, 1e-6) << "illum 3 mirrors";
   const Phong& glass = phongOf(scene, 1);
   EXPECT_NEAR(glass.transmissive.r, 0.9 * 0.75, 1e-6);
@@ -145,8 +156,8 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
 
   const Material& paint = scene.materials.at(scene.objects[0].material);
   EXPECT_EQ(paint.name, "paint");
-  EXPECT_EQ(paint.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("wood.png")}}));
-  EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0.8, 0.4, 0.1));
+  EXPECT_EQ(paint.textures, pictureOn({"ambient", "color"}, "wood.png", true));
+  EXPECT_EQ(std::get<Principled>(paint.model).color, Color(0.8, 0.4, 0.1)) << "it has a texture";
   EXPECT_TRUE(isBlack(phongOf(scene, 1).diffuse)) << "a metal";
   EXPECT_EQ(meshOf(scene, 1).materials.size(), 4u);
 }
@@ -231,7 +242,7 @@ mesh { file = "ply/little.ply"; })")
   EXPECT_EQ(scene.objects[0].name, "left");
   EXPECT_NEAR(length(scene.objects[0].worldFromObject.offset), 3, 1e-6);
   EXPECT_EQ(scene.materials.at(scene.objects[4].material).textures,
-            (std::vector<FieldTexture>{{"diffuse", pictureTexture("obj/bricks.png")}}));
+            pictureOn({"ambient", "diffuse"}, "obj/bricks.png"));
   const MeshData& coloured = meshOf(scene, 7);
   ASSERT_EQ(coloured.materials.size(), 4u);
   EXPECT_EQ(std::get<Phong>(scene.materials.at(coloured.materials[1]).model).diffuse.r, 1);

@@ -354,9 +354,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
   EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
-  EXPECT_EQ(warningsOf(text),
-            "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
-            "file or directory [a checker of magenta and black shows instead]");
+  EXPECT_EQ(
+      warningsOf(text),
+      "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
+      "file or directory [a checker of magenta and black shows instead]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------
@@ -559,7 +560,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
       "warn_light { position = (0, 0, 1); }\nwarn_light { }\n"
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
-      "sphere { material = { bump_mapping = bump(\"b.png\"); diffuse = marble { depth = 4 } } }";
+      "sphere { material = { normal_map = \"b.png\"; diffuse = meteorite { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(
       warningsOf(text),
@@ -568,8 +569,8 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "radius, strength), ...); }]\n"
       "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
       "box { } sphere { } }]\n"
-      "6:23: \"bump_mapping\" is not rendered yet\n"
-      "6:63: \"marble\" is not rendered yet");
+      "6:23: \"normal_map\" is not rendered yet\n"
+      "6:55: \"meteorite\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
   EXPECT_EQ(loaded.scene.unrendered[0].kind, "warn_light");
   EXPECT_EQ(loaded.scene.unrendered[0].text, "warn_light { position = (0, 0, 1); }");
@@ -592,7 +593,10 @@ TEST(RayFormat, WarnsOfUnknownWords) {
             "\"viewdir\"?]");
   EXPECT_EQ(warningsOf("sphere { material = { difuse = 4 } capped = true }"),
             "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
-            "2:36: unknown field \"capped\" of sphere is ignored");
+            "2:36: unknown field \"capped\" of sphere is ignored [it has material, name]");
+  EXPECT_EQ(
+      warningsOf("torus { tube = 1 }"),
+      "2:9: unknown field \"tube\" of torus is ignored [it has material, name, major_radius, minor_radius]");
   EXPECT_EQ(warningsOf("polymesh { point = () }"),
             "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]\n"
             "2:10: polymesh: nothing of it can be seen, for it has no faces");

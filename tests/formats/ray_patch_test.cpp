@@ -284,7 +284,8 @@ TEST(RayPatch, AMaterialOutlivesTheObjectThatSaidIt) {
             [](Scene& s) { s.objects.erase(s.objects.begin()); }),
       "box { material = { name = \"red\"; emissive = (0, 0, 0); ambient = (0, 0, 0); diffuse = (1, 0, 0); "
       "specular = (0, 0, 0); reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; "
-      "shadow = 1; }; } cone { material = red; }");
+      "shadow = 1; priority = 0; attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; "
+      "abbe = 0; }; } cone { material = red; }");
 }
 
 // --- deleting and adding ----------------------------------------------------------------------------------
@@ -313,7 +314,7 @@ TEST(RayPatch, NewThingsStandAtTheEnd) {
       "sphere { } // last\n"
       "\npoint_light {\n  position = (0, 0, 0);\n  color = (1, 1, 1);\n  constant_attenuation_coeff = 0;\n"
       "  linear_attenuation_coeff = 0;\n  quadratic_attenuation_coeff = 1;\n  extra_highlight = (0, 0, "
-      "0);\n}\n"
+      "0);\n  radius = 0;\n}\n"
       "\ntranslate(1, 0, 0, sphere {\n  name = \"copy\";\n  material = { };\n})\n");
 }
 

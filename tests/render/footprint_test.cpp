@@ -20,7 +20,10 @@ namespace {
 
 Scene sceneOf(const Shape& shape, const Affine& worldFromObject = {}) {
   Scene scene;
-  scene.materials.emplace_back();
+  scene.materials.emplace_back();  // with a texture that asks for footprints in u and v
+  ImageMap map;
+  map.filter = TexelFilter::trilinear;
+  setTexture(scene.materials[0].textures, "diffuse", TextureNode{.model = map});
   Object object;
   object.shape = shape;
   object.worldFromObject = worldFromObject;

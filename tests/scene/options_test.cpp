@@ -100,7 +100,9 @@ TEST(Options, ExtrasAreOffByDefault) {
   for (const Option& option : options()) {
     if (!option.extra) continue;
     const std::string value = option.get({});
-    EXPECT_TRUE(value == "off" || value == "0" || (option.name == "spp" && value == "1")) << option.name;
+    const bool first = option.kind == Option::Kind::choice && value == option.choices.front();
+    EXPECT_TRUE(value == "off" || value == "0" || first || ((option.name == "spp" || option.name == "wavelengths") && value == "1"))
+        << option.name << " " << value;
   }
 }
 

@@ -90,9 +90,13 @@ class Writer {
   cf::Material material(std::uint32_t index, std::string& name) {
     const Phong p = phongOf(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
-    if (const Texture* texture = textureOf(scene_.materials[index].textures, "diffuse"))
-      if (const auto* image = std::get_if<ImageMap>(&(*texture)->model))
+    for (const FieldTexture& field : scene_.materials[index].textures) {
+      const auto* image = std::get_if<ImageMap>(&field.texture->model);
+      if (field.field == "diffuse" && image)
         say(name, "texture=" + image->file.file);
+      else
+        warn("textures are left out, but for pictures of diffuse");
+    }
     Color ambientLight;
     for (const LightSource& source : scene_.lights)
       if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambientLight += light->color;

@@ -85,6 +85,19 @@ const std::set<std::string_view> kParts{"Appearance",        "Coordinate",   "Co
                                         "TextureCoordinate", "ImageTexture", "PixelTexture",
                                         "MovieTexture",      "MultiTexture", "TextureTransform"};
 
+/// "translation and scale": what a node says of itself, and not which nodes it holds.
+std::string fieldsWithoutNodes(const Node& node) {
+  constexpr std::size_t kMost = 5;
+  std::vector<std::string> names;
+  for (const Field& field : node.fields)
+    if (field.nodes.empty() && field.name != "children") names.emplace_back(field.name.substr(0, 40));
+  if (names.size() > kMost) names.resize(kMost), names.emplace_back("other fields");
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
 }  // namespace
 
 // --- the walk ---
@@ -239,8 +252,14 @@ void Reader::node(const Values& v, State& state) {
   const auto handler = handlers().find(v.node().type);
   if (handler != handlers().end()) return (this->*handler->second)(v, state);
   if (kIgnored.count(v.node().type)) return;
-  warn(v.node().token, "\"" + std::string(v.node().type.substr(0, 40)) + "\" is not rendered and is left out",
-       v.node().type, meant(v.node().type));
+  const std::string type = "\"" + std::string(v.node().type.substr(0, 40)) + "\"",
+                    hint = meant(v.node().type);
+  const std::string lost = hint.empty() ? "" : fieldsWithoutNodes(v.node());
+  const bool hasChildren = !v.node().children.empty() || !v.nodes("children").empty();
+  warn(v.node().token,
+       hasChildren && !lost.empty() ? type + " is not known: what it holds is rendered without its " + lost
+                                    : type + " is not rendered and is left out",
+       v.node().type, hint);
   separate(v, state);  // perhaps it holds shapes
 }
 

@@ -85,14 +85,16 @@ ImageMap toMap(std::string file, const tinyobj::texture_option_t& option) {
   return map;
 }
 
-/// Puts the pictures of the MTL material on it. `nameOf` gives a picture's name as seen from the mesh's file,
-/// `isTransparent` says whether the picture of that name may be so.
+/// Puts the pictures of the MTL material, which stands at the place, on it. `nameOf` gives a picture's name
+/// as seen from the mesh's file, `isTransparent` says whether the picture of that name may be so.
 template <class NameOf, class IsTransparent>
-void addTextures(const tinyobj::material_t& mtl, Material& material, NameOf&& nameOf,
+void addTextures(const tinyobj::material_t& mtl, const Place& place, Material& material, NameOf&& nameOf,
                  IsTransparent&& isTransparent) {
   const auto& phong = std::get<Phong>(material.model);
   const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
-    return toMap(nameOf(picture), option);
+    ImageMap made = toMap(nameOf(picture), option);
+    made.file.place = place;
+    return made;
   };
   const auto put = [&](std::string_view field, const std::string& picture,
                        const tinyobj::texture_option_t& option) {
@@ -208,7 +210,7 @@ class ObjReader : public tinyobj::MaterialReader {
     for (std::size_t i = model_.materials.size(); i < materials->size(); ++i) {
       model_.materials.push_back(toMaterial((*materials)[i]));
       if (isSound(model_.materials.back())) {
-        addTextures((*materials)[i], model_.materials.back(),
+        addTextures((*materials)[i], Place{.file = besideFile(file_, name)}, model_.materials.back(),
                     [&](const std::string& picture) { return pictureName(name, picture); },
                     [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; });
         continue;

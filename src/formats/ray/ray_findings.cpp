@@ -11,10 +11,10 @@ namespace {
 
 /// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
 constexpr std::array<std::string_view, 23> kRelatives{
-    "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
-    "environment", "fog",       "hyperbolic",   "map",          "map_points", "marble",
-    "metaball",    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh",
-    "shape_light", "skybox",    "texture",      "warn_light",   "warn_model", "wood"};
+    "bump",      "bump_mapping", "checkerboard", "csg",        "displace", "environment",
+    "fog",       "hyperbolic",   "map",          "map_points", "marble",   "metaball",
+    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh", "shape_light",
+    "skybox",    "texture",      "warn_light",   "warn_model", "wood"};
 
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;
@@ -33,6 +33,15 @@ std::string_view insteadOf(std::string_view kind) {
   for (const auto& [word, hint] : kInstead)
     if (word == kind) return hint;
   return {};
+}
+
+/// For a field that is like no other: all there are, if they are few.
+std::string allOf(std::span<const std::string_view> fields) {
+  constexpr std::size_t kFew = 6;
+  if (fields.empty() || fields.size() > kFew) return {};
+  std::string text;
+  for (std::string_view field : fields) text += (text.empty() ? "it has " : ", ") + std::string(field);
+  return text;
 }
 
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
@@ -104,8 +113,11 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   if (isRelative(name)) return notRendered(name, field, known);
   const std::string key = "unknown field: " + std::string(owner) + "." + std::string(name);
   if (again(key)) return;
+  std::string hint;
+  if (warnings_.size() < kFullWarnings) hint = didYouMean(name, known);
+  if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   add(key, field, "unknown field " + quoted(name) + " of " + std::string(owner) + " is ignored",
-      warnings_.size() < kFullWarnings ? didYouMean(name, known) : std::string());
+      std::move(hint));
 }
 
 bool Findings::isUnknown(std::string_view owner, std::string_view field) const {

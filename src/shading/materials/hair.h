@@ -1,8 +1,8 @@
 // Thin cylinders too fine to be seen one by one: hair, fur, brushed threads (Kajiya and Kay, Rendering Fur
 // with Three Dimensional Textures, SIGGRAPH 1989, equations 14 and 16). Strands run along the grain, which
-// `angle` turns. Variant: on surfaces, so that only light on the eye's side counts.
-// Reciprocal but for the cosine that the paper leaves out. Energy: `diffuse` and `specular` are factors; more
-// than arrives is possible.
+// `angle` turns. Variant: strands that lie on a surface, whose cosine to the light is a factor; so only light
+// on the eye's side counts, and it fades towards the terminator.
+// Not reciprocal. Energy: gives back at most `diffuse` and `specular`, which are added.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct HairBsdf;
 struct Hair : SurfaceFields {
   static constexpr std::string_view kKeyword = "hair";
   static constexpr std::string_view kHelp = "strands along the grain, by Kajiya and Kay";
-  static constexpr bool kReciprocal = false, kKeepsEnergy = false;
+  static constexpr bool kReciprocal = false, kKeepsEnergy = true;
   using Bsdf = HairBsdf;
 
   Color diffuse{0.25, 0.14, 0.06}, specular{0.5};
@@ -48,7 +48,8 @@ struct HairBsdf : LocalBsdf<HairBsdf, Hair> {
     const Real sinLight = sine(light.x), sinEye = sine(eye.x);
     // The strand mirrors light into a cone around itself; cos(eye, nearest of the cone).
     const Real near = max(0, sinLight * sinEye - light.x * eye.x);
-    return {said.diffuse * (sinLight / kPi), said.specular * (std::pow(near, said.shininess) / kPi)};
+    return {said.diffuse * (sinLight * light.z / kPi),
+            said.specular * (std::pow(near, said.shininess) * light.z / kPi)};
   }
 };
 
