@@ -139,14 +139,16 @@ class TreeText {
 
   void light(const Term& term, const RayNode& node) {
     const LightTerm& light = *term.light;
-    const bool away = isBlack(term.factor), always = term.ray < 0;
+    const bool none = isBlack(term.factor), always = term.ray < 0;
+    const Vec3 normal = node.hit->surface.shading;
+    const bool away = dot(light.arriving.toLight, normal) * dot(node.ray.direction, normal) >= 0;
     line("+ " + printable(lightName(scene_, light.light)) + " " + text(term.factor * term.value) +
-         (away     ? "; faces away, no shadow ray"
+         (none     ? (away ? "; faces away, no shadow ray" : "; scatters none of it, no shadow ray")
           : always ? "; the part that no shadow takes away"
                    : ""));
     const Illumination& from = light.arriving;
     const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
-    if (away) return;
+    if (none) return;
     std::string highlight = " + specular " + text(light.scatter.specular);
     if (!isBlack(from.extraHighlight * light.scatter.specular))
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";

@@ -41,6 +41,27 @@ bool isFile(const std::filesystem::path& path) {
 
 }  // namespace
 
+Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages) {
+  std::error_code error;
+  const std::filesystem::path target =
+      std::filesystem::absolute(file, error).parent_path().lexically_normal();
+  const bool same = std::filesystem::absolute(scene.file, error).parent_path().lexically_normal() == target;
+  Scene moved = scene;
+  std::size_t nameless = 0;
+  for (Material& material : moved.materials)
+    changePixels(material, [&](Pixels& pixels) {
+      nameless += pixels.map && pixels.file.empty();
+      if (same || pixels.file.empty() || std::filesystem::path(pixels.file).is_absolute()) return;
+      const std::filesystem::path path =
+          std::filesystem::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();
+      if (std::filesystem::exists(path, error)) pixels.file = path.lexically_relative(target).string();
+    });
+  if (nameless > 0)
+    messages.warn({scene.file, 0, 0, {}},
+                  "pictures that lie inside the file are left out: " + std::to_string(nameless));
+  return moved;
+}
+
 std::shared_ptr<const MipMap> missingPicture() {
   static const auto kMissing = [] {
     Picture checker(8, 8);

@@ -25,6 +25,10 @@ void loadTextures(Scene& scene, Messages& messages);
 /// The place beside the scene if there is none.
 std::string pictureFile(const std::string& from, const std::string& name);
 
+/// The scene with the names of its pictures as `file` finds them, which may lie in another folder. Warns of
+/// those without a name.
+Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages);
+
 /// What nobody takes for the surface that was meant: a checker of magenta and black.
 std::shared_ptr<const MipMap> missingPicture();
 

@@ -85,11 +85,11 @@ class World {
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
   /// met more than once.
   void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
-    cross({ray, tMost, faces, false, statistics, visit});
+    crossAll({ray, tMost, faces, false, statistics, visit});
   }
   /// The same for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
   bool occluded(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
-    return cross({ray, tMost, faces, true, statistics, visit});
+    return crossAll({ray, tMost, faces, true, statistics, visit});
   }
 
   /// The place found, in world space; `ray` is the ray that found it.
@@ -204,7 +204,7 @@ class World {
     VisitFound visit;
   };
   /// Whether something ended the query; here and below.
-  bool cross(const Across& query) const;
+  bool crossAll(const Across& query) const;
   bool crossObject(std::uint32_t object, const Across& query) const;
   [[gnu::noinline]] bool crossMesh(std::uint32_t object, const Ray& ray, const Across& query) const;
   [[gnu::noinline]] bool crossShape(std::uint32_t object, const Ray& ray, const Across& query) const;

@@ -109,7 +109,7 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
 
 // --- every crossing -----------------------------------------------------------------------------------
 
-bool World::cross(const Across& query) const {
+bool World::crossAll(const Across& query) const {
   bool ended = false;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();

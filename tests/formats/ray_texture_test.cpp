@@ -133,6 +133,8 @@ TEST(RayTexture, HasANameForOthers) {
 }
 
 TEST(RayTexture, TellsWhatIsWrong) {
+  EXPECT_NE(errorsOf("sphere { material = { diffuse = marbel { }; } }").find("did you mean \"marble\"?"),
+            std::string::npos);
   EXPECT_EQ(errorsOf("sphere { material = { diffuse = texture(\"flor\"); } }"),
             "2:41: expected the name of a texture, found \"flor\" [a texture is named before its first use: "
             "texture "
@@ -148,6 +150,17 @@ TEST(RayTexture, TellsWhatIsWrong) {
             "2:50: checker: expected a field, as in name = value, found 2");
   EXPECT_EQ(warningsOf("sphere { material = { diffuse = checker { c = 1; }; } }"),
             "2:43: unknown field \"c\" of checker is ignored [did you mean \"a\"?]");
+}
+
+TEST(RayTexture, HoldsOnlySoManyInOneAnother) {
+  std::string text = "texture = checker { name = t0; }\n";
+  for (int i = 1; i <= 40; ++i) {  // each has the one before it in two places
+    const std::string n = std::to_string(i), before = "texture(\"t" + std::to_string(i - 1) + "\")";
+    text += "texture = mix { name = t" + n + "; a = " + before + "; b = " + before + "; }\n";
+  }
+  const std::string errors = errorsOf(text);
+  EXPECT_NE(errors.find("expected at most 1000 textures in one another, found 1023"), std::string::npos)
+      << errors;
 }
 
 TEST(RayTexture, IsWrittenAsItIsRead) {

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "formats/composer/composer_file.h"
 #include "formats/composer/composer_format.h"
+#include "formats/textures.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
 #include "geometry/shapes/sphere.h"
@@ -87,12 +88,15 @@ class Writer {
 
   // --- objects ---
 
-  cf::Material material(std::uint32_t index, std::string& name) {
+  /// `hasUv`: pictures can lie on the object.
+  cf::Material material(std::uint32_t index, std::string& name, bool hasUv) {
     const Phong p = phongOf(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     for (const FieldTexture& field : scene_.materials[index].textures) {
       const auto* image = std::get_if<ImageMap>(&field.texture->model);
-      if (field.field == "diffuse" && image)
+      if (field.field == "diffuse" && image && !hasUv)
+        warn("pictures of shapes that become triangles are left out");
+      else if (field.field == "diffuse" && image)
         say(name, "texture=" + image->file.file);
       else
         warn("textures are left out, but for pictures of diffuse");
@@ -127,7 +131,7 @@ class Writer {
     cf::Object o;
     o.name = object.name;
     if (object.shape.is<Sphere>()) {
-      o.materials.push_back(material(object.material, o.name));
+      o.materials.push_back(material(object.material, o.name, true));
       o.sphere = sphere(object.worldFromObject);
     } else if (const auto* mesh = object.shape.as<Mesh>()) {
       add(o, mesh->data->generateNormals ? withGeneratedNormals(*mesh->data, true) : *mesh->data, object);
@@ -161,7 +165,7 @@ class Writer {
     used.erase(std::unique(used.begin(), used.end()), used.end());
     p.vertexMaterials = used.size() > 1;
     if (used.empty()) used = {object.material};
-    for (std::uint32_t index : used) o.materials.push_back(material(index, o.name));
+    for (std::uint32_t index : used) o.materials.push_back(material(index, o.name, p.hasUv));
 
     const bool mirrored = determinant(m) < 0;
     for (const Triangle& triangle : mesh.triangles) {
@@ -190,7 +194,8 @@ class Writer {
 
 std::vector<NamedBytes> writeComposer(const Scene& scene, const std::string& file,
                                       const WriteOptions& options, Messages& messages) {
-  const cf::File written = Writer(scene, messages).write();
+  const Scene moved = withPicturesSeenFrom(scene, file, messages);
+  const cf::File written = Writer(moved, messages).write();
   NamedBytes::Contents holds{written.objects.size(), 0};
   for (const cf::Object& object : written.objects) holds.triangles += object.polygons.counts.size();
   return {{file, cf::writeText(written, options.digits), holds}};

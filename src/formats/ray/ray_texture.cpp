@@ -101,7 +101,15 @@ std::optional<Texture> TextureReader::block(const Item& call) {
   if (!fields) return {};
   if (!std::holds_alternative<Marble>(node.model) || !readStudentMarble(findings_, *fields, node))
     readFields(*fields, node);
+  constexpr double kMostTextures = 1000;
   Texture texture(std::move(node));
+  if (texture.size() > kMostTextures) {
+    findings_.error(call,
+                    "expected at most " + toText(kMostTextures) + " textures in one another, found " +
+                        toText(texture.size()),
+                    "each place of a surface asks all of them; one that stands in two fields counts twice");
+    return {};
+  }
   if (!texture->name.empty()) named_.insert_or_assign(texture->name, texture);
   return texture;
 }

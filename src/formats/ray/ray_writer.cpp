@@ -331,26 +331,6 @@ class Writer {
   std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 
-/// The scene with the names of its pictures as the file finds them. Warns of those that have none.
-Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages) {
-  std::error_code error;
-  const fs::path target = fs::absolute(file, error).parent_path().lexically_normal();
-  const bool same = fs::absolute(scene.file, error).parent_path().lexically_normal() == target;
-  Scene moved = scene;
-  std::size_t nameless = 0;
-  for (Material& material : moved.materials)
-    changePixels(material, [&](Pixels& pixels) {
-      nameless += pixels.map && pixels.file.empty();
-      if (same || pixels.file.empty() || fs::path(pixels.file).is_absolute()) return;
-      const fs::path path = fs::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();
-      if (fs::exists(path, error)) pixels.file = path.lexically_relative(target).string();
-    });
-  if (nameless > 0)
-    messages.warn({scene.file, 0, 0, {}},
-                  "pictures that lie inside the file are left out: " + std::to_string(nameless));
-  return moved;
-}
-
 }  // namespace
 
 std::string writtenObject(const Scene& scene, const Object& object, const MaterialText& material) {
@@ -366,7 +346,7 @@ std::string writtenLight(const Light& light) {
 
 std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
-  const Scene moved = rayfile::withPicturesSeenFrom(scene, file, messages);
+  const Scene moved = withPicturesSeenFrom(scene, file, messages);
   return {{file, rayfile::Writer(moved, options.digits).write()}};
 }
 
