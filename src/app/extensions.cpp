@@ -6,6 +6,7 @@
 #include "app/session.h"
 #include "base/file.h"
 #include "image/codec.h"
+#include "image/development.h"
 #include "image/flip.h"
 
 namespace trace {
@@ -30,6 +31,16 @@ constexpr std::array kTable{
               "--distortion 0.3", ""},
     Extension{"stereo", "two eyes in one picture, here for glasses of red and cyan", "room.ray",
               "--stereo off", "--stereo red-cyan", ""},
+    Extension{"exposure", "brighter or darker by stops, before anything is cut off", "lamps.ray",
+              "--exposure 0", "--exposure 1", ""},
+    Extension{"white-balance", "the light of that colour temperature is white", "lamps.ray",
+              "--white-balance 0", "--white-balance 3200", ""},
+    Extension{"transfer", "levels as screens expect them", "lamps.ray", "--transfer linear",
+              "--transfer srgb", ""},
+    Extension{"bloom", "bright places shine over their surroundings", "lamps.ray", "--bloom 0", "--bloom 0.1",
+              ""},
+    Extension{"dither", "grain in place of bands between levels", "lamps.ray", "--dither off", "--dither on",
+              ""},
     Extension{"threshold", "rays that would add less are not sent: faster, and nearly the same",
               "threshold.ray", "--threshold 0", "--threshold 0.3", ""},
     Extension{"fresnel", "glass mirrors the more the flatter it is looked at", "coloured-glass.ray",
@@ -127,7 +138,8 @@ Picture pictureOf(const Extension& extension, bool on, const std::string& scenes
   session.open(scenes + "/" + std::string(extension.scene), choices);
   session.build();
   session.renderPicture();
-  return cut(session.picture(), session.settings().region);
+  const Settings& settings = session.settings();
+  return cut(developed(finished(session.picture(), settings), developmentOf(settings)), settings.region);
 }
 
 std::string extensionsMarkdown() {

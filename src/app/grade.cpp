@@ -55,7 +55,9 @@ LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFil
     throw Error(Fault::limit,
                 "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));
   const Settings& settings = session.settings();
-  return {fromBytes(toBytes(toned(finished(session.picture(), settings), settings.tone), settings.rounding)), true};
+  return {fromBytes(toBytes(developed(finished(session.picture(), settings), developmentOf(settings)),
+                            settings.rounding)),
+          true};
 }
 
 std::string encoded(const char* suffix, const Picture& picture) {

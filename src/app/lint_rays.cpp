@@ -85,7 +85,7 @@ bool isCutShort(const RayNode& node) {
 }
 
 Bytes levels(const Picture& picture, const Settings& settings) {
-  return toBytes(toned(picture, settings.tone), settings.rounding);
+  return toBytes(developed(picture, developmentOf(settings)), settings.rounding);
 }
 
 /// How many of the pixels differ so that an eye sees it.

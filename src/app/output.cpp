@@ -56,10 +56,11 @@ void withPictureOf(const Output& output, const Film& film, const Settings& setti
   const PictureFormat& format = pictureFormatFor(output.path);
   if (output.layer < 0) {
     const Picture picture = finished(film.picture(), settings);
-    if (format.keepsBright || settings.tone == Tone::clamp)
+    const Development development = developmentOf(settings);
+    if (format.keepsBright || development == Development{})
       use(picture);
     else
-      use(toned(picture, settings.tone));
+      use(developed(picture, development));
     return;
   }
   const auto layer = static_cast<std::size_t>(output.layer);

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cli/console.h"
 #include "geometry/mesh/mesh.h"
+#include "scene/options.h"
 
 namespace trace::cli {
 namespace {
@@ -172,6 +173,26 @@ class TreeText {
   std::string text_, margin_;
 };
 
+/// What an 8-bit file shows of the light, if that is not the light itself.
+std::string shownText(const PixelFacts& facts) {
+  const Development development = developmentOf(facts.settings);
+  if (development == Development{}) return "";
+  std::string steps, before;
+  for (const Option& option : options())
+    if (const std::string value = option.get(facts.settings);
+        (option.group == "Tone" || option.name == "tone") && value != option.get(Settings{})) {
+      const bool wantsPicture = option.name == "bloom" || option.name == "dither" || value == "stretch";
+      std::string& list = wantsPicture ? before : steps;
+      list += (list.empty() ? "" : ", ") + std::string(option.name) + " " + value;
+    }
+  const Color shown = developed(facts.rendered, development);
+  std::string text = "the file    ";
+  for (const double channel : {shown.r, shown.g, shown.b})
+    text += std::to_string(toLevel(channel, facts.settings.rounding)) + " ";
+  return text + "of 255" + (steps.empty() ? "" : ", by " + steps) +
+         (before.empty() ? "" : "; without " + before) + "\n";
+}
+
 }  // namespace
 
 bool PixelFacts::agrees() const {
@@ -193,6 +214,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
             (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
             (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
+  text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
                          : "The rays above do NOT sum to the picture's pixel: please report this.\n";
   return text;

@@ -14,6 +14,7 @@ struct PixelFacts {
   const Explanation& explanation;
   int width = 0, height = 0;  ///< of the picture
   Color rendered;             ///< the pixel, from a render
+  Settings settings{};
   /// The tree's sum, the pixel's samples and the render agree bit for bit.
   bool agrees() const;
 };

@@ -367,17 +367,12 @@ std::span<const ShortFlag> shortFlags() {
 
 std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
-  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {{"spp", "9"},
-                                                                       {"sampling", "stratified"},
-                                                                       {"filter", "mitchell"},
-                                                                       {"aperture", "0.1"},
-                                                                       {"projection", "panorama"},
-                                                                       {"distortion", "0.2"},
-                                                                       {"stereo", "side-by-side"},
-                                                                       {"threshold", "0.003"},
-                                                                       {"nested-glass", "on"},
-                                                                       {"wavelengths", "9"},
-                                                                       {"outlines", "2"}};
+  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {
+      {"spp", "9"},           {"sampling", "stratified"}, {"filter", "mitchell"},
+      {"aperture", "0.1"},    {"exposure", "1"},          {"white-balance", "3200"},
+      {"transfer", "srgb"},   {"bloom", "0.1"},           {"projection", "panorama"},
+      {"distortion", "0.2"},  {"stereo", "side-by-side"}, {"threshold", "0.003"},
+      {"nested-glass", "on"}, {"wavelengths", "9"},       {"outlines", "2"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};

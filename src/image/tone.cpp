@@ -31,7 +31,7 @@ Picture stretched(Picture picture, const ValueRange& range) {
 }
 
 Picture toned(Picture picture, Tone tone) {
-  if (tone == Tone::clamp) return picture;
+  if (tone != Tone::stretch) return picture;
   const ValueRange range = finiteRange(picture);
   return stretched(std::move(picture), range);
 }

@@ -13,7 +13,7 @@
 
 namespace trace {
 
-enum class Tone { clamp, stretch };
+enum class Tone { clamp, stretch, reinhard, filmic, agx };  // curves: image/development.cpp
 enum class Rounding { truncate, nearest };
 
 /// Levels 0 to 255: three per pixel, r g b; row 0 at the top.
@@ -34,7 +34,7 @@ ValueRange finiteRange(const Picture& picture);
 /// (c - low) / (high - low) for every channel; the picture itself if the range is empty.
 Picture stretched(Picture picture, const ValueRange& range);
 
-/// The picture whose levels are to be taken: itself (clamp), or stretched by its own finiteRange().
+/// The picture stretched by its own finiteRange() if the tone is that; else itself.
 Picture toned(Picture picture, Tone tone);
 
 /// The level of one channel: c clamped to [0,1], times 255, rounded. NaN gives 0.

@@ -66,7 +66,9 @@ constexpr std::array<std::string_view, 2> kNames<DiffuseSides>{"front", "both-on
 template <>
 constexpr std::array<std::string_view, 4> kNames<CameraAxes>{"orthonormal", "raw", "normalized", "skewed"};
 template <>
-constexpr std::array<std::string_view, 2> kNames<Tone>{"clamp", "stretch"};
+constexpr std::array<std::string_view, 5> kNames<Tone>{"clamp", "stretch", "reinhard", "filmic", "agx"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<Transfer>{"linear", "srgb"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"};
 template <>
@@ -710,14 +712,54 @@ const std::array kTable{
                           .group = "Conventions",
                           .help =
                               "8-bit pictures: values below 0 and above 1 are cut off, or the least to the "
-                              "largest value of the picture become 0 to 1",
-                          .source = "stretch in British Columbia and Montreal",
+                              "largest value become 0 to 1, or a curve brings bright ones below 1",
+                          .source = "stretch in British Columbia and Montreal; docs/tone.md",
                           .repeats = Repeats::tone}),
     row<&Settings::rounding>({.name = "rounding",
                               .group = "Conventions",
                               .help = "8-bit values are cut off or rounded to the nearest",
                               .source = "courses: (int)(255 c)",
                               .repeats = Repeats::tone}),
+    row<&Settings::exposure>({.name = "exposure",
+                              .group = "Tone",
+                              .help = "brightens 8-bit pictures: 1 doubles, -1 halves",
+                              .source = "docs/tone.md",
+                              .repeats = Repeats::tone,
+                              .least = -100,
+                              .most = 100,
+                              .unit = "stops",
+                              .extra = true}),
+    row<&Settings::whiteBalance>({.name = "white-balance",
+                                  .group = "Tone",
+                                  .help = "temperature of the light that is to look white, 1667 to 25000; 0 "
+                                          "leaves colours as they are",
+                                  .source = "Kang et al. 2002, Bradford; docs/tone.md",
+                                  .repeats = Repeats::tone,
+                                  .least = 0,
+                                  .most = 25000,
+                                  .unit = "kelvin",
+                                  .extra = true}),
+    row<&Settings::transfer>(
+        {.name = "transfer",
+         .group = "Tone",
+         .help = "8-bit values: linear as in the courses, or sRGB as screens expect them",
+         .source = "IEC 61966-2-1; docs/tone.md",
+         .repeats = Repeats::tone,
+         .extra = true}),
+    row<&Settings::bloom>({.name = "bloom",
+                           .group = "Tone",
+                           .help = "share of the light that lens and eye scatter around bright places",
+                           .source = "docs/tone.md",
+                           .repeats = Repeats::tone,
+                           .least = 0,
+                           .most = 1,
+                           .extra = true}),
+    row<&Settings::dither>({.name = "dither",
+                            .group = "Tone",
+                            .help = "noise of one level hides the steps of 8-bit gradients",
+                            .source = "docs/tone.md",
+                            .repeats = Repeats::tone,
+                            .extra = true}),
     row<&Settings::passes>({.name = "passes",
                             .group = "Passes",
                             .help = "pictures beside the picture, of what the camera rays meet",

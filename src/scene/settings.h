@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/enum_set.h"
+#include "image/development.h"
 #include "image/pixel_filter.h"
 #include "image/tone.h"
 #include "shading/cameras/camera.h"
@@ -126,6 +127,12 @@ struct Settings {
   PixelPosition pixelPosition = PixelPosition::corner;
   Tone tone = Tone::clamp;
   Rounding rounding = Rounding::truncate;
+  // Tone
+  Real exposure = 0;
+  Real whiteBalance = 0;
+  Transfer transfer = Transfer::linear;
+  Real bloom = 0;
+  bool dither = false;
   // Passes
   EnumSet<Pass> passes{};
   PassFormat passFormat = PassFormat::exr;
@@ -154,6 +161,10 @@ inline Optics opticsOf(const Settings& s) {
           .stereo = s.stereo,
           .eyeSeparation = s.eyeSeparation,
           .zeroParallax = s.zeroParallax};
+}
+
+inline Development developmentOf(const Settings& s) {
+  return {s.bloom, s.exposure, s.whiteBalance, s.tone, s.transfer, s.dither};
 }
 
 inline Rules rulesOf(const Settings& s) {

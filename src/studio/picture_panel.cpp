@@ -24,8 +24,8 @@ void refresh(Studio& studio) {
   PictureView& view = studio.picture;
   Workspace& workspace = studio.workspace;
   const Settings settings = workspace.document.isOpen() ? workspace.document.settings() : Settings{};
-  const bool toneChanged =
-      view.exposed != view.exposure || view.tone != settings.tone || view.rounding != settings.rounding;
+  const bool toneChanged = view.exposed != view.exposure || view.development != developmentOf(settings) ||
+                           view.rounding != settings.rounding;
   bool pictureChanged = false;
   const double now = ImGui::GetTime(), interval = std::max(kLeastInterval, view.refreshCost / kMostShare);
   const bool due = !workspace.render.state().working() || now - view.refreshed > interval;
@@ -34,7 +34,8 @@ void refresh(Studio& studio) {
     view.shown = workspace.render.picture();
     pictureChanged = true;
   }
-  if (pictureChanged || view.tone != settings.tone) view.levels = toned(view.shown, settings.tone);
+  if (pictureChanged || view.development != developmentOf(settings))
+    view.levels = developed(view.shown, developmentOf(settings));
   if (view.shown.width > 0 && (pictureChanged || toneChanged))
     view.pictureTexture.set(exposed(view.levels, view.exposure, settings.rounding));
   const auto& reference = workspace.reference();
@@ -54,7 +55,7 @@ void refresh(Studio& studio) {
     view.differenceView = view.view, view.differenceMagnify = view.magnify;
   }
   view.referenceVersion = workspace.referenceVersion(), view.exposed = view.exposure;
-  view.tone = settings.tone, view.rounding = settings.rounding;
+  view.development = developmentOf(settings), view.rounding = settings.rounding;
   if (pictureChanged) view.refreshed = now, view.refreshCost = 0;
 }
 

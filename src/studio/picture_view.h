@@ -32,7 +32,7 @@ struct PictureView {
   double refreshed = 0, refreshCost = 0;  ///< seconds
   // How the textures were made.
   float exposed = 0;
-  Tone tone = Tone::clamp;
+  Development development;
   Rounding rounding = Rounding::truncate;
   View differenceView = View::picture;
   float differenceMagnify = 0;

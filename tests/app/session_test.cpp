@@ -25,7 +25,7 @@ Picture renderFile(const std::string& file, std::vector<Choice> choices) {
   session.open(file, choices);
   session.build();
   session.renderPicture();
-  return session.picture();
+  return developed(finished(session.picture(), session.settings()), developmentOf(session.settings()));
 }
 
 TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {

@@ -223,6 +223,19 @@ TEST_F(Explain, LintTellsWhatReadingRepaired) {
   EXPECT_NE(out({"lint", scene}, 6).find("without area"), std::string::npos);
 }
 
+TEST_F(Explain, SaysWhatTheFileShowsOfTheLight) {
+  const std::string scene = folder / "glow.ray";
+  writeFile(scene, "SBT-raytracer 1.0\nscale(9, sphere { material = { emissive = (0.25, 0.5, 1); } })\n");
+  const std::vector<std::string> words{"explain", scene, "--pixel", "4,3", "-w", "8"};
+  EXPECT_EQ(out(words).find("the file"), std::string::npos);
+  std::vector<std::string> developed = words;
+  developed.insert(developed.end(), {"--exposure", "-1", "--transfer", "srgb", "--bloom", "0.1"});
+  EXPECT_NE(
+      out(developed).find("the file    99 137 187 of 255, by exposure -1, transfer srgb; without bloom 0.1"),
+      std::string::npos)
+      << out(developed);
+}
+
 TEST_F(Explain, NamesWhatBackFacesHides) {
   const std::string scene = folder / "away.ray";
   writeFile(scene,

@@ -286,6 +286,7 @@ class GltfReader {
     warn("points and lines are left out", lines_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
+    model_.choices.push_back({"transfer", "srgb", place_});  // its colours are linear light
     return std::move(model_);
   }
 
