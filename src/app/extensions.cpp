@@ -6,7 +6,6 @@
 #include "app/session.h"
 #include "base/file.h"
 #include "image/codec.h"
-#include "image/development.h"
 #include "image/flip.h"
 
 namespace trace {
@@ -31,15 +30,17 @@ constexpr std::array kTable{
               "--distortion 0.3", ""},
     Extension{"stereo", "two eyes in one picture, here for glasses of red and cyan", "room.ray",
               "--stereo off", "--stereo red-cyan", ""},
-    Extension{"exposure", "brighter or darker by stops, before anything is cut off", "lamps.ray",
-              "--exposure 0", "--exposure 1", ""},
-    Extension{"white-balance", "the light of that colour temperature is white", "lamps.ray",
-              "--white-balance 0", "--white-balance 3200", ""},
+    Extension{"exposure", "brighter or darker, after the render", "lamps.ray", "--exposure 0", "--exposure 1",
+              ""},
+    Extension{"white-balance", "the lamps' light becomes white", "lamps.ray", "--white-balance 0",
+              "--white-balance 3200", ""},
     Extension{"transfer", "levels as screens expect them", "lamps.ray", "--transfer linear",
               "--transfer srgb", ""},
-    Extension{"bloom", "bright places shine over their surroundings", "lamps.ray", "--bloom 0", "--bloom 0.1",
-              ""},
-    Extension{"dither", "grain in place of bands between levels", "lamps.ray", "--dither off", "--dither on",
+    Extension{"tone", "a film's curve: bright colours fade to white", "lamps.ray",
+              "--transfer srgb --tone clamp", "--transfer srgb --tone agx", ""},
+    Extension{"bloom", "light that lens and eye scatter around lamps", "lamps.ray", "--bloom 0",
+              "--bloom 0.15", ""},
+    Extension{"dither", "noise of one level in place of steps", "lamps.ray", "--dither off", "--dither on",
               ""},
     Extension{"threshold", "rays that would add less are not sent: faster, and nearly the same",
               "threshold.ray", "--threshold 0", "--threshold 0.3", ""},
@@ -139,7 +140,8 @@ Picture pictureOf(const Extension& extension, bool on, const std::string& scenes
   session.build();
   session.renderPicture();
   const Settings& settings = session.settings();
-  return cut(developed(finished(session.picture(), settings), developmentOf(settings)), settings.region);
+  const Picture shown = developed(finished(session.picture(), settings), developmentOf(settings));
+  return cut(shown, settings.region);
 }
 
 std::string extensionsMarkdown() {

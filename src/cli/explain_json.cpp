@@ -14,7 +14,6 @@ namespace {
 Json toJson(const Vec3& v) { return Json::list({v.x, v.y, v.z}); }
 Json toJson(const Color& c) { return Json::list({c.r, c.g, c.b}); }
 Json toJson(Real x) { return x; }
-Json toJson(bool yes) { return yes; }
 Json toJson(int number) { return number; }
 template <class Enum>
 requires std::is_enum_v<Enum> Json toJson(Enum value) {
@@ -55,7 +54,7 @@ Json material(const Bsdf& bsdf) {
                                                 {"index", mixed.index},
                                                 {"shadow", mixed.shadow}});
                           },
-                          [&](const auto& bsdf) { return of(bsdf.said.kKeyword, fieldsOf(bsdf.said)); }});
+                          [&](const auto& model) { return of(model.said.kKeyword, fieldsOf(model.said)); }});
 }
 
 class Writer {

@@ -35,8 +35,9 @@ class PixelTracer {
     const Ray ray = frame.ray(place, lens);
     Footprint differentials;
     if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
-    CameraRay camera{ray, {}, tracer_.interfacesAt(ray.origin), weight, differentials.get()};
-    camera.hit = tracer_.cast(ray, RayKind::camera, camera.inside);
+    Interfaces inside = tracer_.interfacesAt(ray.origin);
+    CameraRay camera{ray, tracer_.cast(ray, RayKind::camera, inside), std::move(inside), weight,
+                     differentials.get()};
     if (tracer_.settings().outlines > 0) camera.ink = inkAt(tracer_, camera.hit, place, lens, rules_.size());
     look(camera);
     return integrator_.radiance(tracer_, sampler, camera);

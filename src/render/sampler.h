@@ -47,8 +47,10 @@ class SampleRules {
   const GeneratorRow& generator() const { return *generator_; }
   std::uint64_t seed() const { return seed_; }
 
+  /// The generator "grid" places samples without numbers.
+  bool onGrid() const { return onGrid_; }
   /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left, and what it
-  /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, but for the generator "grid".
+  /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, unless onGrid().
   FilmSample film(int x, int y, int k, const Vec2& u) const;
   /// The middle of the pixel, likewise.
   Vec2 middle(int x, int y) const {
@@ -77,7 +79,9 @@ class Sampler {
       : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {}
 
   /// Where in the picture the sample lies, and what it counts.
-  FilmSample film() const { return rules_->film(x_, y_, k_, branch(kFilm).next2()); }
+  FilmSample film() const {
+    return rules_->film(x_, y_, k_, rules_->onGrid() ? Vec2{} : branch(kFilm).next2());
+  }
 
   /// The number of the sample in its pixel.
   int sample() const { return k_; }

@@ -64,7 +64,7 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
 /// so that what lies behind is met where it is met without the surfaces before it.
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside) {
   if (!ignored(ray, found, inside)) return found;
-  collect(ray, kInfinity, facesSeenBy(kind), false);
+  collect(ray, kInfinity, facesSeenBy(kind));
   for (const Found& next : crossed_)
     if (found.before(next) && !ignored(ray, next, inside)) return next;
   return std::nullopt;
@@ -127,27 +127,44 @@ Color Tracer::passedNested(const Hit& from, const Ray& ray, Real distance, const
   return passed(ray, distance, &start);
 }
 
-/// The crossings in order along the ray, each once, into crossed_. False if one is opaque and that ends it.
-bool Tracer::collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque) {
-  bool blocked = false;
+/// The crossings in order along the ray, each once, into crossed_.
+void Tracer::collect(const Ray& ray, Real tMost, Faces faces) {
   crossed_.clear();
   world_.crossings(ray, tMost, faces, statistics_, [&](const Found& found) {
-    blocked = endAtOpaque && (world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black);
-    if (!blocked) crossed_.push_back(found);
-    return blocked;
+    crossed_.push_back(found);
+    return false;
   });
-  if (blocked) return false;
-  // In order along the ray, so that the product's last bit does not depend on the hierarchy.
+  sortCrossed();
+}
+
+/// The same for light; true if something lets none through.
+bool Tracer::occluded(const Ray& ray, Real tMost) {
+  crossed_.clear();
+  const bool blackGlass = settings_.glassShadows == GlassShadows::black;
+  if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
+        if (!blackGlass) crossed_.push_back(found);
+        return blackGlass;
+      }))
+    return true;
+  if (crossed_.size() > 1) sortCrossed();
+  return false;
+}
+
+/// In order along the ray, so that the product's last bit does not depend on the hierarchy.
+void Tracer::sortCrossed() {
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });
   const auto same = [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); };
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
-  return true;
 }
 
 /// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
 Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
-  if (!collect(ray, distance, facesSeenBy(RayKind::shadow), true)) return Color(0);
-  if (crossed_.empty() && !inside) return Color(1);
+  if (occluded(ray, distance)) return Color(0);
+  return crossed_.empty() && !inside ? Color(1) : filtered(ray, distance, inside);
+}
+
+/// What the crossings leave of it.
+Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
   Color color(1);
   Real last = 0;
   const auto record = [&](std::uint32_t object, std::uint64_t part, Real t, const Color& factor,
@@ -195,11 +212,11 @@ Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
 
 void Tracer::retrace(const RayNode& node) {
   if (node.kind == RayKind::shadow)
-    collect(node.ray, node.tMost, facesSeenBy(node.kind), true);
+    occluded(node.ray, node.tMost);
   else
     world_.closest(node.ray, facesSeenBy(node.kind), statistics_);
   if (!node.ignored.empty() && node.kind != RayKind::shadow)
-    collect(node.ray, kInfinity, facesSeenBy(node.kind), false);
+    collect(node.ray, kInfinity, facesSeenBy(node.kind));
 }
 
 /// passed() stops at the first opaque thing it comes across; a person wants to know the nearest.

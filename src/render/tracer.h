@@ -83,11 +83,14 @@ class Tracer {
   Faces facesSeenBy(RayKind kind) const;
   /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
-  bool collect(const Ray& ray, Real tMost, Faces faces, bool endAtOpaque);
+  void collect(const Ray& ray, Real tMost, Faces faces);
+  bool occluded(const Ray& ray, Real tMost);
+  void sortCrossed();
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside);
   Color passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
+  [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);
   std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;
 
   const World& world_;

@@ -304,7 +304,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     }
     if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-    std::vector<std::uint32_t> materials{object.material};  // of all its parts
+    std::vector<std::uint32_t> used{object.material};  // of all its parts
     Box3 box;
     if (const auto shared = instance.shape.mesh()) {
       auto& tree = trees[shared.get()];
@@ -319,16 +319,16 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       instance.mesh = tree;
       const std::vector<std::uint32_t>& own = tree->data().materials;
       instance.mixed = !own.empty();
-      materials.insert(materials.end(), own.begin(), own.end());
+      used.insert(used.end(), own.begin(), own.end());
       box = bounds(tree->data());
     } else {
       box = instance.shape.bounds();
       instance.approach = Approach(box);
       instance.convex = instance.shape.convex();
       instance.mixed = instance.shape.ofSeveralMaterials();
-      instance.shape.addMaterials(materials);
+      instance.shape.addMaterials(used);
     }
-    instance.opaque = std::none_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
+    instance.opaque = std::none_of(used.begin(), used.end(), [&](std::uint32_t m) {
       return m == MaterialMix::kClear || whitted(world.surfaces_.at(m).bsdf).transmits();
     });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())

@@ -84,7 +84,13 @@ class World {
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
   /// met more than once.
-  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const;
+  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
+    cross({ray, tMost, faces, false, statistics, visit});
+  }
+  /// The same for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
+  bool occluded(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
+    return cross({ray, tMost, faces, true, statistics, visit});
+  }
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
@@ -184,22 +190,24 @@ class World {
   // to a mesh stays short; in the tree there is one copy of it.
   void closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
                  Found& best) const;
-  [[gnu::noinline]] void closestInTree(const Ray& ray, Faces faces, Statistics& statistics,
-                                       Found& best) const;
   [[gnu::noinline]] bool closestSeen(const Instance& instance, const Ray& ray, Faces faces,
                                      Statistics& statistics, MeshHit& met) const;
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
                                         Statistics& statistics, Found& best) const;
-  /// Whether visit(Found) ended the query.
-  bool crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces, Statistics& statistics,
-                   VisitFound visit) const;
-  [[gnu::noinline]] void crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
-                                         VisitFound visit) const;
-  [[gnu::noinline]] bool meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray,
-                                       Real tMost, Faces faces, Statistics& statistics,
-                                       VisitFound visit) const;
-  [[gnu::noinline]] bool shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost,
-                                        Statistics& statistics, VisitFound visit) const;
+  /// What is asked of all crossings.
+  struct Across {
+    const Ray& ray;  ///< in world space
+    Real tMost;
+    Faces faces;
+    bool opaqueEnds;  ///< a crossing with an opaque object ends the query unvisited
+    Statistics& statistics;
+    VisitFound visit;
+  };
+  /// Whether something ended the query; here and below.
+  bool cross(const Across& query) const;
+  bool crossObject(std::uint32_t object, const Across& query) const;
+  [[gnu::noinline]] bool crossMesh(std::uint32_t object, const Ray& ray, const Across& query) const;
+  [[gnu::noinline]] bool crossShape(std::uint32_t object, const Ray& ray, const Across& query) const;
 
   /// The direction in which u grows.
   Vec3 along(const Hit& hit) const;

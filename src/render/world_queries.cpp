@@ -23,23 +23,18 @@ void World::collectForms() {
 
 std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
   std::optional<Found> best(std::in_place);
-  checkBudget();
-  for (std::uint32_t object : always_) {
-    checkBudget();
-    if (object != ray.leaves) closestOf(object, ray, faces, statistics, *best);
-  }
-  if (!bvh_->nodes().empty()) closestInTree(ray, faces, statistics, *best);
-  if (best->t == kInfinity) best.reset();
-  return best;
-}
-
-void World::closestInTree(const Ray& ray, Faces faces, Statistics& statistics, Found& best) const {
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
-    closestOf(object, ray, faces, statistics, best);
+    closestOf(object, ray, faces, statistics, *best);
     return false;
   };
-  bvh_->query(ray.origin, ray.direction, best.t, true, statistics.nodes, ask, ray.leaves);
+  checkBudget();
+  for (std::uint32_t object : always_)
+    if (object != ray.leaves) ask(object);
+  if (!bvh_->nodes().empty())
+    bvh_->query(ray.origin, ray.direction, best->t, true, statistics.nodes, ask, ray.leaves);
+  if (best->t == kInfinity) best.reset();
+  return best;
 }
 
 inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
@@ -114,59 +109,55 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
 
 // --- every crossing -----------------------------------------------------------------------------------
 
-void World::crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
-                      VisitFound visit) const {
-  checkBudget();
-  for (std::uint32_t object : always_) {
-    checkBudget();
-    if (object != ray.leaves && crossingsOf(object, ray, tMost, faces, statistics, visit)) return;
-  }
-  if (!bvh_->nodes().empty()) crossingsInTree(ray, tMost, faces, statistics, visit);
-}
-
-void World::crossingsInTree(const Ray& ray, Real tMost, Faces faces, Statistics& statistics,
-                            VisitFound visit) const {
+bool World::cross(const Across& query) const {
+  bool ended = false;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
-    return crossingsOf(object, ray, tMost, faces, statistics, visit);
+    return ended = crossObject(object, query);
   };
-  bvh_->query(ray.origin, ray.direction, tMost, false, statistics.nodes, ask, ray.leaves);
+  checkBudget();
+  const Ray& ray = query.ray;
+  for (std::uint32_t object : always_)
+    if (object != ray.leaves && ask(object)) return true;
+  if (!bvh_->nodes().empty())
+    bvh_->query(ray.origin, ray.direction, query.tMost, false, query.statistics.nodes, ask, ray.leaves);
+  return ended;
 }
 
-inline bool World::crossingsOf(std::uint32_t object, const Ray& worldRay, Real tMost, Faces faces,
-                               Statistics& statistics, VisitFound visit) const {
+inline bool World::crossObject(std::uint32_t object, const Across& query) const {
   const Instance& instance = objects_[object];
   const auto inItsSpace = [&](const Ray& ray) {
-    return instance.mesh ? meshCrossings(instance, object, ray, tMost, faces, statistics, visit)
-                         : shapeCrossings(object, ray, tMost, statistics, visit);
+    return instance.mesh ? crossMesh(object, ray, query) : crossShape(object, ray, query);
   };
   const Placement& placement = instance.placement;
-  return placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
+  return placement.moved() ? inItsSpace(placement.into(query.ray)) : inItsSpace(query.ray);
 }
 
-bool World::meshCrossings(const Instance& instance, std::uint32_t object, const Ray& ray, Real tMost,
-                          Faces faces, Statistics& statistics, VisitFound visit) const {
+bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across& query) const {
+  const Instance& instance = objects_[object];
   const MeshTree& mesh = *instance.mesh;
+  Statistics& statistics = query.statistics;
+  const bool ends = query.opaqueEnds && instance.opaque;
   bool ended = false;
   const auto met = [&](const MeshHit& hit) {
-    if (!sees(faces, ray, mesh.data(), hit)) return false;
+    if (!sees(query.faces, ray, mesh.data(), hit)) return false;
     ++statistics.hits[instance.kind];
-    return ended = visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
+    return ended = ends || query.visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
   };
   statistics.nodes.owner = object;
-  mesh.crossings(ray, tMost, met, {statistics.nodes, statistics.tests[instance.kind]});
+  mesh.crossings(ray, query.tMost, met, {statistics.nodes, statistics.tests[instance.kind]});
   statistics.nodes.owner = NodeCount::kTop;
   return ended;
 }
 
-bool World::shapeCrossings(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
-                           VisitFound visit) const {
+bool World::crossShape(std::uint32_t object, const Ray& ray, const Across& query) const {
+  const bool ends = query.opaqueEnds && objects_[object].opaque;
   bool ended = false;
-  Real wanted = tMost;
-  crossingsOfShape(object, ray, wanted, statistics, [&](const Crossing& crossing) {
-    if (ended || !(crossing.t > 0 && crossing.t < tMost)) return;
-    ++statistics.hits[objects_[object].kind];
-    ended = visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+  Real wanted = query.tMost;
+  crossingsOfShape(object, ray, wanted, query.statistics, [&](const Crossing& crossing) {
+    if (ended || !(crossing.t > 0 && crossing.t < query.tMost)) return;
+    ++query.statistics.hits[objects_[object].kind];
+    ended = ends || query.visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
     if (ended) wanted = -kInfinity;
   });
   return ended;

@@ -96,8 +96,14 @@ WhittedTerms weighedTerms(const MixedParts& parts) {
     return weighed(parts, std::remove_cvref_t<decltype(WhittedTerms{}.*member)>(0),
                    [&](const Bsdf& part) { return whitted(part).*member; });
   };
-  return {all(&WhittedTerms::emissive),     all(&WhittedTerms::ambient), all(&WhittedTerms::reflective),
-          all(&WhittedTerms::transmissive), all(&WhittedTerms::index),   all(&WhittedTerms::shadow)};
+  WhittedTerms terms;
+  terms.emissive = all(&WhittedTerms::emissive);
+  terms.ambient = all(&WhittedTerms::ambient);
+  terms.reflective = all(&WhittedTerms::reflective);
+  terms.transmissive = all(&WhittedTerms::transmissive);
+  terms.index = all(&WhittedTerms::index);
+  terms.shadow = all(&WhittedTerms::shadow);
+  return terms;
 }
 
 /// Of one model that says its values.

@@ -55,10 +55,10 @@ struct WhittedTerms {
   Real sharp = 1;           ///< the part of a lobe for which one ray stands, where passage is byFresnel
   bool litThrough = false;  ///< light from behind crosses the body, and `evaluate` knows how much is left
 
-  void fill(const Interior& interior, Real index) {
+  void fill(const Interior& interior, Real said) {
     priority = interior.priority;
     attenuation = interior.passesPerUnit();
-    dispersion = {interior.dispersion, interior.abbe, index};
+    dispersion = {interior.dispersion, interior.abbe, said};
   }
   bool transmits() const { return !isBlack(transmissive); }
   bool mirrors() const { return !isBlack(reflective); }

@@ -10,6 +10,7 @@ struct Texture::Data {
   TextureNode node;
   bool moved = false;
   Affine patternFromObject;  ///< the identity where it is flat
+  double size = 1;
 };
 
 namespace {
@@ -37,11 +38,14 @@ TexturePlace moved(const TexturePlace& p, const Affine& m) {
 }  // namespace
 
 Texture::Texture(TextureNode node) {
-  auto data = std::make_shared<Data>(Data{std::move(node), false, {}});
+  auto data = std::make_shared<Data>(Data{std::move(node), false, {}, 1});
   data->moved = !(data->node.placement == TexturePlacement{});
   if (data->moved) data->patternFromObject = patternFromObject(data->node.placement);
+  for (const FieldTexture& input : data->node.inputs) data->size += input.texture.size();
   data_ = std::move(data);
 }
+
+double Texture::size() const { return data_->size; }
 
 const TextureNode& Texture::operator*() const { return data_->node; }
 

@@ -477,14 +477,14 @@ TEST(BrokenFiles, Obj) {
       {"map_Kd", "warning map_Kd: expected the name of a picture"},
       {"map_Kd wood.png", "warning the texture \"wood.png\" cannot be read"},
       {"map_Ns -s 2 2 2 shine.png", "warning the texture \"shine.png\" cannot be read"},
-      {"bump -bm 0.5 dents.png", "warning the texture \"dents.png\" is not rendered yet"},
+      {"bump -bm 0.5 dents.png", "warning the texture \"dents.png\" cannot be read"},
       {"disp deep.png", "warning the texture \"deep.png\" is not rendered yet"},
-      {"norm normals.png", "warning the texture \"normals.png\" is not rendered yet"},
+      {"norm normals.png", "warning the texture \"normals.png\" cannot be read"},
       {"refl -type sphere sky.png", "warning the texture \"sky.png\" is not rendered yet"},
       {"map_d holes.png", "warning the texture \"holes.png\" cannot be read"},
       {"map_d -mm 0 2 holes.png", "warning the option \"-mm\" of a texture is ignored"},
       {"map_Ka a.png\nmap_Kd b.png\nmap_Ks c.png\nmap_Ke d.png\nmap_bump e.png",
-       "warning the textures \"a.png\", \"b.png\", \"d.png\" and \"c.png\" cannot be read"},
+       "warning the textures \"a.png\", \"e.png\", \"b.png\" and 2 more cannot be read"},
   };
   for (const auto& [line, expected] : materials) {
     writeFile(folder.path() + "/a.mtl", std::string("newmtl gold\n") + line + "\n");
@@ -701,7 +701,7 @@ TEST(BrokenFiles, Gltf) {
            .insert(1,
                    "\"textures\": [{\"source\": 0}], \"images\": [{\"bufferView\": 0, \"mimeType\": "
                    "\"image/png\", \"name\": \"dents\"}], "),
-       "warning the texture \"dents (inside the file)\" is not rendered yet"},
+       "warning the texture \"dents (inside the file)\" cannot be read"},
   });
 }
 

@@ -154,6 +154,15 @@ TEST(GltfTextures, ChannelsOfMetallicRoughnessAndOcclusion) {
   }
 }
 
+TEST(GltfTextures, NormalsBendTheNormal) {
+  const Read read("a.gltf", gltf(R"("normalTexture": {"index": 0, "scale": 0.5})"));
+  const auto& map = std::get<ImageMap>(read.texture("bump")->model);
+  EXPECT_EQ(map.relief, Relief::normals) << "green counts up";
+  EXPECT_FALSE(map.srgb);
+  EXPECT_EQ(read.material().bump, 0.5);
+  expectUpright(read, "bump");
+}
+
 TEST(GltfTextures, SamplersAndTransforms) {
   const std::string sampler = "\"samplers\": [{\"wrapS\": 33071, \"wrapT\": 33648, \"magFilter\": 9728}], ";
   const Read wrapped("a.gltf", gltf(kBase, R"("source": 0, "sampler": 0)", sampler));
@@ -239,6 +248,17 @@ TEST_F(ObjTextures, OptionsPlaceThePicture) {
   EXPECT_EQ(read("map_Ks -imfchan g a.tga").at("specular", kTopRight), kWhite);
   EXPECT_NE(read("map_Kd -mm 0 2 a.tga").warnings().find("the option \"-mm\" of a texture is ignored"),
             std::string::npos);
+}
+
+TEST_F(ObjTextures, BumpsAreHeightsByTheModelsSize) {
+  const Read heights = read("map_Bump -bm 2 a.tga");
+  EXPECT_EQ(heights.warnings(), "");
+  EXPECT_EQ(std::get<ImageMap>(heights.texture("bump")->model).relief, Relief::heights);
+  EXPECT_NEAR(heights.material().bump, 2.0 / 200, 1e-7) << "of a triangle with sides of 1";
+  EXPECT_NEAR(read("bump a.tga").material().bump, 1.0 / 200, 1e-7);
+  const Read normals = read("bump a.tga\nnorm a.tga");
+  EXPECT_EQ(std::get<ImageMap>(normals.texture("bump")->model).relief, Relief::normals);
+  EXPECT_EQ(normals.material().bump, 1);
 }
 
 TEST_F(ObjTextures, NamesOfOtherMachines) {

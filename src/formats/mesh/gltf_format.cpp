@@ -548,7 +548,6 @@ class GltfReader {
     Material material = toMaterial(from.name, m);
     if (m.metallicRoughnessMap && std::holds_alternative<Phong>(material.model))
       noteTexture(pbr.metallicRoughnessTexture.index);
-    noteTexture(from.normalTexture.index);  // a material has no field that it could change
     return material;
   }
 
@@ -562,6 +561,8 @@ class GltfReader {
     m.metallicRoughnessMap = pictureOf(pbr.metallicRoughnessTexture, set);
     m.emissiveMap = pictureOf(from.emissiveTexture, set);
     m.occlusionMap = pictureOf(from.occlusionTexture, set);
+    m.normalMap = pictureOf(from.normalTexture, set);
+    m.normalScale = std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1;
     m.occlusionStrength = from.occlusionTexture.strength;
     if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
     if (m.baseColorMap) m.baseColorMap->srgb = true;

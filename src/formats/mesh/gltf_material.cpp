@@ -99,6 +99,12 @@ Material toMaterial(std::string name, const MetallicRoughness& m) {
     put("metallic", channelOf(*m.metallicRoughnessMap, Channel::blue));
     put("roughness", channelOf(*m.metallicRoughnessMap, Channel::green));
   }
+  if (m.normalMap) {
+    ImageMap normals = *m.normalMap;
+    normals.relief = Relief::normals;
+    put("bump", TextureNode{.model = std::move(normals)});
+    material.bump = m.normalScale;
+  }
   if (m.hasAlphaMap) {
     const Texture opacity = channelOf(*m.baseColorMap, Channel::alpha);
     if (m.alpha == Alpha::blend)

@@ -21,7 +21,8 @@ struct MetallicRoughness {
   double transmission = 0, index = 1.5;
 
   // Each is multiplied by its number above; colours are decoded.
-  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, emissiveMap, occlusionMap;
+  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, emissiveMap, occlusionMap, normalMap;
+  double normalScale = 1;
   double occlusionStrength = 1;
   bool hasAlphaMap = false;  ///< the alpha of baseColorMap counts
 };

@@ -39,8 +39,8 @@ constexpr std::array<std::string_view, 21> kMaps{
     "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
 /// Those whose picture is rendered.
-constexpr std::array<std::string_view, 6> kRendered{"map_Ka", "map_Kd", "map_Ks",
-                                                    "map_Ke", "map_Ns", "map_d"};
+constexpr std::array<std::string_view, 10> kRendered{"map_Ka", "map_Kd",   "map_Ks",   "map_Ke", "map_Ns",
+                                                     "map_d",  "map_Bump", "map_bump", "bump",   "norm"};
 
 /// Statements of physically based materials, which Trace's material does not have.
 constexpr std::array<std::string_view, 7> kNotUsed{"Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"};
@@ -67,8 +67,8 @@ constexpr std::array<MapOption, 14> kMapOptions{{{"-blendu", 1},
                                                  {"-s", 3, "1"},
                                                  {"-t", 3, "0"}}};
 /// Those without effect on what is rendered, or with one that is rendered.
-constexpr std::array<std::string_view, 9> kMapOptionsUsed{
-    "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
+constexpr std::array<std::string_view, 10> kMapOptionsUsed{
+    "-bm", "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
 
 template <std::size_t N>
 bool has(const std::array<std::string_view, N>& list, std::string_view word) {
@@ -212,8 +212,7 @@ class MtlCheck {
   void map(std::string_view key, LineWords words) {
     const std::string_view picture =
         pictureOf(words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>&) {
-          const bool isBump = name == "-bm";  // told of with its picture
-          if (!has(kMapOptionsUsed, name) && !isBump)
+          if (!has(kMapOptionsUsed, name))
             warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
         });
     if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");

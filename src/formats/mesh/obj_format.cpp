@@ -85,6 +85,15 @@ ImageMap toMap(std::string file, const tinyobj::texture_option_t& option) {
   return map;
 }
 
+/// How high `bump` is where its picture is white, as a part of the model's longest side: MTL does not say.
+constexpr Real kBumpHeight = 0.005;
+
+bool hasHeights(const Material& material) {
+  const Texture* texture = textureOf(material.textures, "bump");
+  const auto* map = texture ? std::get_if<ImageMap>(&(*texture)->model) : nullptr;
+  return map && map->relief == Relief::heights;
+}
+
 /// Puts the pictures of the MTL material, which stands at the place, on it. `nameOf` gives a picture's name
 /// as seen from the mesh's file, `isTransparent` says whether the picture of that name may be so.
 template <class NameOf, class IsTransparent>
@@ -110,6 +119,19 @@ void addTextures(const tinyobj::material_t& mtl, const Place& place, Material& m
     put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
   else if (!isBlack(phong.ambient))
     put("ambient", mtl.diffuse_texname, mtl.diffuse_texopt);
+
+  // Normals where both are given: they were baked from heights.
+  if (!mtl.normal_texname.empty()) {
+    ImageMap normals = map(mtl.normal_texname, mtl.normal_texopt);
+    normals.relief = Relief::normals;
+    setTexture(material.textures, "bump", TextureNode{.model = std::move(normals)});
+    material.bump = 1;
+  } else if (!mtl.bump_texname.empty()) {
+    put("bump", mtl.bump_texname, mtl.bump_texopt);
+    const Real strength =
+        mtl.bump_texopt.bump_multiplier;  // in units of kBumpHeight, until the size is known
+    material.bump = std::isfinite(strength) ? strength : 1;
+  }
 
   const bool own = !mtl.alpha_texname.empty();
   if (!own && mtl.diffuse_texname.empty()) return;
@@ -325,6 +347,12 @@ class ObjReader : public tinyobj::MaterialReader {
     warnUndefined();
     warnings_.report(messages_);
     textures_.report(messages_);
+    Box3 box;
+    for (const Vec3f& point : points_)
+      if (isFinite(Vec3(point))) box.extend(Vec3(point));
+    const Real longest = box.empty() ? 1 : maxComponent(box.size());
+    for (Material& material : model_.materials)
+      if (hasHeights(material)) material.bump *= kBumpHeight * longest;
     for (const auto& part : parts_) {
       if (part->mesh.triangles.empty()) continue;
       if (!part->hasNormals) part->mesh.normals.clear();

@@ -17,9 +17,8 @@ namespace {
 struct Path {
   RayKind kind = RayKind::camera;
   int depth = 0;
-  Color weight{1};  ///< the largest share of the pixel that this ray can still make
-  Interfaces inside{};
-  Real spread = 0.5;                             ///< where the wavelengths of a fan lie: spectralFan()
+  Color weight{1};    ///< the largest share of the pixel that this ray can still make
+  Real spread = 0.5;  ///< where the wavelengths of a fan lie: spectralFan()
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
 };
@@ -30,8 +29,14 @@ constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 /// The numbers by which a direction into a lobe is chosen.
 constexpr std::uint32_t kLobe = 0x7fffffffu;
 
-/// Takes `path` to where the ray gets.
-Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler);
+/// Both sides of a surface that was hit, and what fills its body.
+struct Boundary {
+  Filling body;
+  Sides sides;
+};
+
+/// The radiance along a ray that starts in `inside`.
+Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside, const Sampler& sampler);
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
@@ -43,8 +48,8 @@ Real spreadOf(int k) {
 }
 
 /// A path of all colours is split into wavelengths there.
-bool splits(const Sides& sides, const Path& path, const Settings& settings) {
-  return settings.wavelengths > 1 && path.inside.wavelength == 0 &&
+bool splits(const Sides& sides, const Interfaces& inside, const Settings& settings) {
+  return settings.wavelengths > 1 && inside.wavelength == 0 &&
          (!sides.before.dispersion.none() || !sides.behind.dispersion.none());
 }
 
@@ -58,9 +63,9 @@ Real mirroredShare(Fresnel fresnel, Real cosine, const Indices& indices) {
   return 0;
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`.
+/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
 Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
-                    const Sampler& sampler) {
+                    const Interfaces& inside, const Sampler& sampler) {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
@@ -84,15 +89,16 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const Frame frame = world.frame(*hit, *bsdf, normal);
   const Real cosine = -dot(ray.direction, normal);
 
-  Filling body;
-  Sides sides;
-  if (material.transmits() || settings.varnish || tracer.records()) {
-    body = tracer.filling(*hit, material);
-    sides = path.inside.at(hit->leaving, body, hit->solid);
+  const bool transmits = material.transmits();
+  std::optional<Boundary> boundary;  // where somebody asks for it
+  Indices indices;
+  if (transmits || settings.varnish || tracer.records()) {
+    boundary.emplace(Boundary{tracer.filling(*hit, material), {}});
+    boundary->sides = inside.at(hit->leaving, boundary->body, hit->solid);
+    indices = Indices(boundary->sides, inside.wavelength, inside.nested());
   }
   const bool straight = material.passage == Passage::straight;
-  const Indices indices(sides, path.inside.wavelength, path.inside.nested());
-  const bool coated = settings.varnish && !material.transmits() && material.index != 1 && cosine > 0;
+  const bool coated = settings.varnish && !transmits && material.index != 1 && cosine > 0;
   const Real coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
 
   sum.add(Term::Kind::emissive, material.emissive);
@@ -106,7 +112,7 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       const Color scattered = arriving->scattered(parts) * share;
       const Color passed = isBlack(scattered) ? Color(0)
                                               : tracer.visible(*hit, arriving->toLight, arriving->distance,
-                                                               path.inside, material.litThrough);
+                                                               inside, material.litThrough);
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
       if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
     };
@@ -131,33 +137,33 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     return false;
   };
   const auto onward = [&](RayKind kind, const Color& share) {
-    return Path{kind, path.depth + 1, path.weight * share, path.inside, path.spread};
+    return Path{kind, path.depth + 1, path.weight * share, path.spread};
   };
   sum.note(indices);
-  const SpectralShare whole{path.inside.wavelength, Color(1)};
+  const SpectralShare whole{inside.wavelength, Color(1)};
   std::vector<SpectralShare> fan;
-  if (material.transmits() && !straight && splits(sides, path, settings))
+  if (transmits && !straight && splits(boundary->sides, inside, settings))
     fan = spectralFan(settings.wavelengths, path.spread);
   const std::span<const SpectralShare> shares =
-      fan.empty() ? std::span(&whole, material.transmits() ? 1 : 0) : std::span(std::as_const(fan));
+      fan.empty() ? std::span(&whole, transmits ? 1 : 0) : std::span(std::as_const(fan));
   // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
   const Fresnel fresnel = straight                                 ? Fresnel::constant
                           : material.passage == Passage::byFresnel ? Fresnel::exact
                                                                    : settings.fresnel;
   const auto shareMirrored = [&](const SpectralShare& share) {
-    return mirroredShare(fresnel, cosine, Indices(sides, share.nanometres, false));
+    return mirroredShare(fresnel, cosine, Indices(boundary->sides, share.nanometres, false));
   };
   const bool asSaid = material.passage != Passage::asSaid || settings.glass == Glass::perCrossing;
   const Color filters = asSaid ? material.transmissive : Color(1);
   const bool glossy = settings.glossy && isGlossy(*bsdf);
   Color mirror(coat);
-  if (fresnel != Fresnel::constant && material.transmits())
+  if (fresnel != Fresnel::constant && transmits)
     for (const SpectralShare& share : shares)
       mirror += share.weight * (shareMirrored(share) * material.sharp);
   else if (!glossy)
     mirror += mirrorWeight(*bsdf, cosine) * (1 - coat);
   if (glossy) {  // one ray into the lobe, in place of those that stand for its core
-    if (material.transmits()) mirror = Color(0);
+    if (transmits) mirror = Color(0);
     Sampler numbers = sampler.branch(kLobe);
     const Real choose = numbers.next();
     const auto drawn = sample(*bsdf, frame, -ray.direction, choose, numbers.next2(), Transport::importance);
@@ -166,11 +172,13 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
               : Color(0);
     if (!isBlack(lobe)) {
       const bool through = dot(drawn->toLight, normal) < 0;
-      Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - coat));
+      const Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - coat));
       if (worthwhile(next)) {
-        if (through) next.inside.pass(hit->leaving, body, hit->solid);
+        Interfaces there = inside;
+        if (through && boundary) there.pass(hit->leaving, boundary->body, hit->solid);
         sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - coat),
-                follow(tracer, hit->leave(drawn->toLight), next, sampler.branch(kMirrored + through)));
+                follow(tracer, hit->leave(drawn->toLight), next, std::move(there),
+                       sampler.branch(kMirrored + through)));
       }
     }
   }
@@ -180,7 +188,8 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
       next.differentials = widened.get();
       sum.add(Term::Kind::reflection, mirror,
-              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, sampler.branch(kMirrored)));
+              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, inside,
+                     sampler.branch(kMirrored)));
     }
   }
   std::uint32_t branch = kRefracted;
@@ -191,40 +200,41 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
     Path next = onward(RayKind::refraction, share.weight * filter);
     const std::uint32_t number = branch++;
     if (!worthwhile(next)) continue;
+    const auto& [body, sides] = *boundary;
     const Real ratio =
         straight ? 1 : sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
     const auto direction = straight ? std::optional(ray.direction) : refracted(ray.direction, normal, ratio);
     if (direction) {
-      if (!straight) next.inside.pass(hit->leaving, body, hit->solid);
-      next.inside.wavelength = share.nanometres;
+      Interfaces behind = inside;
+      if (!straight) behind.pass(hit->leaving, body, hit->solid);
+      behind.wavelength = share.nanometres;
       const Footprint widened =
           refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
       next.differentials = widened.get();
       sum.add(Term::Kind::refraction, share.weight * filter,
-              follow(tracer, hit->leave(*direction), next, sampler.branch(number)));
+              follow(tracer, hit->leave(*direction), next, std::move(behind), sampler.branch(number)));
     } else if (!std::exchange(total, true)) {
       sum.stop(TotalInternalReflection{});
     }
   }
   sum.draw(path.ink);
-  const Color& medium = path.inside.around().passes;
+  const Color& medium = inside.around().passes;
   return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, hit->t));  // Beer's law
 }
 
-Color follow(Tracer& tracer, const Ray& ray, Path& path, const Sampler& sampler) {
-  const std::optional<Hit> hit = tracer.cast(ray, path.kind, path.inside);
-  return radianceAlong(tracer, ray, hit, path, sampler);
+Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside, const Sampler& sampler) {
+  const std::optional<Hit> hit = tracer.cast(ray, path.kind, inside);
+  return radianceAlong(tracer, ray, hit, path, inside, sampler);
 }
 
 }  // namespace
 
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
-  path.inside = camera.inside;
   path.spread = spreadOf(sampler.sample());
   path.differentials = camera.differentials;
   path.ink = camera.ink;
-  return radianceAlong(tracer, camera.ray, camera.hit, path, sampler);
+  return radianceAlong(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
 }  // namespace trace
