@@ -22,9 +22,13 @@ bool listed(std::string_view name) {
 
 TEST(Extensions, EveryExtraAndEveryShadingModelHasAnExample) {
   for (const Option& option : options())
-    if (option.extra) EXPECT_TRUE(listed(option.name)) << option.name;
+    if (option.extra) {
+      EXPECT_TRUE(listed(option.name)) << option.name;
+    }
   for (const std::string_view model : modelKeywords())
-    if (model != Phong::kKeyword) EXPECT_TRUE(listed(model)) << model;
+    if (model != Phong::kKeyword) {
+      EXPECT_TRUE(listed(model)) << model;
+    }
 }
 
 TEST(Extensions, EachChangesThePictureOfItsExample) {
@@ -37,7 +41,9 @@ TEST(Extensions, EachChangesThePictureOfItsExample) {
     const Picture off = pictureOf(e, false, kScenes, small), on = pictureOf(e, true, kScenes, small);
     ASSERT_EQ(off.width, on.width);
     EXPECT_NE(off, on);
-    if (!e.view.empty()) EXPECT_EQ(off.width, 200) << "the region alone";
+    if (!e.view.empty()) {
+      EXPECT_EQ(off.width, 200) << "the region alone";
+    }
   }
 }
 

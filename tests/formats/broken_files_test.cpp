@@ -701,7 +701,7 @@ TEST(BrokenFiles, Gltf) {
            .insert(1,
                    "\"textures\": [{\"source\": 0}], \"images\": [{\"bufferView\": 0, \"mimeType\": "
                    "\"image/png\", \"name\": \"dents\"}], "),
-       "warning the texture \"dents (inside the file)\" cannot be read"},
+       "warning the texture \"a.gltf#images[0]\" cannot be read"},
   });
 }
 
@@ -766,7 +766,9 @@ TEST(BrokenFiles, TexturesOfEveryFormatAreNamedOnce) {
     iv += "Texture2 { filename \"" + picture + "\" } Sphere { }\n";
     vrml += "Shape { appearance Appearance { texture ImageTexture { url \"" + picture +
             "\" } } geometry Sphere { } }\n";
-    materials += comma + "{\"normalTexture\": {\"index\": " + n + "}}";
+    materials += comma + "{\"occlusionTexture\": {\"index\": " + n +
+                 "}, \"normalTexture\": {\"index\": " + n +
+                 ", \"texCoord\": 1}}";  // of another set of coordinates
     textures += comma + "{\"source\": " + n + "}";
     images += comma + "{\"uri\": \"" + picture + "\"}";
   }
