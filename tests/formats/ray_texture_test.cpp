@@ -152,6 +152,17 @@ TEST(RayTexture, TellsWhatIsWrong) {
             "2:43: unknown field \"c\" of checker is ignored [did you mean \"a\"?]");
 }
 
+TEST(RayTexture, WarnsOfWhatShowsNothing) {
+  const auto warned = [](const std::string& texture) {
+    return warningsOf("sphere { material = { diffuse = " + texture + "; } }");
+  };
+  EXPECT_NE(warned("checker { scale = (0, 1, 1); }").find("the scale of a texture has a 0"),
+            std::string::npos);
+  EXPECT_NE(warned("image { }").find("image: expected a file"), std::string::npos);
+  EXPECT_NE(warned("formula { }").find("formula: expected value"), std::string::npos);
+  EXPECT_EQ(warned("formula { value = \"u\"; }"), "");
+}
+
 TEST(RayTexture, HoldsOnlySoManyInOneAnother) {
   std::string text = "texture = checker { name = t0; }\n";
   for (int i = 1; i <= 40; ++i) {  // each has the one before it in two places
