@@ -166,7 +166,8 @@ class Writer {
                        {"attenuation", l.arriving.attenuation},
                        {"diffuse", toJson(l.scatter.diffuse)},
                        {"specular", toJson(l.scatter.specular)},
-                       {"extraHighlight", toJson(l.arriving.extraHighlight)}};
+                       {"extraHighlight", toJson(l.arriving.extraHighlight)},
+                       {"share", l.share}};
     }
     return json;
   }

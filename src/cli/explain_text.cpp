@@ -153,7 +153,7 @@ class TreeText {
     if (!isBlack(from.extraHighlight * light.scatter.specular))
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
     line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
-         ")");
+         ")" + (light.share == 1 ? "" : " * " + text(light.share) + " as one of several rays"));
     const Real shadow = whitted(*node.bsdf).shadow;
     if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
     line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +

@@ -55,9 +55,8 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
       Pixel& pixel = pixels_[index(x, y)];
       pixel.taken += wave.count();
       for (std::size_t k = at; k < at + count; ++k) {
-        if (!isFinite(samples.colors[k])) continue;
-        pixel.sum += samples.colors[k];
-        ++pixel.count;
+        if (isFinite(samples.colors[k]))
+          pixel.colors.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
       }
       for (std::size_t i = 0; i < layers_.size(); ++i) {
         const auto value = [&](std::size_t k) {
@@ -100,7 +99,7 @@ Picture Film::picture() const {
 }
 
 void Film::copyDone(Picture& onto) const {
-  forEachDone([&](const Pixel& pixel, int x, int y) { onto.at(x, y) = pixel.mean(); });
+  forEachDone([&](const Pixel& pixel, int x, int y) { onto.at(x, y) = pixel.colors.mean(); });
 }
 
 Picture Film::layer(std::size_t number) const {

@@ -31,10 +31,41 @@ struct Wave {
 /// One sample, one more, 2, 4, 8, and from then on 16 at a time.
 std::vector<Wave> wavesOf(int samples);
 
+/// The mean of samples that may count differently, and below 0: the sum of weight times colour by that of the
+/// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, by chance, they
+/// do not count.
+class WeightedMean {
+ public:
+  void add(const Color& color, double weight) {
+    sum_ += color * weight;
+    weights_ += weight;
+    if (weight > 0) {
+      above_ += color * weight;
+      weightsAbove_ += weight;
+    }
+  }
+  Color mean() const {
+    if (usesAll()) return weights_ != 0 ? sum_ / weights_ : Color(0);
+    return above_ / weightsAbove_;
+  }
+  /// What a sample of the weight, one of `count`, counts in it: 1 if all count alike.
+  double counts(double weight, double count) const {
+    if (usesAll()) return weights_ != 0 ? weight * count / weights_ : 0;
+    return weight > 0 ? weight * count / weightsAbove_ : 0;
+  }
+
+ private:
+  bool usesAll() const { return weightsAbove_ == 0 || weights_ > 0.25 * weightsAbove_; }
+
+  Color sum_, above_;
+  double weights_ = 0, weightsAbove_ = 0;
+};
+
 /// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order.
 struct TileSamples {
   Tile area{0, 0, 0, 0};
   std::vector<Color> colors;               ///< those that are not finite do not count
+  std::vector<double> weights{};           ///< of these; empty if all are 1
   std::vector<std::vector<Color>> layers;  ///< the same of each layer; one that is missing stays blank
 };
 
@@ -76,10 +107,8 @@ class Film {
 
  private:
   struct Pixel {
-    Color sum;
+    WeightedMean colors;
     int taken = 0;  ///< samples
-    int count = 0;  ///< of those, finite
-    Color mean() const { return count > 0 ? sum / count : Color(0); }
   };
   struct Layer {
     LayerKind kind;

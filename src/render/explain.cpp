@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "image/film.h"
 #include "render/pixel.h"
 
 namespace trace {
@@ -24,19 +25,20 @@ Explanation explain(const World& world, const Integrator& integrator, const Sett
   result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
   PixelTracer(world, integrator, settings, size, &result.tree).sample(x, y, sample);
 
-  Color sum;
-  int count = 0;
+  WeightedMean mean;
   for (int k = 0; k < plain.samples() && !(cancelled && cancelled()); ++k) {
     Real weight = 1;
     result.samples.push_back(plain.sample(x, y, k, [&](const CameraRay& ray) { weight = ray.weight; }));
     result.weights.push_back(weight);
-    if (!isFinite(result.samples.back())) continue;
-    sum += result.samples.back() * weight;
-    ++count;
+    if (isFinite(result.samples.back())) mean.add(result.samples.back(), weight);
   }
-  if (count > 0) result.pixel = sum / count;
+  result.pixel = mean.mean();
+  const auto finite = std::count_if(result.samples.begin(), result.samples.end(),
+                                    [](const Color& color) { return isFinite(color); });
+  for (Real& weight : result.weights) weight = mean.counts(weight, static_cast<Real>(finite));
   const auto shown = static_cast<std::size_t>(sample);
-  weigh(result.tree, (shown < result.weights.size() ? result.weights[shown] : 1) / std::max(count, 1));
+  weigh(result.tree, (shown < result.weights.size() ? result.weights[shown] : 1) /
+                         static_cast<Real>(std::max<std::ptrdiff_t>(finite, 1)));
   return result;
 }
 

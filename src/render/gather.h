@@ -28,11 +28,11 @@ class Gather {
   /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
   /// scatters; factor is their product, of which `passed` is not in shadow.
   void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
-                const Color& passed) {
+                const Color& passed, Real share = 1) {
     sum_ += factor * passed;
     if (Tracer::recorded(node_))
       tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
-                             LightTerm{tracer_.world().lightSource(light), arriving, scatter}});
+                             LightTerm{tracer_.world().lightSource(light), arriving, scatter, share}});
   }
 
   /// An outline covers so much of what has been added.

@@ -90,6 +90,8 @@ std::string sentence(const Outside::View& view) {
     case Outside::Source::nothing:
     case Outside::Source::bands: return "background";
     case Outside::Source::sky:
+      if (view.place.y < 0) return "ground, below the horizon of the sky";
+      [[fallthrough]];
     case Outside::Source::gradient:
       std::snprintf(text, sizeof text, "%s at %.4g degrees above the horizon", name, view.place.y);
       return text;

@@ -47,7 +47,9 @@ class TileRenderer {
             weight = camera.weight;
             if (!passes_.empty()) addPasses(camera, samples.layers);
           });
-          samples.colors.push_back(color * weight);
+          if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
+          if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
+          samples.colors.push_back(color);
           if (!isFinite(color)) noteBad({x, y, k});
         }
     return samples;

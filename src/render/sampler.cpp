@@ -117,7 +117,7 @@ FilmSample SampleRules::film(int x, int y, int k, const Vec2& u) const {
   const auto within = [&](int cell) { return (cell + 0.5) / grid_; };
   const FilmSample sample = filter_.sample(onGrid_ ? Vec2{within(k % grid_), within(k / grid_)} : u);
   return {{(x + 0.5 + sample.place.x) / size_.width, (fromBottom + 0.5 + sample.place.y) / size_.height},
-          sample.weight};
+          sample.weight < 0 ? -1.0 : 1.0};  // what all have in common drops out of the mean
 }
 
 }  // namespace trace

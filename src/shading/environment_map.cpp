@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "base/budget.h"
 #include "base/parallel.h"
@@ -209,13 +210,17 @@ EnvironmentMap EnvironmentMap::sampled(int side, int threads, const Texel& texel
 }
 
 EnvironmentMap EnvironmentMap::blurred(Real angle, int threads) const {
-  constexpr int kSamples = 64, kLeast = 17, kMost = 1025;
+  constexpr int kLeast = 17, kMost = 1025;
   const Real cone = angle * kDegree;
+  if (cone < texelAngle()) return *this;  // a pixel of the picture is wider
+  // As many samples as leave no gaps between them where the reduced picture is as coarse as it gets.
+  const Real coarsest = kPi / 2 / (kLeast - 1);
+  const int count = std::max(64, static_cast<int>(std::ceil(kPi * (cone / coarsest) * (cone / coarsest))));
   // A texel for each third of the angle; before that the picture is reduced to what lies between two samples.
   const auto sideFor = [&](Real spacing) {
     return static_cast<int>(std::clamp(std::ceil(kPi / 2 / spacing), Real{kLeast}, Real{kMost}));
   };
-  const int reducedSide = sideFor(cone * std::sqrt(kPi / kSamples)), side = sideFor(cone / 3);
+  const int reducedSide = sideFor(cone * std::sqrt(kPi / count)), side = sideFor(cone / 3);
   const Real cell = 2.0 / (reducedSide - 1);
   const int grid = static_cast<int>(std::clamp(std::ceil(cell / texelAngle()), 1.0, 64.0));
   const EnvironmentMap reduced = sampled(reducedSide, threads, [&](const Vec3& towards) {
@@ -233,9 +238,9 @@ EnvironmentMap EnvironmentMap::blurred(Real angle, int threads) const {
     Vec3 offset;  // x, y across; z along
     Real weight;
   };
-  std::array<Sample, kSamples> samples{};
-  for (int k = 0; k < kSamples; ++k) {
-    const Real share = (k + 0.5) / kSamples;
+  std::vector<Sample> samples(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const Real share = (k + 0.5) / count;
     const Real off = std::acos(1 - share * (1 - std::cos(cone)));
     const Real around = k * kPi * (3 - std::sqrt(5.0));
     samples[static_cast<std::size_t>(k)] = {

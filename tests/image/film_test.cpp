@@ -14,7 +14,7 @@ TileSamples uniform(const Film& film, std::int64_t tile, std::size_t wave, const
   const Tile area = film.tile(tile);
   const int pixels = (area.x1 - area.x0) * (area.y1 - area.y0);
   const std::vector<Color> colors(static_cast<std::size_t>(pixels * film.waves()[wave].count()), color);
-  return {area, colors, std::vector<std::vector<Color>>(film.layers(), colors)};
+  return {.area = area, .colors = colors, .layers = std::vector<std::vector<Color>>(film.layers(), colors)};
 }
 
 TEST(Film, ShowsTilesThatAreDone) {
@@ -68,6 +68,25 @@ TEST(Film, SumsWavesInTheirOrder) {
   EXPECT_EQ(inOrder.picture().at(1, 1), Color((1e16 + 1 - 1e16 - 1e16) / 4));
   EXPECT_EQ(inOrder.layer(0), inOrder.picture()) << "averaged";
   EXPECT_EQ(inOrder.layer(1).at(1, 1), Color(1e16)) << "of the first sample";
+}
+
+TEST(Film, APlainSurfaceStaysPlainWhateverItsSamplesCount) {
+  for (const std::vector<double>& weights : {std::vector<double>{1.1, 1.1, -1.1, 1.1},
+                                             {1.1, -1.1, 1.1, -1.1},
+                                             {-1.1, -1.1, -1.1, -1.1},
+                                             {1, 1, 1, 1}}) {
+    Film film(2, 2, 4);
+    std::size_t k = 0;
+    for (std::size_t wave = 0; wave < film.waves().size(); ++wave) {
+      TileSamples samples = uniform(film, 0, wave, Color(0.3));
+      for (int pixel = 0; pixel < 4; ++pixel)
+        for (int n = 0; n < film.waves()[wave].count(); ++n)
+          samples.weights.push_back(weights[k + static_cast<std::size_t>(n)]);
+      k += static_cast<std::size_t>(film.waves()[wave].count());
+      film.add(0, wave, samples);
+      EXPECT_NEAR(film.picture().at(1, 0).r, 0.3, 1e-12) << wave;
+    }
+  }
 }
 
 TEST(Film, AfterAWaveThePictureIsTheMeanSoFar) {

@@ -36,6 +36,9 @@ Background readBackground(Findings& findings, const Item& block) {
     findings.error(block, "background: expected elevations that ascend, from -90 to 90 degrees");
   if (background.turbidity > 0 && !(length(background.sun) > 0))
     findings.error(block, "background: expected a direction to the sun, found (0, 0, 0)");
+  if (background.turbidity < 0)
+    findings.warn(block, "background: expected a turbidity of at least 0, found " +
+                             toText(background.turbidity) + ": there is no sky");
   for (const Color& color : background.colors)
     if (color.r < 0 || color.g < 0 || color.b < 0)
       findings.warn(block, "background: expected colors of at least 0, found a number below");

@@ -50,6 +50,15 @@ bool checkDirection(Findings& findings, const Item& call, const L& light) {
   return true;
 }
 
+/// A panel whose sides are parallel, or 0, has no area and gives no light.
+template <class L>
+void checkArea(Findings& findings, const Item& call, const L& light) {
+  if constexpr (requires { light.u, light.v; })
+    if (!(length(cross(light.u, light.v)) > 0))
+      findings.warn(call,
+                    std::string(L::kKeyword) + ": expected sides u and v that are not parallel: it is dark");
+}
+
 template <class L>
 void read(Findings& findings, const Item& call) {
   const std::optional<Item> block = blockOf(findings, call);
@@ -79,6 +88,7 @@ void read(Findings& findings, const Item& call) {
       findings.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword));
   });
   if (findings.errors() != errors || !checkDirection(findings, call, light)) return;
+  checkArea(findings, call, light);
   if constexpr (requires { light.fullAngle; })
     if (light.fullAngle > light.angle &&
         std::find(given.begin(), given.end(), std::string_view("full_angle")) != given.end())

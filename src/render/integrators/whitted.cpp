@@ -113,8 +113,9 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       const Color passed = isBlack(scattered) ? Color(0)
                                               : tracer.visible(*hit, arriving->toLight, arriving->distance,
                                                                inside, material.litThrough);
-      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed);
-      if (material.shadow < 1) sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1));
+      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
+      if (material.shadow < 1)
+        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
     };
     if (!world.lightHasSize(i)) {
       light(kCenter, 1);
