@@ -90,8 +90,8 @@ using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, Below
 
 // --- what a ray brings back ---
 
-/// The light of one source as a surface scatters it; the term's factor is arriving.scattered(scatter) share, or
-/// the part of it that the material's `shadow` says.
+/// The light of one source as a surface scatters it; the term's factor is arriving.scattered(scatter) share,
+/// or the part of it that the material's `shadow` says.
 struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
