@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/budget.h"
+#include "formats/model.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
 
