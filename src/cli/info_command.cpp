@@ -73,7 +73,7 @@ std::string infoText(const Facts& facts) {
           line("viewdir", vectorText(camera.viewdir)) + line("updir", vectorText(camera.updir)) +
           line("fov", toText(camera.fov) + " degrees, vertical") +
           line("aspectratio", toText(camera.aspectratio));
-  const Size size = facts.session.size();
+  const Size size = finished(facts.session.size(), facts.session.settings());
   text += line("picture", std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   text += "conventions: " + std::string(convention(facts.session.settings().like).help) + "\n" +
           optionsText(facts.conventions);
@@ -102,7 +102,7 @@ std::string infoJson(const Facts& facts) {
   };
   const Scene& scene = facts.session.scene();
   const Camera& camera = scene.camera;
-  const Size size = facts.session.size();
+  const Size size = finished(facts.session.size(), facts.session.settings());
   Json json;
   json["file"] = scene.file;
   json["format"] = scene.format;

@@ -41,6 +41,8 @@ bool isFile(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool liesInside(std::string_view picture) { return picture.find('#') != picture.npos; }
+
 Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages) {
   std::error_code error;
   const std::filesystem::path target =
@@ -50,7 +52,7 @@ Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages
   std::size_t nameless = 0;
   for (Material& material : moved.materials)
     changePixels(material, [&](Pixels& pixels) {
-      nameless += pixels.map && pixels.file.empty();
+      nameless += pixels.map && (pixels.file.empty() || liesInside(pixels.file));
       if (same || pixels.file.empty() || std::filesystem::path(pixels.file).is_absolute()) return;
       const std::filesystem::path path =
           std::filesystem::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();

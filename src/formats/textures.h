@@ -25,8 +25,11 @@ void loadTextures(Scene& scene, Messages& messages);
 /// The place beside the scene if there is none.
 std::string pictureFile(const std::string& from, const std::string& name);
 
+/// Whether the name is one of a picture inside a scene's own file: "duck.glb#images[0]", "coin.wrl#11:7".
+bool liesInside(std::string_view picture);
+
 /// The scene with the names of its pictures as `file` finds them, which may lie in another folder. Warns of
-/// those without a name.
+/// those that no other file can have.
 Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages);
 
 /// What nobody takes for the surface that was meant: a checker of magenta and black.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/budget.h"
+#include "image/srgb.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -159,11 +160,6 @@ void dither(Picture& picture) {
 
 }  // namespace
 
-double srgbOfLinear(double value) {
-  if (!(value > 0)) return 0;
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(std::min(value, 1.0), 1 / 2.4) - 0.055;
-}
-
 Color WhiteBalance::operator()(const Color& c) const {
   const auto along = [&](const Color& row) { return row.r * c.r + row.g * c.g + row.b * c.b; };
   return {along(red), along(green), along(blue)};
@@ -187,12 +183,13 @@ Color developed(Color color, const Development& d) {
 Picture developed(Picture picture, const Development& d) {
   if (d.bloom > 0) picture = bloomed(picture, d.bloom);
   const double scale = std::exp2(d.exposure);
-  const WhiteBalance balance = whiteBalance(d.whiteBalance);
-  for (Color& c : picture.pixels) {
-    if (d.exposure != 0) c = c * scale;
-    if (d.whiteBalance > 0) c = balance(c);
-    c = curved(c, d.tone);
+  if (d.exposure != 0)
+    for (Color& c : picture.pixels) c = c * scale;
+  if (d.whiteBalance > 0) {
+    const WhiteBalance balance = whiteBalance(d.whiteBalance);
+    for (Color& c : picture.pixels) c = balance(c);
   }
+  for (Color& c : picture.pixels) c = curved(c, d.tone);
   picture = toned(std::move(picture), d.tone);
   if (d.transfer != Transfer::linear)
     for (Color& c : picture.pixels) c = transferred(c, d.transfer);

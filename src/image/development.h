@@ -33,11 +33,8 @@ Picture developed(Picture picture, const Development& development);
 /// One colour through all but bloom, dither and Tone::stretch, which need the picture.
 Color developed(Color color, const Development& development);
 
-/// The sRGB value of a linear one, from 0 to 1; the inverse of linearOfSrgb().
-double srgbOfLinear(double value);
-
-/// Scales for linear Rec. 709 that make light of that temperature white and keep its luminance: a black body
-/// below 4000 K and above (Kang et al. 2002), adapted in Bradford's cone space (Lam 1985).
+/// Takes linear Rec. 709 to where the light of a black body (Kang et al. 2002) is white, in Bradford's cone
+/// space (Lam 1985).
 struct WhiteBalance {
   Color red, green, blue;  ///< rows
   Color operator()(const Color& c) const;

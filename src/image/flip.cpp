@@ -9,6 +9,7 @@
 
 #include "base/budget.h"
 #include "image/compare.h"
+#include "image/srgb.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -24,11 +25,7 @@ const Affine kXyzFromRgb{{{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.
 const Affine kRgbFromXyz = inverse(kXyzFromRgb);
 const Vec3 kWhite = kXyzFromRgb * Vec3{1, 1, 1};
 
-double linearFromSrgb(double c) {
-  if (!(c > 0)) return 0;
-  c = std::min(c, 1.0);
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
+double linearFromSrgb(double c) { return c > 0 ? linearOfSrgb(std::min(c, 1.0)) : 0; }
 
 /// The opponent space YyCxCz: black-white, red-green, blue-yellow; linear in XYZ.
 Vec3 opponentFromRgb(const Vec3& rgb) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/match.h"
+#include "image/srgb.h"
 
 namespace trace {
 namespace {

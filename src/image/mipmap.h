@@ -59,9 +59,6 @@ struct Lookup {
   Vec2 uvX{}, uvY{};
 };
 
-/// The linear value of an sRGB one, both from 0 to 1 (IEC 61966-2-1).
-Real linearOfSrgb(Real value);
-
 class MipMap {
  public:
   explicit MipMap(Raster raster);

@@ -7,6 +7,7 @@
 #include "base/budget.h"
 #include "base/match.h"
 #include "image/mipmap.h"
+#include "image/srgb.h"
 
 namespace trace {
 namespace {
@@ -65,10 +66,6 @@ std::vector<Out> means(const MipMap::Level& from, const std::vector<In>& samples
 }
 
 }  // namespace
-
-Real linearOfSrgb(Real value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
 
 MipMap::Level MipMap::halved(const Level& level, const std::vector<float>& linear) {
   Level next{std::max(1, level.width / 2),

@@ -6,6 +6,7 @@ namespace trace {
 namespace {
 
 // Columns as in docs/conventions.md, where each value's source is given.
+/// Not a constant of the compiler: settings hold names of files, which clang does not take for one.
 const std::array<Convention, 7>& table() {
   static const std::array<Convention, 7> kTable{{
       {"uw",

@@ -22,11 +22,12 @@ Picture small(const Scene& scene) {
   return test::picture(scene, settings);
 }
 
-/// Whether a picture lies inside the scene's own file ("x.wrl#11:7"), where a .ray file cannot find it.
+/// Whether a picture lies inside the scene's own file ("x.wrl#11:7"), where a .ray file cannot find it; the
+/// writer warns.
 bool holdsPictures(Scene scene) {
   bool found = false;
   for (Material& material : scene.materials)
-    changePixels(material, [&](Pixels& pixels) { found |= pixels.file.find('#') != std::string::npos; });
+    changePixels(material, [&](Pixels& pixels) { found |= liesInside(pixels.file); });
   return found;
 }
 

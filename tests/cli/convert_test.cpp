@@ -150,6 +150,15 @@ TEST_F(Convert, SaysWhatIsLeftOut) {
   EXPECT_FALSE(test::contains(run({"convert", "tri.off", "tri.ply"}).err, "left out"));
 }
 
+TEST_F(Convert, PicturesInsideTheFileAreNamedAsLost) {
+  write("inside.wrl",
+        "#VRML V2.0 utf8\nShape { appearance Appearance { texture PixelTexture { image 1 1 3 0xff0000 } }\n"
+        "geometry Box { } }\n");
+  const auto r = run({"convert", "inside.wrl", "inside.ray"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(test::contains(r.err, "pictures that lie inside the file are left out: 1")) << r.err;
+}
+
 TEST_F(Convert, WarningsStandInTheOrderOfTheFile) {
   write("order.ray",
         "SBT-raytracer 1.0\nsphere { wobble = 1; }\nbox { material = { diffuse = (7, 0, 0); } }\n"

@@ -141,6 +141,15 @@ TEST(Inventor, TheFirstCameraCounts) {
 
 // --- shapes -------------------------------------------------------------------------------------------
 
+TEST(Inventor, OrthographicCamerasAreOrthographic) {
+  const Scene scene = sceneIn(iv("OrthographicCamera { position 1 2 3 height 5 aspectRatio 2 } Sphere { }"));
+  const Settings settings = resolve({scene.choices});
+  EXPECT_EQ(settings.projection, Projection::orthographic);
+  EXPECT_EQ(settings.viewHeight, 5);
+  EXPECT_EQ(scene.camera.position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(scene.camera.aspectratio, 2);
+}
+
 TEST(Inventor, ConesAndCylindersStandAlongY) {
   const Scene scene =
       sceneIn(iv("Cone { height 4 bottomRadius 2 } Cylinder { radius 2 height 6 parts SIDES }"));

@@ -12,6 +12,7 @@
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
 #include "image/mipmap.h"
+#include "image/srgb.h"
 #include "support/folder.h"
 
 namespace trace {

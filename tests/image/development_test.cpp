@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "image/mipmap.h"
+#include "image/srgb.h"
 
 namespace trace {
 namespace {

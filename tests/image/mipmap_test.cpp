@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "image/srgb.h"
 #include "support/random.h"
 
 namespace trace {

@@ -5,8 +5,8 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "formats/ray/ray_texture.h"
 #include "image/codec.h"
-#include "shading/texture.h"
 
 namespace trace::rayfile {
 
@@ -75,21 +75,14 @@ bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to
   return true;
 }
 
-/// A hint, where a texture is written whose name is not known.
-static std::string textureMeant(const Item& value) {
-  if (!value.is(Kind::call)) return {};
-  std::vector<std::string_view> kinds;
-  forEachType<TextureModel>(
-      [&](auto* type) { kinds.push_back(std::remove_pointer_t<decltype(type)>::kKeyword); });
-  return didYouMean(value.key(), kinds);
-}
-
 bool read(Findings& findings, std::string_view name, const Item& value, Color& to) {
   Real n[3];
   if (value.is(Kind::number))
     n[0] = n[1] = n[2] = value.number();  // a grey
   else if (!numbers(value, n, 3))
-    return findings.expected(value, name, "(red, green, blue)", textureMeant(value)), false;
+    return findings.expected(value, name, "(red, green, blue)",
+                             value.is(Kind::call) ? didYouMean(value.key(), textureKinds()) : ""),
+           false;
   to = {n[0], n[1], n[2]};
   return true;
 }

@@ -25,17 +25,17 @@ bool withModel(std::string_view keyword, Visit&& visit) {
   return found;
 }
 
+/// A bare string where a constant is expected.
+bool isFile(const Item& value) { return value.is(Kind::word) && value.source().starts_with('"'); }
+
+}  // namespace
+
 std::vector<std::string_view> textureKinds() {
   std::vector<std::string_view> kinds;
   forEachType<TextureModel>(
       [&](auto* type) { kinds.push_back(std::remove_pointer_t<decltype(type)>::kKeyword); });
   return kinds;
 }
-
-/// A bare string where a constant is expected.
-bool isFile(const Item& value) { return value.is(Kind::word) && value.source().starts_with('"'); }
-
-}  // namespace
 
 Texture mappedPicture(std::string file, Place place) {
   ImageMap map;

@@ -23,6 +23,9 @@ inline constexpr std::string_view kTexture = "texture";
 /// The file as a picture on a surface, as the courses' programs look it up.
 Texture mappedPicture(std::string file, Place place = {});
 
+/// Keywords of all kinds of textures.
+std::vector<std::string_view> textureKinds();
+
 class TextureReader {
  public:
   explicit TextureReader(Findings& findings) : findings_(findings) {}
