@@ -17,6 +17,8 @@ constexpr std::string_view kModels = "materials-models.ray", kPhong = "--models 
 
 constexpr std::array kTable{
     Extension{"spp", "several rays a pixel: smooth edges", "antialias.ray", "--spp 1", "--spp 9", ""},
+    Extension{"noise-target", "samples where they are needed: nearly the same picture of a part of them",
+              "antialias.ray", "--spp 64 --sampling sobol", "--spp 64 --noise-target 0.01", ""},
     Extension{"sampling", "samples by chance: edges of little noise in place of steps", "antialias.ray",
               "--spp 4", "--spp 4 --sampling stratified", ""},
     Extension{"filter", "samples count by their distance from the middle of the pixel", "antialias.ray",
@@ -42,6 +44,10 @@ constexpr std::array kTable{
               "--bloom 0.15", ""},
     Extension{"dither", "noise of one level in place of steps", "lamps.ray", "--dither off", "--dither on",
               ""},
+    Extension{"integrator", "light that bounces: every wall lights the others", "cornell.ray",
+              "--spp 36 --integrator whitted", "--spp 36", ""},
+    Extension{"firefly-limit", "bright dots of rare paths are held down, and what is lost is told",
+              "cornell.ray", "--spp 36 --firefly-limit 0", "--spp 36 --firefly-limit 2", ""},
     Extension{"threshold", "rays that would add less are not sent: faster, and nearly the same",
               "threshold.ray", "--threshold 0", "--threshold 0.3", ""},
     Extension{"fresnel", "glass mirrors the more the flatter it is looked at", "coloured-glass.ray",

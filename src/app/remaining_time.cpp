@@ -6,9 +6,10 @@
 
 namespace trace {
 
-std::optional<double> RemainingTime::update(double elapsed, double fraction) {
-  if (fraction < kLeastFraction) return {};
+std::optional<double> RemainingTime::update(double elapsed, double fraction, double before) {
   if (fraction >= 1) return 0;
+  fraction = (fraction - before) / (1 - before);
+  if (fraction < kLeastFraction) return {};
   constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
   const double steady = elapsed / fraction - elapsed;  // if the rest goes on as until now
   if (!left_) left_ = steady, last_ = elapsed;

@@ -12,7 +12,8 @@ class RemainingTime {
   /// Nothing is said before this share is done.
   static constexpr double kLeastFraction = 0.03;
 
-  std::optional<double> update(double elapsed, double fraction);
+  /// `before` is the share that was done when the time began.
+  std::optional<double> update(double elapsed, double fraction, double before = 0);
 
  private:
   std::optional<double> left_;

@@ -53,6 +53,7 @@ class Session {
   /// Traces the picture; blocks. Others may watch and stop it through job() and picture().
   RenderResult renderPicture();
   Job& job() { return job_; }
+  const Job& job() const { return job_; }
 
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
   /// while renderPicture() runs. Throws Error(Fault::usage) outside the picture.
@@ -62,6 +63,7 @@ class Session {
 
   /// What is rendered so far. May be asked from other threads while renderPicture() runs.
   const Film& film() const { return *film_; }
+  Film& film() { return *film_; }  ///< to fill with what was rendered before
   Picture picture() const { return film_->picture(); }
   /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of what was read.
   Metadata metadata() const;

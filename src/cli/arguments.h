@@ -38,6 +38,9 @@ using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
 
+/// Whether a render goes on from the checkpoint beside its picture, and whether it keeps it at the end.
+enum class Resume { goOn, keep, never };
+
 /// What `ray convert` is told.
 struct Conversion {
   std::string camera, material;     ///< the inside of a block of a .ray file; empty to keep the scene's
@@ -56,6 +59,8 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   std::vector<int> frames;  ///< --frames, in order; empty for one picture
   double framesPerSecond = 24;
+  Resume resume = Resume::goOn;
+  double checkpointEvery = 30;  ///< seconds; 0 writes none
   Conversion conversion;
   bool strict = false;
   bool quick = false;

@@ -154,6 +154,9 @@ class Writer {
     json["factor"] = toJson(t.factor);
     json["value"] = toJson(t.value);
     json["ray"] = t.ray < 0 ? Json(nullptr) : Json(t.ray);
+    if (t.chance)
+      json["chance"] = {
+          {"density", t.chance->density}, {"other", t.chance->other}, {"share", t.chance->share}};
     if (t.light) {
       const LightTerm& l = *t.light;
       const LightSource& source = scene_.lights[l.light];
@@ -193,6 +196,7 @@ class Writer {
                        json["unsent"] = kind(w.unsent), json["contribution"] = w.contribution;
                        json["threshold"] = w.threshold;
                      },
+                     [&](const Roulette& w) { json["unsent"] = kind(w.unsent), json["chance"] = w.chance; },
                      [&](const CutOff& w) {
                        json["object"] = object(w.object, w.materials), json["distance"] = w.t;
                        json["limit"] = w.limit;
@@ -227,6 +231,7 @@ std::string explainJson(const PixelFacts& facts) {
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
   json["sampleWeights"] = Json::list();
   for (const Real weight : e.weights) json["sampleWeights"].add(weight);
+  json["settled"] = e.settled;
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();

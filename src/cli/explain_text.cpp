@@ -131,6 +131,12 @@ class TreeText {
         words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);
       else if (!(term.factor == Color(1)) && !isBlack(value))
         words += " = " + product;
+      if (term.chance && term.chance->density > 0) {
+        const ChanceTerm& chance = *term.chance;
+        words += "\n" + margin_ + "    by chance, density " + text(chance.density);
+        if (chance.other > 0)
+          words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
+      }
       line(words);
     }
     if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
@@ -215,6 +221,8 @@ std::string explainText(const PixelFacts& facts, bool color) {
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
             (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
             (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
+  if (e.settled)
+    text += "no more: the error of their mean is at most " + toText(facts.settings.noiseTarget) + "\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"

@@ -189,6 +189,22 @@ std::span<const Flag> flags() {
              a.framesPerSecond = numberOf("fps", value, 0);
              if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
            }},
+      Flag{"resume", 0, Takes::optional, "auto|keep|never", "keep", kRender, true,
+           "a render that was stopped goes on from the checkpoint beside its picture (auto); --resume alone, "
+           "or "
+           "keep, also keeps the checkpoint of a finished picture, to which a larger --spp adds samples; "
+           "never "
+           "begins anew",
+           [](Arguments& a, std::string_view value) {
+             constexpr std::array<std::string_view, 3> kNames{"auto", "keep", "never"};
+             a.resume = static_cast<Resume>(pick("resume", value, kNames));
+           }},
+      Flag{"checkpoint-every", 0, Takes::value, "SECONDS", "", kRender, false,
+           "write what is done of a render beside its picture as often, to go on from if the machine fails; "
+           "default 30; 0 writes none",
+           [](Arguments& a, std::string_view value) {
+             a.checkpointEvery = numberOf("checkpoint-every", value, 0);
+           }},
       Flag{"quick", 0, Takes::nothing, "", "", kOfScenes, true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},
@@ -367,12 +383,24 @@ std::span<const ShortFlag> shortFlags() {
 
 std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
-  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {
-      {"spp", "9"},           {"sampling", "stratified"}, {"filter", "mitchell"},
-      {"aperture", "0.1"},    {"exposure", "1"},          {"white-balance", "3200"},
-      {"transfer", "srgb"},   {"bloom", "0.1"},           {"projection", "panorama"},
-      {"distortion", "0.2"},  {"stereo", "side-by-side"}, {"threshold", "0.003"},
-      {"nested-glass", "on"}, {"wavelengths", "9"},       {"outlines", "2"}};
+  constexpr std::pair<std::string_view, std::string_view> kUseful[] = {{"spp", "9"},
+                                                                       {"sampling", "stratified"},
+                                                                       {"filter", "mitchell"},
+                                                                       {"aperture", "0.1"},
+                                                                       {"exposure", "1"},
+                                                                       {"white-balance", "3200"},
+                                                                       {"transfer", "srgb"},
+                                                                       {"bloom", "0.1"},
+                                                                       {"projection", "panorama"},
+                                                                       {"distortion", "0.2"},
+                                                                       {"stereo", "side-by-side"},
+                                                                       {"threshold", "0.003"},
+                                                                       {"nested-glass", "on"},
+                                                                       {"wavelengths", "9"},
+                                                                       {"outlines", "2"},
+                                                                       {"noise-target", "0.004"},
+                                                                       {"integrator", "path"},
+                                                                       {"firefly-limit", "4"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};

@@ -138,13 +138,15 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     const auto frameStart = elapsed();
     const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
     PictureFiles files = session.filesFor(picture);
-    const RenderResult result = renderPictureWatched(session, signals, console, progress, files, part);
-    reportBadSamples(result, console);
+    const RenderResult result =
+        renderPictureWatched(session, arguments, signals, console, progress, files, part);
+    reportLosses(session, result, console);
     if (result.end != End::finished) {
       code = exitCode(result), stopped = whyStopped(result);
       break;
     }
     const SavedPicture saved = save(session, files, console);
+    finishCheckpoint(session, arguments, files);
     if (!reportStatistics(arguments, session, result, saved.path, elapsed() - frameStart, console))
       code = kFailed;
     if (saved.elsewhere) {

@@ -42,7 +42,7 @@ Progress::Progress(ProgressStyle style, int columns, Print print)
 void Progress::update(std::int64_t done, std::int64_t total, double elapsed) {
   if (total <= 0 || style_ == ProgressStyle::none) return;
   const double fraction = share(done, total);
-  remaining_ = estimate_.update(elapsed, fraction);
+  remaining_ = estimate_.update(elapsed, fraction, before_);
   if (style_ == ProgressStyle::json) {
     if (lastPrint_ < 0 || elapsed - lastPrint_ >= kJsonInterval) json(done, total, elapsed);
     return;
@@ -76,7 +76,7 @@ void Progress::clear() {
 void Progress::finish(std::int64_t done, std::int64_t total, double elapsed) {
   clear();
   if (style_ != ProgressStyle::json || total <= 0) return;
-  remaining_ = estimate_.update(elapsed, share(done, total));
+  remaining_ = estimate_.update(elapsed, share(done, total), before_);
   json(done, total, elapsed);
 }
 

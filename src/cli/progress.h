@@ -20,6 +20,8 @@ class Progress {
   /// automatic counts as plain. Bars are as wide as `columns` lets them.
   Progress(ProgressStyle style, int columns, Print print);
 
+  /// So much of the work had been done, perhaps by another process, when the time began.
+  void beginsAfter(double fraction) { before_ = fraction; }
   /// `done` of `total` chunks after `elapsed` seconds; total 0 means not known yet.
   void update(std::int64_t done, std::int64_t total, double elapsed);
   /// Takes the bar away, so that something else can be printed.
@@ -35,6 +37,7 @@ class Progress {
   Print print_;
   RemainingTime estimate_;
   std::optional<double> remaining_;
+  double before_ = 0;
   double lastPrint_ = -1;  // seconds
   int lastTenth_ = 0;
   bool drawn_ = false;

@@ -85,8 +85,9 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   signals.renderingBegins();
   Progress progress = makeProgress(arguments.progress, console);
   PictureFiles files = session.filesFor(output);
-  const RenderResult result = renderPictureWatched(session, signals, console, progress, files, Part{});
-  reportBadSamples(result, console);
+  const RenderResult result =
+      renderPictureWatched(session, arguments, signals, console, progress, files, Part{});
+  reportLosses(session, result, console);
 
   const std::string stopped = whyStopped(result);
   int code = exitCode(result);
@@ -96,6 +97,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   }
   const SavedPicture saved = save(session, files, console);
   if (saved.elsewhere) code = kFailed;
+  if (result.end == End::finished) finishCheckpoint(session, arguments, files);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
   const std::string where = saved.elsewhere        ? " instead of " + output

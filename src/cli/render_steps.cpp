@@ -1,5 +1,6 @@
 #include "cli/render_steps.h"
 
+#include <cstdio>
 #include <filesystem>
 
 #include "base/file.h"
@@ -7,9 +8,35 @@
 #include "cli/memory_limit.h"
 #include "cli/statistics_text.h"
 #include "image/codec.h"
+#include "image/srgb.h"
 #include "render/passes.h"
+#include "render/sampler.h"
 
 namespace trace::cli {
+namespace {
+
+/// Fills the session's film from the checkpoint, if it is of the same picture, and tells.
+void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& arguments, const Console& console,
+              Progress& progress, const Part& part) {
+  if (checkpoint.load(session.film())) {
+    const Film& film = session.film();
+    const double share =
+        static_cast<double>(film.samplesDone()) / static_cast<double>(film.tiles() * film.waves().back().end);
+    progress.beginsAfter((static_cast<double>(part.before) + share) / static_cast<double>(part.all));
+    console.line(LogLevel::info, "going on from " + checkpoint.path() + ", " +
+                                     std::to_string(static_cast<int>(100 * share)) + " % done");
+    return;
+  }
+  if (!checkpoint.whyNot().empty())
+    console.line(LogLevel::info, "note: the render begins anew; " + checkpoint.whyNot());
+  if (const GeneratorRow& generator = generatorOf(session.settings());
+      arguments.resume == Resume::keep && !generator.continues)
+    console.line(LogLevel::info, "note: samples of \"" + std::string(generator.name) +
+                                     "\" are placed by their number, so that none can be added later; "
+                                     "--sampling sobol allows it");
+}
+
+}  // namespace
 
 void checkPlaces(const Session& session, const std::string& output) {
   for (const Output& file : outputs(output, session.settings())) {
@@ -29,13 +56,44 @@ void checkOutputs(const Session& session, const std::string& output) {
   checkPlaces(session, output);
 }
 
-RenderResult renderPictureWatched(Session& session, Signals& signals, const Console& console,
-                                  Progress& progress, PictureFiles& files, const Part& part) {
-  const Watch watch(session, signals, console, progress, files, part);
-  return session.renderPicture();
+RenderResult renderPictureWatched(Session& session, const Arguments& arguments, Signals& signals,
+                                  const Console& console, Progress& progress, PictureFiles& files,
+                                  const Part& part) {
+  Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+  if (arguments.resume != Resume::never) goOnFrom(checkpoint, session, arguments, console, progress, part);
+  RenderResult result;
+  {
+    const CheckpointPlan plan{arguments.checkpointEvery > 0 ? &checkpoint : nullptr,
+                              arguments.checkpointEvery};
+    const Watch watch(session, signals, console, progress, files, plan, part);
+    result = session.renderPicture();
+  }
+  const bool keeps = result.end != End::finished || arguments.resume == Resume::keep;
+  if (keeps && arguments.checkpointEvery > 0 && session.job().done > 0) {
+    liftMemoryLimit();
+    saveCheckpoint(checkpoint, session.film(), progress, console);
+  }
+  return result;
 }
 
-void reportBadSamples(const RenderResult& result, const Console& console) {
+void finishCheckpoint(const Session& session, const Arguments& arguments, const PictureFiles& files) {
+  Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+  if (arguments.resume != Resume::keep) checkpoint.remove();
+}
+
+void reportLosses(const Session& session, const RenderResult& result, const Console& console) {
+  if (const double removed = static_cast<double>(result.statistics.lightRemoved) / Statistics::kLightParts;
+      removed > 0) {
+    double kept = 0;  // by this run
+    for (const Color& c : session.picture().pixels) kept += luminanceOf(c);
+    const Job& job = session.job();
+    kept *= samplesOf(session.settings()) *
+            (job.fraction() - static_cast<double>(job.before) / static_cast<double>(job.total));
+    char text[100];
+    std::snprintf(text, sizeof text, "note: --firefly-limit took away %.2g %% of the light",
+                  100 * removed / (removed + kept));
+    console.line(LogLevel::info, text);
+  }
   if (result.statistics.badSamples == 0) return;
   std::string text = counted(result.statistics.badSamples, "sample") +
                      (result.statistics.badSamples == 1 ? " was" : " were") + " not finite and left out";

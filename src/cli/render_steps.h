@@ -20,12 +20,17 @@ void checkPlaces(const Session& session, const std::string& output);
 /// something is to be rendered.
 void checkOutputs(const Session& session, const std::string& output);
 
-/// Renders with an eye on progress and signals.
-RenderResult renderPictureWatched(Session& session, Signals& signals, const Console& console,
-                                  Progress& progress, PictureFiles& files, const Part& part);
+/// Renders with an eye on progress and signals: from the picture's checkpoint on, if there is one, and leaves
+/// one if it stops early.
+RenderResult renderPictureWatched(Session& session, const Arguments& arguments, Signals& signals,
+                                  const Console& console, Progress& progress, PictureFiles& files,
+                                  const Part& part);
 
-/// Warns of samples that were left out.
-void reportBadSamples(const RenderResult& result, const Console& console);
+/// After the whole picture has been written: takes its checkpoint away, unless it is to be kept.
+void finishCheckpoint(const Session& session, const Arguments& arguments, const PictureFiles& files);
+
+/// Warns of samples that were left out, and tells what the firefly limit took away.
+void reportLosses(const Session& session, const RenderResult& result, const Console& console);
 
 struct SavedPicture {
   std::string path;        ///< the picture's name

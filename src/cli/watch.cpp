@@ -38,12 +38,29 @@ std::string keptText(const std::string& path) {
   return (there ? path : "what lies beside " + path) + " is kept as it is";
 }
 
+bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress, const Console& console) {
+  std::string why;
+  try {
+    checkpoint.save(film);
+    return true;
+  } catch (const Error& error) {
+    why = error.messages().front().what;
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  progress.clear();
+  console.line(LogLevel::warning,
+               "warning: no checkpoint: " + why + "; what is done is lost if the machine fails");
+  return false;
+}
+
 Watch::Watch(Session& session, Signals& signals, const Console& console, Progress& progress,
-             PictureFiles& files, const Part& part)
+             PictureFiles& files, const CheckpointPlan& plan, const Part& part)
     : session_(session),
       signals_(signals),
       console_(console),
       files_(files),
+      plan_(plan),
       progress_(progress),
       part_(part) {
   Signals::receive(false);
@@ -64,7 +81,9 @@ void Watch::report(void (Progress::*tell)(std::int64_t, std::int64_t, double)) {
 }
 
 void Watch::run() {
+  using Clock = std::chrono::steady_clock;
   Signals::receive(true);
+  Clock::time_point last = Clock::now();
   while (!finished_) {
     switch (signals_.wait(kInterval)) {
       case Signals::Event::stop:
@@ -78,6 +97,9 @@ void Watch::run() {
       case Signals::Event::none: break;
     }
     report(&Progress::update);
+    if (!plan_.checkpoint || Clock::now() - last < std::chrono::duration<double>(plan_.every)) continue;
+    if (!saveCheckpoint(*plan_.checkpoint, session_.film(), progress_, console_)) plan_.checkpoint = nullptr;
+    last = Clock::now();
   }
   report(&Progress::finish);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "app/checkpoint.h"
 #include "app/session.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
@@ -20,15 +21,24 @@ struct Part {
   std::int64_t before = 0, all = 1;  ///< renders done before, and in all
 };
 
+/// When a checkpoint is written.
+struct CheckpointPlan {
+  Checkpoint* checkpoint = nullptr;  ///< null writes none
+  double every = 0;                  ///< seconds
+};
+
 /// What `auto` means here and now, drawn on stderr.
 Progress makeProgress(ProgressStyle style, const Console& console);
 
+/// False, after a warning, if it cannot be written.
+bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress, const Console& console);
+
 /// Lives while Session::renderPicture() runs. Event::stop cancels the job; Event::save writes the finished
-/// tiles to `files`, which are the thread's own meanwhile.
+/// tiles to `files`, which are the thread's own meanwhile, as the checkpoint is.
 class Watch {
  public:
   Watch(Session& session, Signals& signals, const Console& console, Progress& progress, PictureFiles& files,
-        const Part& part);
+        const CheckpointPlan& plan, const Part& part);
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -42,6 +52,7 @@ class Watch {
   Signals& signals_;
   const Console& console_;
   PictureFiles& files_;
+  CheckpointPlan plan_;
   Progress& progress_;
   const Part part_;
   std::atomic<bool> finished_{false};

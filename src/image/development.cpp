@@ -55,8 +55,6 @@ Triple blackBody(double kelvin) {
   return {x / y, 1, (1 - x - y) / y};
 }
 
-double luminanceOf(const Color& c) { return 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b; }
-
 /// Reinhard et al., Photographic Tone Reproduction, 2002, equation 3: of the luminance, so that hues stay.
 Color reinhard(const Color& c) {
   const double luminance = std::max(0.0, luminanceOf(c));
@@ -149,12 +147,13 @@ Picture bloomed(const Picture& picture, double share) {
 void dither(Picture& picture) {
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     std::uint64_t bits = mixBits(i);
-    const auto next = [&] {
-      return unitFromBits(bits = mixBits(bits)) + unitFromBits(bits = mixBits(bits)) - 1;
+    const auto uniform = [&] {
+      bits = mixBits(bits);
+      return unitFromBits(bits);
     };
     Color& c = picture.pixels[i];
     for (double* channel : {&c.r, &c.g, &c.b})
-      if (*channel > 0 && *channel < 1) *channel += next() / 255;
+      if (*channel > 0 && *channel < 1) *channel += (uniform() + uniform() - 1) / 255;
   }
 }
 

@@ -1,13 +1,20 @@
 #include "image/film.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trace {
 
-std::vector<Wave> wavesOf(int samples) {
+double PixelSum::error() const {
+  const double n = taken_, mean = luminanceOf(colors_.mean());
+  const double variance = std::max(0.0, squares_ / n - mean * mean) * n / std::max(1.0, n - 1);
+  return std::sqrt(variance / n) / std::max(1.0, mean);
+}
+
+std::vector<Wave> wavesOf(int samples, int first) {
   constexpr int kMost = 16;  // a stop waits for a wave of a tile, and the picture is seen after each
   std::vector<Wave> waves;
-  for (int first = 0; first < samples;) {
+  while (first < samples) {
     const int end = std::min(samples, first + std::clamp(first, 1, kMost));
     waves.push_back({first, end});
     first = end;
@@ -15,12 +22,13 @@ std::vector<Wave> wavesOf(int samples) {
   return waves;
 }
 
-Film::Film(int width, int height, int samples, std::span<const LayerKind> layers, int tileSize)
+Film::Film(int width, int height, int samples, std::span<const LayerKind> layers, double noise, int tileSize)
     : width_(width),
       height_(height),
       tileSize_(tileSize),
       columns_((width + tileSize - 1) / tileSize),
       rows_((height + tileSize - 1) / tileSize),
+      noise_(noise),
       waves_(wavesOf(samples)),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       states_(std::make_unique<TileState[]>(static_cast<std::size_t>(tiles()))) {
@@ -51,24 +59,39 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
   const auto count = static_cast<std::size_t>(wave.count());
   std::size_t at = 0;
   for (int y = area.y0; y < area.y1; ++y)
-    for (int x = area.x0; x < area.x1; ++x, at += count) {
-      Pixel& pixel = pixels_[index(x, y)];
-      pixel.taken += wave.count();
-      for (std::size_t k = at; k < at + count; ++k) {
-        if (isFinite(samples.colors[k]))
-          pixel.colors.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
-      }
+    for (int x = area.x0; x < area.x1; ++x) {
+      PixelSum& pixel = pixels_[index(x, y)];
+      if (pixel.settles(noise_)) continue;
+      for (std::size_t k = at; k < at + count; ++k)
+        pixel.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
       for (std::size_t i = 0; i < layers_.size(); ++i) {
         const auto value = [&](std::size_t k) {
           return i < samples.layers.size() ? samples.layers[i][k] : layers_[i].kind.blank;
         };
         Color& sum = layers_[i].sums.at(x, y);
-        if (layers_[i].kind.averaged)
+        if (layers_[i].kind.keep != Keep::first)
           for (std::size_t k = at; k < at + count; ++k) sum += value(k);
         else if (wave.first == 0)
           sum = value(at);
       }
+      at += count;
     }
+}
+
+bool Film::has(std::int64_t tile, std::size_t wave) const {
+  const TileState& state = states_[static_cast<std::size_t>(tile)];
+  const std::lock_guard lock(state.mutex);
+  return wave < state.waves;
+}
+
+std::int64_t Film::samplesDone() const {
+  std::int64_t done = 0;
+  for (std::int64_t i = 0; i < tiles(); ++i) {
+    const TileState& state = states_[static_cast<std::size_t>(i)];
+    const std::lock_guard lock(state.mutex);
+    if (state.waves > 0) done += waves_[state.waves - 1].end;
+  }
+  return done;
 }
 
 bool Film::complete() const {
@@ -99,17 +122,17 @@ Picture Film::picture() const {
 }
 
 void Film::copyDone(Picture& onto) const {
-  forEachDone([&](const Pixel& pixel, int x, int y) { onto.at(x, y) = pixel.colors.mean(); });
+  forEachDone([&](const PixelSum& pixel, int x, int y) { onto.at(x, y) = pixel.mean(); });
 }
 
 Picture Film::layer(std::size_t number) const {
   const Layer& layer = layers_[number];
   Picture picture(width_, height_);
   std::fill(picture.pixels.begin(), picture.pixels.end(), layer.kind.blank);
-  forEachDone([&](const Pixel& pixel, int x, int y) {
-    if (pixel.taken == 0) return;
+  forEachDone([&](const PixelSum& pixel, int x, int y) {
+    if (pixel.taken() == 0) return;
     const Color& sum = layer.sums.at(x, y);
-    picture.at(x, y) = layer.kind.averaged ? sum / pixel.taken : sum;
+    picture.at(x, y) = layer.kind.keep == Keep::mean ? sum / pixel.taken() : sum;
   });
   return picture;
 }

@@ -11,9 +11,12 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/picture.h"
+#include "image/srgb.h"
 
 namespace trace {
 
@@ -28,8 +31,8 @@ struct Wave {
   int count() const { return end - first; }
 };
 
-/// One sample, one more, 2, 4, 8, and from then on 16 at a time.
-std::vector<Wave> wavesOf(int samples);
+/// One sample, one more, 2, 4, 8, and from then on 16 at a time; those from sample `first` on.
+std::vector<Wave> wavesOf(int samples, int first = 0);
 
 /// The mean of samples that may count differently, and below 0: the sum of weight times colour by that of the
 /// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, by chance, they
@@ -55,13 +58,46 @@ class WeightedMean {
   }
 
  private:
+  friend class FilmState;
   bool usesAll() const { return weightsAbove_ == 0 || weights_ > 0.25 * weightsAbove_; }
 
   Color sum_, above_;
   double weights_ = 0, weightsAbove_ = 0;
 };
 
-/// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order.
+/// What is known of a pixel: its colour so far, and how much that may be off.
+class PixelSum {
+ public:
+  /// One that is not finite is counted, and that is all.
+  void add(const Color& color, double weight) {
+    ++taken_;
+    if (!isFinite(color)) return;
+    colors_.add(color, weight);
+    const double light = luminanceOf(color);
+    squares_ += light * light;
+  }
+
+  int taken() const { return taken_; }  ///< samples
+  Color mean() const { return colors_.mean(); }
+  const WeightedMean& colors() const { return colors_; }
+
+  /// Before so many samples nothing is known of the error.
+  static constexpr int kFewest = 16;
+  /// The standard error of the mean's luminance, as if the samples were independent: more than the true one
+  /// where they are spread evenly. In parts of white or, above white, of the mean.
+  double error() const;
+  /// Whether more samples are not needed for such an error; never for 0.
+  bool settles(double noise) const { return noise > 0 && taken_ >= kFewest && error() <= noise; }
+
+ private:
+  friend class FilmState;
+  WeightedMean colors_;
+  double squares_ = 0;  ///< the sum of the samples' squared luminance
+  int taken_ = 0;
+};
+
+/// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order, and
+/// none of those that have settled before.
 struct TileSamples {
   Tile area{0, 0, 0, 0};
   std::vector<Color> colors;               ///< those that are not finite do not count
@@ -73,14 +109,16 @@ class Film {
  public:
   static constexpr int kTileSize = 32;  ///< in pixels, of a side
 
+  /// What a layer keeps of a pixel's samples.
+  enum class Keep { first, mean, sum };
   struct LayerKind {
-    Color blank;            ///< the value wherever nothing is rendered
-    bool averaged = false;  ///< the mean of a pixel's samples; otherwise that of the first
+    Color blank;  ///< the value wherever nothing is rendered
+    Keep keep = Keep::first;
   };
 
-  /// For a picture of that many samples a pixel.
+  /// For a picture of that many samples a pixel, or of fewer where PixelSum::settles(noise).
   explicit Film(int width, int height, int samples = 1, std::span<const LayerKind> layers = {},
-                int tileSize = kTileSize);
+                double noise = 0, int tileSize = kTileSize);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -89,8 +127,26 @@ class Film {
   const std::vector<Wave>& waves() const { return waves_; }
   std::size_t layers() const { return layers_.size(); }
 
+  /// Whether pixels differ in the number of samples: then a wave of a tile may begin only after the one
+  /// before.
+  bool adaptive() const { return noise_ > 0; }
+  /// Whether the pixel takes no part in further waves. While nobody adds to its tile.
+  bool settled(int x, int y) const { return pixels_[index(x, y)].settles(noise_); }
+
   /// Takes the samples of one wave of a tile. From any thread, each wave of a tile once, in any order.
   void add(std::int64_t tile, std::size_t wave, TileSamples samples);
+  /// Whether it has them, and those of all waves before.
+  bool has(std::int64_t tile, std::size_t wave) const;
+  /// Samples of tiles that are there: the sum over all tiles of what each pixel has, or could have.
+  std::int64_t samplesDone() const;
+
+  /// All that is there, for restore(). From any thread while others add: a tile is there with its last whole
+  /// wave.
+  std::string saved() const;
+  /// Takes what saved() gave of a film of the same size and layers and of as many samples or fewer, which
+  /// then count as taken. Throws std::runtime_error with the reason if it does not fit; the film is then
+  /// blank.
+  void restore(std::string_view bytes);
 
   /// All waves of all tiles are there.
   bool complete() const;
@@ -103,16 +159,13 @@ class Film {
   void copyDone(Picture& onto) const;
 
   /// Bytes that a pixel takes here.
-  static std::uint64_t bytesPerPixel(std::size_t layers) { return sizeof(Pixel) + layers * sizeof(Color); }
+  static std::uint64_t bytesPerPixel(std::size_t layers) { return sizeof(PixelSum) + layers * sizeof(Color); }
 
  private:
-  struct Pixel {
-    WeightedMean colors;
-    int taken = 0;  ///< samples
-  };
+  friend class FilmState;
   struct Layer {
     LayerKind kind;
-    Picture sums;  ///< of an averaged layer; of others the value
+    Picture sums;  ///< or the first values
   };
   struct TileState {
     mutable std::mutex mutex;
@@ -124,13 +177,14 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
   void sum(const Wave& wave, const TileSamples& samples);
-  /// Calls use(pixel, x, y) for those of every tile that has a wave, which no one changes meanwhile.
+  /// Calls use(PixelSum, x, y) for those of every tile that has a wave, which no one changes meanwhile.
   template <class Use>
   void forEachDone(const Use& use) const;
 
   int width_, height_, tileSize_, columns_, rows_;
+  double noise_;
   std::vector<Wave> waves_;
-  std::vector<Pixel> pixels_;
+  std::vector<PixelSum> pixels_;
   std::vector<Layer> layers_;
   std::unique_ptr<TileState[]> states_;
 };

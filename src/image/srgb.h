@@ -1,8 +1,11 @@
-// The transfer function of sRGB, which screens expect and most picture files hold (IEC 61966-2-1).
+// The transfer function and the luminance of sRGB, which screens expect and most picture files hold (IEC
+// 61966-2-1).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+
+#include "math/color.h"
 
 namespace trace {
 
@@ -16,5 +19,8 @@ inline double srgbOfLinear(double value) {
   if (!(value > 0)) return 0;
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(std::min(value, 1.0), 1 / 2.4) - 0.055;
 }
+
+/// Of linear Rec. 709 colours, whose primaries and white sRGB has.
+constexpr double luminanceOf(const Color& c) { return 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b; }
 
 }  // namespace trace

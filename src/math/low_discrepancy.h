@@ -16,28 +16,34 @@ constexpr std::uint32_t reversedBits(std::uint32_t v) {
   return ((v & 0x55555555u) << 1) | ((v & 0xaaaaaaaau) >> 1);
 }
 
-/// Owen's nested scrambling of base 2: each bit is flipped, or not, by a hash of the bits above it.
-constexpr std::uint32_t owenScrambled(std::uint32_t v, std::uint64_t seed) {
-  // Laine and Karras 2011 with the constants of Vegdahl 2021: in reversed bits every step carries only
-  // upward.
-  v = reversedBits(v);
+/// Owen's nested scrambling of base 2, of reversed bits: each is flipped, or not, by a hash of those below
+/// it. Laine and Karras 2011 with the constants of Vegdahl 2021: every step carries only upward.
+constexpr std::uint32_t owenScrambledReversed(std::uint32_t v, std::uint64_t seed) {
   const auto s = static_cast<std::uint32_t>(mixBits(seed));
   v ^= v * 0x3d20adeau;
   v += s;
   v *= (s >> 16) | 1u;
   v ^= v * 0x05526c56u;
   v ^= v * 0x53a22864u;
-  return reversedBits(v);
+  return v;
+}
+/// The same: each bit is flipped, or not, by a hash of those above it.
+constexpr std::uint32_t owenScrambled(std::uint32_t v, std::uint64_t seed) {
+  return reversedBits(owenScrambledReversed(reversedBits(v), seed));
 }
 
 /// The first two dimensions of Sobol's sequence (1967): of any 2^(a+b) points that begin at a multiple, one
 /// lies in each box of 2^-a by 2^-b.
-constexpr std::uint32_t sobolSecond(std::uint32_t i) {
-  std::uint32_t v = 0;
-  for (std::uint32_t direction = 0x80000000u; i; i >>= 1, direction ^= direction >> 1)
-    if (i & 1u) v ^= direction;
-  return v;
+constexpr std::uint32_t sobolSecondReversed(std::uint32_t i) {
+  // Bit j is the sum modulo 2 of the bits k of i for which the binomial coefficient of k and j is odd, and so
+  // of those k that have all bits of j (Lucas 1878).
+  i ^= (i >> 1) & 0x55555555u;
+  i ^= (i >> 2) & 0x33333333u;
+  i ^= (i >> 4) & 0x0f0f0f0fu;
+  i ^= (i >> 8) & 0x00ff00ffu;
+  return i ^ (i >> 16);
 }
+constexpr std::uint32_t sobolSecond(std::uint32_t i) { return reversedBits(sobolSecondReversed(i)); }
 
 constexpr Vec2 sobolPoint(std::uint32_t i) { return {reversedBits(i) * 0x1p-32, sobolSecond(i) * 0x1p-32}; }
 
@@ -51,8 +57,8 @@ constexpr Vec2 rotated(const Vec2& p, const Vec2& by) {
 /// Owen Scrambling, 2020).
 constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {
   const std::uint32_t k = owenScrambled(i, mixBits(seed ^ 1));
-  return {owenScrambled(reversedBits(k), mixBits(seed ^ 2)) * 0x1p-32,
-          owenScrambled(sobolSecond(k), mixBits(seed ^ 3)) * 0x1p-32};
+  return {reversedBits(owenScrambledReversed(k, mixBits(seed ^ 2))) * 0x1p-32,
+          reversedBits(owenScrambledReversed(sobolSecondReversed(k), mixBits(seed ^ 3))) * 0x1p-32};
 }
 
 /// i written in `base` and mirrored at the point (van der Corput 1935), with digits permuted by the seed.

@@ -25,13 +25,21 @@ Explanation explain(const World& world, const Integrator& integrator, const Sett
   result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
   PixelTracer(world, integrator, settings, size, &result.tree).sample(x, y, sample);
 
-  WeightedMean mean;
-  for (int k = 0; k < plain.samples() && !(cancelled && cancelled()); ++k) {
-    Real weight = 1;
-    result.samples.push_back(plain.sample(x, y, k, [&](const CameraRay& ray) { weight = ray.weight; }));
-    result.weights.push_back(weight);
-    if (isFinite(result.samples.back())) mean.add(result.samples.back(), weight);
+  PixelSum sum;
+  for (const Wave& wave : wavesOf(plain.samples())) {
+    result.settled = sum.settles(settings.noiseTarget);
+    if (result.settled) break;
+    for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k) {
+      Real weight = 1;
+      result.samples.push_back(plain.sample(x, y, k, [&](const CameraRay& ray) { weight = ray.weight; }));
+      result.weights.push_back(weight);
+      sum.add(result.samples.back(), weight);
+    }
   }
+  if (result.settled)
+    require(sample < sum.taken(), "a sample of this pixel, which then was good enough,", sum.taken() - 1,
+            std::to_string(sample));
+  const WeightedMean& mean = sum.colors();
   result.pixel = mean.mean();
   const auto finite = std::count_if(result.samples.begin(), result.samples.end(),
                                     [](const Color& color) { return isFinite(color); });

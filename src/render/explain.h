@@ -14,14 +14,15 @@ namespace trace {
 struct Explanation {
   RayTree tree;                ///< of the sample asked for
   std::vector<Color> samples;  ///< all of the pixel's, in order; those that are not finite do not count
+  bool settled = false;        ///< there are no more of them, because the noise target was met
   std::vector<Real> weights;   ///< what each counts in the pixel
   Color pixel;                 ///< their weighted mean, of those that count: the picture's, bit for bit
 };
 
 /// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
-/// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, Error(Fault::limit) for
-/// one with more than kMostRecordedRays rays. `cancelled`, if any, is asked after every sample; once it is
-/// true what has been found so far is returned.
+/// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, such as one after the
+/// pixel settled, Error(Fault::limit) for one with more than kMostRecordedRays rays. `cancelled`, if any, is
+/// asked after every sample; once it is true what has been found so far is returned.
 Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
                     const Size& size, int x, int y, int sample, const std::function<bool()>& cancelled = {});
 

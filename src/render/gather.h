@@ -25,6 +25,11 @@ class Gather {
     if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value});
   }
   void add(Term::Kind kind, const Color& value) { add(kind, Color(1), value); }
+  /// The same of what was chosen by chance.
+  void add(Term::Kind kind, const Color& factor, const Color& value, const ChanceTerm& chance) {
+    sum_ += factor * value;
+    if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value, Tracer::kNoNode, {}, chance});
+  }
   /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
   /// scatters; factor is their product, of which `passed` is not in shadow.
   void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,

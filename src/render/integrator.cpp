@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 
 namespace trace {
@@ -15,6 +16,8 @@ std::unique_ptr<Integrator> make(const Settings&) {
 constexpr std::array kTable{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
+    IntegratorRow{IntegratorKind::path, "path", "paths by chance: light that bounces between surfaces",
+                  make<PathTracer>},
 };
 
 }  // namespace

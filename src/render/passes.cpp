@@ -78,19 +78,27 @@ Picture positionShown(const Picture& values, const Settings&) {
   });
 }
 
+Color samplesValue(const Hit&, const Ray&, const Tracer&) { return Color(1); }
+Picture samplesShown(const Picture& values, const Settings& settings) {
+  const double most = samplesOf(settings);
+  return mapped(values, [&](const Color& c) { return c * (1 / most); });
+}
+
 constexpr Color kNowhere(kInfinity);
 constexpr std::array kTable{
-    PassRow{Pass::depth, "depth", "how far the first surface is from the eye; far is white", false, kNowhere,
-            kTooNear, depthValue, depthShown},
+    PassRow{Pass::depth, "depth", "how far the first surface is from the eye; far is white",
+            Film::Keep::first, kNowhere, kTooNear, depthValue, depthShown},
     PassRow{Pass::normal, "normal",
-            "its normal for shading in the world; x, y, z from -1 to 1 are shown 0 to 1", true, Color(0),
-            Color(0), normalValue, normalShown},
-    PassRow{Pass::id, "id", "the number of the object in the scene, from 1; shown as a colour", false,
-            Color(0), Color(0), idValue, idShown},
-    PassRow{Pass::uv, "uv", "its texture coordinates; u is shown red, v green", false, Color(0), Color(0),
-            uvValue, uvShown},
+            "its normal for shading in the world; x, y, z from -1 to 1 are shown 0 to 1", Film::Keep::mean,
+            Color(0), Color(0), normalValue, normalShown},
+    PassRow{Pass::id, "id", "the number of the object in the scene, from 1; shown as a colour",
+            Film::Keep::first, Color(0), Color(0), idValue, idShown},
+    PassRow{Pass::uv, "uv", "its texture coordinates; u is shown red, v green", Film::Keep::first, Color(0),
+            Color(0), uvValue, uvShown},
     PassRow{Pass::position, "position", "its place in the world; shown within the box of all that is seen",
-            false, kNowhere, kNowhere, positionValue, positionShown},
+            Film::Keep::first, kNowhere, kNowhere, positionValue, positionShown},
+    PassRow{Pass::samples, "samples", "how many camera rays it has; most are white", Film::Keep::sum,
+            Color(1), Color(1), samplesValue, samplesShown},
 };
 
 }  // namespace
@@ -106,8 +114,9 @@ std::vector<const PassRow*> passesOf(const Settings& settings) {
 
 Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Film::LayerKind> layers;
-  for (const PassRow* row : passesOf(settings)) layers.push_back({row->background, row->averaged});
-  return Film(width, height, samplesOf(settings), layers);
+  for (const PassRow* row : passesOf(settings))
+    layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
+  return Film(width, height, samplesOf(settings), layers, settings.noiseTarget);
 }
 
 }  // namespace trace

@@ -15,7 +15,7 @@ struct PassRow {
   Pass pass;
   std::string_view name;
   std::string_view help;
-  bool averaged;     ///< the mean of the pixel's samples; otherwise that of the first
+  Film::Keep keep;
   Color background;  ///< where a ray meets nothing that the camera sees, and where nothing is rendered
   Color tooNear;     ///< where it meets something nearer than the camera sees
 

@@ -69,6 +69,10 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         return "contribution " + toText(e.contribution) + " below threshold " +
                                toText(e.threshold) + ": no " + kindName(e.unsent);
                       },
+                      [](const Roulette& e) {
+                        return "Russian roulette, which goes on with a chance of " + shortText(e.chance, 3) +
+                               ": no " + kindName(e.unsent);
+                      },
                       [](const TotalInternalReflection&) -> std::string {
                         return "total internal reflection: no refraction";
                       },

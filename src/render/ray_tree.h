@@ -69,6 +69,12 @@ struct BelowThreshold {
   Real contribution;  ///< the largest change of the sample that the unsent ray could make
   Real threshold;
 };
+/// Russian roulette ended the path: it would have gone on with this chance, and counted so much the more.
+struct Roulette {
+  static constexpr std::string_view kName = "roulette";
+  RayKind unsent;
+  Real chance;
+};
 /// No ray is refracted.
 struct TotalInternalReflection {
   static constexpr std::string_view kName = "total-internal-reflection";
@@ -85,7 +91,7 @@ struct Blocked {
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };
-using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, BelowThreshold,
+using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, BelowThreshold, Roulette,
                             TotalInternalReflection, Blocked, ReachedLight>;
 
 // --- what a ray brings back ---
@@ -99,15 +105,25 @@ struct LightTerm {
   Real share = 1;  ///< of the rays to a light with a size: one of --light-samples
 };
 
+/// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
+/// light.
+struct ChanceTerm {
+  Real density =
+      0;  ///< of the direction, per solid angle, with all choices that led to it; 0: there was one only
+  Real other = 0;  ///< of the other way: of lamps for a bounced ray, of the surface for a ray to a lamp
+  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 9.2.4)
+};
+
 /// factor * value, a summand of a ray's radiance.
 struct Term {
-  enum class Kind { emissive, ambient, light, reflection, refraction, background, outline };
-  static constexpr std::array<std::string_view, 7> kNames{"emissive",   "ambient",    "light",  "reflection",
-                                                          "refraction", "background", "outline"};
+  enum class Kind { emissive, ambient, light, reflection, refraction, bounce, lamp, background, outline };
+  static constexpr std::array<std::string_view, 9> kNames{
+      "emissive", "ambient", "light", "reflection", "refraction", "bounce", "lamp", "background", "outline"};
   Kind kind;
   Color factor, value;
   int ray = -1;  ///< the node whose radiance is the value; of a light: its shadow ray; -1: no ray was sent
   std::optional<LightTerm> light{};
+  std::optional<ChanceTerm> chance{};
 };
 
 /// A surface at which nothing changes for light, by the rule of nested glass: the ray went on.

@@ -25,7 +25,8 @@ class TileRenderer {
       : budget_(std::move(interrupt)),
         tracer_(world, integrator, settings, {film.width(), film.height()}),
         region_(settings.region),
-        passes_(passesOf(settings)) {
+        passes_(passesOf(settings)),
+        film_(film) {
     if (film.layers() != passes_.size()) passes_.clear();
   }
 
@@ -40,7 +41,8 @@ class TileRenderer {
     const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
     samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
     for (int y = area.y0; y < area.y1; ++y)
-      for (int x = area.x0; x < area.x1; ++x)
+      for (int x = area.x0; x < area.x1; ++x) {
+        if (film_.settled(x, y)) continue;
         for (int k = wave.first; k < wave.end; ++k) {
           Real weight = 1;
           const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera) {
@@ -52,6 +54,7 @@ class TileRenderer {
           samples.colors.push_back(color);
           if (!isFinite(color)) noteBad({x, y, k});
         }
+      }
     return samples;
   }
 
@@ -77,6 +80,7 @@ class TileRenderer {
   PixelTracer tracer_;
   const Region region_;
   std::vector<const PassRow*> passes_;
+  const Film& film_;
   std::vector<BadSample> bad_;
 };
 
@@ -118,20 +122,28 @@ RenderResult render(const World& world, const Integrator& integrator, const Sett
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
   const std::vector<Wave>& waves = film.waves();
-  const auto waveOf = [&](std::int64_t chunk) { return static_cast<std::size_t>(chunk / film.tiles()); };
+  std::size_t firstWave = 0;  // of the chunks in work
+  const auto waveOf = [&](std::int64_t chunk) {
+    return firstWave + static_cast<std::size_t>(chunk / film.tiles());
+  };
   const auto takeChunk = [&](std::int64_t chunk, int worker) {
+    const std::int64_t tile = chunk % film.tiles();
+    const std::size_t wave = waveOf(chunk);
+    if (film.has(tile, wave)) return;  // since before
     auto& renderer = workers[static_cast<std::size_t>(worker)];
     if (!renderer) renderer = std::make_unique<TileRenderer>(world, integrator, settings, film, interrupt);
-    const std::int64_t tile = chunk % film.tiles();
-    film.add(tile, waveOf(chunk), renderer->take(film.tile(tile), waves[waveOf(chunk)]));
+    film.add(tile, wave, renderer->take(film.tile(tile), waves[wave]));
   };
   const ChunkSizes samples{film.tiles() * waves.back().end,
                            [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
+  job.before = film.samplesDone();
 
   RenderResult result;
   bool outOfMemory = false;
   try {
-    parallelChunks(film.tiles() * std::ssize(waves), threads, job, takeChunk, samples);
+    const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
+    for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))
+      parallelChunks(film.tiles() * together, threads, job, takeChunk, samples);
   } catch (const std::bad_alloc&) {
     outOfMemory = true;
     result.failure = "out of memory";
@@ -148,7 +160,7 @@ RenderResult render(const World& world, const Integrator& integrator, const Sett
     return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
   });
   result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
-  result.end = job.done == job.total     ? End::finished
+  result.end = film.complete()           ? End::finished
                : outOfMemory             ? End::outOfMemory
                : !result.failure.empty() ? End::failed
                : late                    ? End::timeLimit

@@ -41,11 +41,11 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 int samplesOf(const Settings& settings);
 
 /// Renders into `film`, which must be of pictureSize() and samplesOf() (makeFilm() in passes.h). Passes are
-/// made where the film has a layer for each; in any other film, such as one without layers, none is. The job
-/// counts samples of tiles. Returns early when job.cancel is set or the time is over: that of the thread's
-/// Budget, or without one the settings' limit from now on. Waves of tiles that were begun are finished,
-/// unless they take longer than the job's patience. What is finished survives a failure too. The same bits
-/// for any number of threads.
+/// made where the film has a layer for each; in any other film, such as one without layers, none is. What the
+/// film has already is not rendered again (Film::restore). The job counts samples of tiles. Returns early
+/// when job.cancel is set or the time is over: that of the thread's Budget, or without one the settings'
+/// limit from now on. Waves of tiles that were begun are finished, unless they take longer than the job's
+/// patience. What is finished survives a failure too. The same bits for any number of threads.
 RenderResult render(const World& world, const Integrator& integrator, const Settings& settings, Film& film,
                     Job& job);
 /// The same with the integrator of the settings, made for it.

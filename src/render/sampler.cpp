@@ -63,17 +63,18 @@ Vec2 bluePair(const Draw& d) {
 
 constexpr std::array kTable{
     GeneratorRow{SampleKind::grid, "grid", "camera rays on a regular grid in each pixel, all else by sobol",
-                 true, sobolPair},
-    GeneratorRow{SampleKind::random, "random", "independent of one another", false, randomPair},
-    GeneratorRow{SampleKind::jittered, "jittered", "one at random in each cell of a grid", true,
+                 true, false, sobolPair},
+    GeneratorRow{SampleKind::random, "random", "independent of one another", false, true, randomPair},
+    GeneratorRow{SampleKind::jittered, "jittered", "one at random in each cell of a grid", true, false,
                  jitteredPair},
     GeneratorRow{SampleKind::stratified, "stratified",
-                 "jittered so that rows and columns are filled evenly, too", true, multiJitteredPair},
-    GeneratorRow{SampleKind::halton, "halton", "Halton's sequence in bases 2 and 3, scrambled", false,
+                 "jittered so that rows and columns are filled evenly, too", true, false, multiJitteredPair},
+    GeneratorRow{SampleKind::halton, "halton", "Halton's sequence in bases 2 and 3, scrambled", false, true,
                  haltonPair},
-    GeneratorRow{SampleKind::sobol, "sobol", "Sobol's sequence, scrambled as Owen does", false, sobolPair},
+    GeneratorRow{SampleKind::sobol, "sobol", "Sobol's sequence, scrambled as Owen does", false, true,
+                 sobolPair},
     GeneratorRow{SampleKind::blue, "blue", "sobol, with neighbouring pixels unlike each other: finer noise",
-                 false, bluePair},
+                 false, false, bluePair},
 };
 
 }  // namespace
@@ -81,7 +82,9 @@ constexpr std::array kTable{
 std::span<const GeneratorRow> generators() { return kTable; }
 
 const GeneratorRow& generatorOf(const Settings& settings) {
-  return kTable[static_cast<std::size_t>(settings.sampling)];
+  // Some samples of a grid are a part of the pixel, of the others all of it.
+  const bool anyNumber = settings.noiseTarget > 0 && settings.sampling == SampleKind::grid;
+  return kTable[static_cast<std::size_t>(anyNumber ? SampleKind::sobol : settings.sampling)];
 }
 
 int samplesOf(const Settings& settings) {

@@ -30,6 +30,8 @@ struct GeneratorRow {
   std::string_view name;
   std::string_view help;
   bool square;  ///< it takes 1, 4, 9, 16, ... samples
+  /// The first samples of many are those of fewer, so that more can be added to a finished picture.
+  bool continues;
   /// Two numbers from 0 up to 1: of all samples of a pixel they fill the square evenly.
   Vec2 (*pair)(const Draw& draw);
 };

@@ -18,6 +18,10 @@ struct Statistics {
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
   NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
+  /// What --firefly-limit took from samples: a sum of luminances in parts of kLightParts, which no order
+  /// changes.
+  std::uint64_t lightRemoved = 0;
+  static constexpr double kLightParts = 1 << 20;
 
   std::uint64_t allRays() const {
     std::uint64_t sum = 0;
@@ -30,6 +34,7 @@ struct Statistics {
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += other.rays[i];
     for (std::size_t i = 0; i < kShapes; ++i) tests[i] += other.tests[i], hits[i] += other.hits[i];
     depths += other.depths, nodes.count += other.nodes.count, badSamples += other.badSamples;
+    lightRemoved += other.lightRemoved;
     return *this;
   }
   bool operator==(const Statistics&) const = default;

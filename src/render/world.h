@@ -141,6 +141,14 @@ class World {
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
+  /// The object's shape, "" of one that is left out.
+  std::string_view shapeOf(std::uint32_t object) const {
+    const Instance& o = objects_[object];
+    return o.bounds.empty() ? "" : o.shape.type().keyword;
+  }
+  /// What it is made of where its parts say nothing else; without its textures.
+  const WhittedTerms& termsOf(std::uint32_t object) const { return whitted(bsdf(objects_[object].material)); }
+
   const CameraFrame& camera() const { return camera_; }
   const std::vector<Light>& lights() const { return lights_; }
   /// The place in Scene::lights of the light of that number.

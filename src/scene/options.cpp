@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 1> kNames<IntegratorKind>{"whitted"};
+constexpr std::array<std::string_view, 2> kNames<IntegratorKind>{"whitted", "path"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -74,7 +74,7 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 template <>
 constexpr std::array<std::string_view, 4> kNames<EnvironmentKind>{"auto", "lat-long", "angular", "cube"};
 template <>
-constexpr std::array<std::string_view, 5> kNames<Pass>{"depth", "normal", "id", "uv", "position"};
+constexpr std::array<std::string_view, 6> kNames<Pass>{"depth", "normal", "id", "uv", "position", "samples"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
 template <>
@@ -335,6 +335,17 @@ const std::array kTable{
          .most = 65536,
          .unit = "rays",
          .extra = true}),
+    row<&Settings::noiseTarget>(
+        {.name = "noise-target",
+         .group = "Picture",
+         .help =
+             "stop a pixel's samples, from 16 on, once its error is so small, as a part of white (0.004 is "
+             "a level of 255); at the latest after spp; 0 takes all. Samples of a grid come by sobol then",
+         .source = "",
+         .least = 0,
+         .most = 1,
+         .unit = "",
+         .extra = true}),
     row<&Settings::time>({.name = "time",
                           .group = "Picture",
                           .help = "the moment shown of a scene whose values change with time: key(...)",
@@ -374,10 +385,13 @@ const std::array kTable{
          .least = 1,
          .most = 1024,
          .unit = "rays"}),
-    row<&Settings::integrator>({.name = "integrator",
-                                .group = "Tracing",
-                                .help = "how light is found; whitted is recursive ray tracing",
-                                .source = "Whitted 1980"}),
+    row<&Settings::integrator>(
+        {.name = "integrator",
+         .group = "Tracing",
+         .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
+                 "light by chance however often it bounces, and needs many samples",
+         .source = "Whitted 1980, Kajiya 1986",
+         .extra = true}),
     row<&Settings::depth>({.name = "depth",
                            .group = "Tracing",
                            .help = "bounces a camera ray may make; 0 shows local shading only",
@@ -393,6 +407,16 @@ const std::array kTable{
                                .most = 1,
                                .integrators = "whitted",
                                .extra = true}),
+    row<&Settings::fireflyLimit>({.name = "firefly-limit",
+                                  .group = "Tracing",
+                                  .help = "a bounced ray adds at most this to a sample, so that rare bright "
+                                          "paths leave no dots; what that "
+                                          "takes away is told; 0 takes nothing",
+                                  .source = "docs/path-tracing.md",
+                                  .least = 0,
+                                  .most = 1e9,
+                                  .integrators = "path",
+                                  .extra = true}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
          .group = "Tracing",
@@ -400,7 +424,6 @@ const std::array kTable{
                  "place, of equals the one entered last; by-priority does so if a material gives one",
          .source = "Schmidt and Budge 2002; docs/glass.md",
          .repeats = Repeats::world,
-         .integrators = "whitted",
          .extra = true}),
     row<&Settings::wavelengths>(
         {.name = "wavelengths",
@@ -410,7 +433,6 @@ const std::array kTable{
          .least = 1,
          .most = 1000,
          .unit = "rays",
-         .integrators = "whitted",
          .extra = true}),
     row<&Settings::varnish>(
         {.name = "varnish",
@@ -418,7 +440,6 @@ const std::array kTable{
          .help = "opaque surfaces with an index mirror as a clear coat of that index does, by Fresnel's "
                  "formula",
          .source = "docs/glass.md",
-         .integrators = "whitted",
          .extra = true}),
     row<&Settings::glossy>(
         {.name = "glossy",
@@ -657,22 +678,19 @@ const std::array kTable{
          .group = "Conventions",
          .help = "filter by transmissive at each surface crossed, or by its power of the distance "
                  "inside",
-         .source = "courses; Beer's law in Austin",
-         .integrators = "whitted"}),
+         .source = "courses; Beer's law in Austin"}),
     row<&Settings::airIndex>({.name = "air-index",
                               .group = "Conventions",
                               .help = "index of refraction outside all objects",
                               .source = "courses: 1.0003",
                               .least = 0.01,
-                              .most = 100,
-                              .integrators = "whitted"}),
+                              .most = 100}),
     row<&Settings::fresnel>(
         {.name = "fresnel",
          .group = "Conventions",
          .help = "glass mirrors what its material says, or the more the flatter it is looked at, by "
                  "Schlick's approximation or by Fresnel's formula (exact)",
-         .source = "Schlick 1994, University of Southern California; Fresnel 1823",
-         .integrators = "whitted"}),
+         .source = "Schlick 1994, University of Southern California; Fresnel 1823"}),
     row<&Settings::glassShadows>({.name = "glass-shadows",
                                   .group = "Conventions",
                                   .help = "glass filters the light that passes it, or casts a black shadow",

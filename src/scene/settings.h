@@ -16,7 +16,7 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class IntegratorKind { whitted };
+enum class IntegratorKind { whitted, path };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -40,7 +40,7 @@ enum class VertexNormals { unit, mean };
 enum class ShapeKind {};
 
 /// A picture beside the picture: a row of render/passes.cpp.
-enum class Pass { depth, normal, id, uv, position };
+enum class Pass { depth, normal, id, uv, position, samples };
 /// What is measured in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
 /// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
@@ -67,6 +67,7 @@ struct Settings {
   int height = 0;
   Region region{};
   int spp = 1;
+  Real noiseTarget = 0;
   Real time = 0;
   // Sampling
   SampleKind sampling = SampleKind::grid;
@@ -93,6 +94,7 @@ struct Settings {
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
   Real threshold = 0;
+  Real fireflyLimit = 0;
   NestedGlass nestedGlass = NestedGlass::byPriority;
   int wavelengths = 1;
   bool varnish = false;

@@ -47,7 +47,7 @@ struct RaysView {
   float opacity = 1;  ///< of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
-  std::array<bool, kRayLooks.size()> lookShown{true, true, true, true, true};
+  std::array<bool, kRayLooks.size()> lookShown{true, true, true, true, true, true, true};
 
   bool inStep(int node) const { return step < 0 || node < step; }
 };

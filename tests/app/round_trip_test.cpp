@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/match.h"
 #include "formats/format.h"
+#include "formats/textures.h"
 #include "support/paths.h"
 #include "support/scenes.h"
 #include "support/shared.h"

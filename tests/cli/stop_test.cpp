@@ -64,6 +64,7 @@ TEST_F(Stop, CtrlCKeepsThePart) {
     EXPECT_EQ(json::parse(program.out())["end"], "cancelled");
     expectPart();
     std::filesystem::remove(path("out.png"));
+    EXPECT_TRUE(std::filesystem::remove(path("out.png.checkpoint")));
   }
   EXPECT_EQ(files(), 1u);
 }
@@ -160,7 +161,7 @@ TEST_F(Stop, AFragmentGoesBesideAWholePicture) {
     EXPECT_TRUE(contains(limited.last, "stopped by the time limit: wrote " + part));
     EXPECT_EQ(readFile(path(name)), whole);
   }
-  EXPECT_EQ(files(), 5u);
+  EXPECT_EQ(files(), 7u) << "a scene, and of each a picture, a fragment and a checkpoint";
 }
 
 TEST_F(Stop, TheWholePictureTakesItsFragmentAway) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace trace {
@@ -52,7 +54,7 @@ TEST(Film, SumsWavesInTheirOrder) {
   // Sums of these depend on their order.
   const std::vector<Color> colors{Color(1e16), Color(1), Color(-1e16), Color(3)};
   const auto filmOf = [&](const std::vector<std::size_t>& order) {
-    const std::vector<Film::LayerKind> kinds{{Color(0), true}, {Color(0), false}};
+    const std::vector<Film::LayerKind> kinds{{Color(0), Film::Keep::mean}, {Color(0), Film::Keep::first}};
     Film film(3, 3, 4, kinds);
     for (const std::size_t wave : order) {
       TileSamples samples =
@@ -108,6 +110,81 @@ TEST(Film, SamplesThatAreNotFiniteDoNotCount) {
 }
 
 TEST(Film, KeepsNoLayersUnasked) { EXPECT_EQ(Film(4, 4).layers(), 0u); }
+
+TEST(Film, GoesOnWithTheSameBitsFromWhatWasSaved) {
+  const std::vector<Film::LayerKind> kinds{
+      {Color(0), Film::Keep::mean}, {Color(7)}, {Color(0), Film::Keep::sum}};
+  const auto chunk = [](const Film& film, std::int64_t tile, std::size_t wave) {
+    const Tile area = film.tile(tile);
+    TileSamples samples{.area = area, .colors = {}, .layers = std::vector<std::vector<Color>>(3)};
+    const auto count =
+        static_cast<std::size_t>((area.x1 - area.x0) * (area.y1 - area.y0) * film.waves()[wave].count());
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.colors.push_back(Color(0.1 * static_cast<double>(i % 7), 1.0 / static_cast<double>(i + 1), 3));
+      samples.weights.push_back(i % 5 == 0 ? -1 : 1);
+      for (auto& layer : samples.layers) layer.push_back(Color(static_cast<double>(i)));
+    }
+    return samples;
+  };
+  const auto filmOf = [&](int samples) { return Film(Film::kTileSize + 5, 3, samples, kinds); };
+  const auto takeAll = [&](Film& film) {
+    for (std::size_t wave = 0; wave < film.waves().size(); ++wave)
+      for (std::int64_t tile = 0; tile < film.tiles(); ++tile)
+        if (!film.has(tile, wave)) film.add(tile, wave, chunk(film, tile, wave));
+  };
+  Film whole = filmOf(20), part = filmOf(20);
+  takeAll(whole);
+  part.add(0, 0, chunk(part, 0, 0)), part.add(0, 1, chunk(part, 0, 1)), part.add(1, 0, chunk(part, 1, 0));
+  part.add(1, 2, chunk(part, 1, 2));  // before the wave that it waits for, and so not there
+  Film back = filmOf(20);
+  back.restore(part.saved());
+  EXPECT_EQ(back.samplesDone(), 3);
+  EXPECT_EQ(back.picture(), part.picture());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(back.layer(i), part.layer(i));
+  takeAll(back);
+  EXPECT_EQ(back.picture(), whole.picture());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(back.layer(i), whole.layer(i));
+
+  Film more = filmOf(50);
+  more.restore(whole.saved());
+  EXPECT_EQ(more.samplesDone(), 40);
+  EXPECT_FALSE(more.complete());
+  EXPECT_EQ(more.waves().back().end, 50);
+  takeAll(more);
+  EXPECT_TRUE(more.complete());
+}
+
+TEST(Film, TakesNothingThatDoesNotFit) {
+  Film film(40, 3, 4);
+  film.add(0, 0, uniform(film, 0, 0, Color(2)));
+  const std::string bytes = film.saved();
+  const auto refuses = [](Film other, std::string_view state) {
+    EXPECT_THROW(other.restore(state), std::runtime_error);
+    EXPECT_EQ(other.samplesDone(), 0);
+    EXPECT_EQ(other.picture(), Film(other.width(), other.height()).picture());
+  };
+  refuses(Film(40, 4, 4), bytes);
+  refuses(Film(41, 3, 4), bytes);
+  refuses(Film(40, 3, 3), bytes);
+  refuses(Film(40, 3, 4, std::vector<Film::LayerKind>{{Color(0)}}), bytes);
+  refuses(Film(40, 3, 4), bytes + "x");
+  for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 50)
+    refuses(Film(40, 3, 4), std::string_view(bytes).substr(0, length));
+}
+
+TEST(PixelSum, SettlesWhereItsErrorIsSmall) {
+  PixelSum even, noisy, bright;
+  for (int k = 0; k < 16; ++k) {
+    EXPECT_FALSE(even.settles(1)) << k;
+    even.add(Color(0.5), 1), noisy.add(Color(k % 2), 1), bright.add(Color(k % 2 ? 99 : 101), 1);
+  }
+  EXPECT_TRUE(even.settles(1e-9));
+  EXPECT_NEAR(noisy.error(), std::sqrt(0.25 / 15), 1e-6);  // of samples 0 and 1
+  EXPECT_FALSE(noisy.settles(0.1));
+  EXPECT_TRUE(noisy.settles(0.15));
+  EXPECT_NEAR(bright.error(), std::sqrt(1.0 / 15) / 100, 1e-6) << "a part of the mean";
+  EXPECT_FALSE(even.settles(0)) << "off";
+}
 
 }  // namespace
 }  // namespace trace

@@ -212,6 +212,7 @@ TEST(Passes, AreShownFromZeroToOne) {
     const ValueRange range = finiteRange(passRows()[i].shown(all[i], settings));
     EXPECT_GE(range.low, 0) << passRows()[i].name;
     EXPECT_LE(range.high, 1) << passRows()[i].name;
+    if (passRows()[i].pass == Pass::samples) continue;  // all pixels have one
     EXPECT_GT(range.high - range.low, 0.1) << passRows()[i].name;
   }
 }

@@ -4,11 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "math/low_discrepancy.h"
 #include "render/footprint.h"
 #include "render/gather.h"
+#include "render/interaction.h"
 #include "shading/dispersion.h"
-#include "shading/fresnel.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -29,12 +28,6 @@ constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 /// The numbers by which a direction into a lobe is chosen.
 constexpr std::uint32_t kLobe = 0x7fffffffu;
 
-/// Both sides of a surface that was hit, and what fills its body.
-struct Boundary {
-  Filling body;
-  Sides sides;
-};
-
 /// The radiance along a ray that starts in `inside`.
 Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside, const Sampler& sampler);
 
@@ -45,22 +38,6 @@ Real spreadOf(int k) {
   for (auto n = static_cast<unsigned>(k) + 1; n > 0; n >>= 1, step /= 2)
     if (n & 1) spread += step;
   return spread;
-}
-
-/// A path of all colours is split into wavelengths there.
-bool splits(const Sides& sides, const Interfaces& inside, const Settings& settings) {
-  return settings.wavelengths > 1 && inside.wavelength == 0 &&
-         (!sides.before.dispersion.none() || !sides.behind.dispersion.none());
-}
-
-/// The share that a surface mirrors by the angle; 0 if that is left to its material.
-Real mirroredShare(Fresnel fresnel, Real cosine, const Indices& indices) {
-  switch (fresnel) {
-    case Fresnel::constant: return 0;
-    case Fresnel::schlick: return schlick(cosine, indices.before, indices.behind);
-    case Fresnel::exact: return fresnelDielectric(cosine, indices.before, indices.behind);
-  }
-  return 0;
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
@@ -77,56 +54,13 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const Settings& settings = tracer.settings();
   Footprint footprint;  // null where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
-  const PlaceBsdf bsdf = world.shade(*hit, footprint.get());
-  sum.note(*bsdf);
-  const WhittedTerms& material = whitted(*bsdf);
-  const SurfacePoint& surface = hit->surface;
-  // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
-  // sides, there by the normal that is shaded; other opaque things are lit from outside only.
-  const bool turned =
-      hit->twoSided ? dot(ray.direction, surface.shading) > 0 : hit->leaving && material.transmits();
-  const Vec3 normal = turned ? -surface.shading : surface.shading;
-  const Frame frame = world.frame(*hit, *bsdf, normal);
-  const Real cosine = -dot(ray.direction, normal);
-
-  const bool transmits = material.transmits();
-  std::optional<Boundary> boundary;  // where somebody asks for it
-  Indices indices;
-  if (transmits || settings.varnish || tracer.records()) {
-    boundary.emplace(Boundary{tracer.filling(*hit, material), {}});
-    boundary->sides = inside.at(hit->leaving, boundary->body, hit->solid);
-    indices = Indices(boundary->sides, inside.wavelength, inside.nested());
-  }
-  const bool straight = material.passage == Passage::straight;
-  const bool coated = settings.varnish && !transmits && material.index != 1 && cosine > 0;
-  const Real coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
+  const Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
+  sum.note(at.bsdf());
+  const WhittedTerms& material = at.material;
 
   sum.add(Term::Kind::emissive, material.emissive);
-  sum.add(Term::Kind::ambient, material.ambient * (1 - coat), world.ambient());
-  for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto light = [&](const Vec2& place, Real share) {
-      const auto arriving = world.illuminate(i, surface.point, place);
-      if (!arriving) return;
-      Scatter parts = scatter(*bsdf, frame, arriving->toLight, -ray.direction);
-      parts.diffuse *= Color(1 - coat);
-      const Color scattered = arriving->scattered(parts) * share;
-      const Color passed = isBlack(scattered) ? Color(0)
-                                              : tracer.visible(*hit, arriving->toLight, arriving->distance,
-                                                               inside, material.litThrough);
-      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
-      if (material.shadow < 1)
-        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
-    };
-    if (!world.lightHasSize(i)) {
-      light(kCenter, 1);
-      continue;
-    }
-    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
-    const int rays = settings.lightSamples;
-    const Vec2 first = numbers.next2();
-    for (int n = 0; n < rays; ++n)
-      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
-  }
+  sum.add(Term::Kind::ambient, material.ambient * (1 - at.coat), world.ambient());
+  at.addLights(sum, sampler);
 
   const auto worthwhile = [&](const Path& next) {
     if (next.depth > settings.depth)
@@ -140,79 +74,50 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const auto onward = [&](RayKind kind, const Color& share) {
     return Path{kind, path.depth + 1, path.weight * share, path.spread};
   };
-  sum.note(indices);
-  const SpectralShare whole{inside.wavelength, Color(1)};
-  std::vector<SpectralShare> fan;
-  if (transmits && !straight && splits(boundary->sides, inside, settings))
-    fan = spectralFan(settings.wavelengths, path.spread);
-  const std::span<const SpectralShare> shares =
-      fan.empty() ? std::span(&whole, transmits ? 1 : 0) : std::span(std::as_const(fan));
-  // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
-  const Fresnel fresnel = straight                                 ? Fresnel::constant
-                          : material.passage == Passage::byFresnel ? Fresnel::exact
-                                                                   : settings.fresnel;
-  const auto shareMirrored = [&](const SpectralShare& share) {
-    return mirroredShare(fresnel, cosine, Indices(boundary->sides, share.nanometres, false));
-  };
-  const bool asSaid = material.passage != Passage::asSaid || settings.glass == Glass::perCrossing;
-  const Color filters = asSaid ? material.transmissive : Color(1);
-  const bool glossy = settings.glossy && isGlossy(*bsdf);
-  Color mirror(coat);
-  if (fresnel != Fresnel::constant && transmits)
-    for (const SpectralShare& share : shares)
-      mirror += share.weight * (shareMirrored(share) * material.sharp);
-  else if (!glossy)
-    mirror += mirrorWeight(*bsdf, cosine) * (1 - coat);
+  sum.note(at.indices);
+  const bool glossy = settings.glossy && isGlossy(at.bsdf());
   if (glossy) {  // one ray into the lobe, in place of those that stand for its core
-    if (transmits) mirror = Color(0);
     Sampler numbers = sampler.branch(kLobe);
     const Real choose = numbers.next();
-    const auto drawn = sample(*bsdf, frame, -ray.direction, choose, numbers.next2(), Transport::importance);
-    const Color lobe =
-        drawn ? scatter(*bsdf, frame, drawn->toLight, -ray.direction).specular * (1 / (kPi * drawn->density))
-              : Color(0);
+    const auto drawn =
+        sample(at.bsdf(), at.frame, -ray.direction, choose, numbers.next2(), Transport::importance);
+    const Color lobe = drawn ? scatter(at.bsdf(), at.frame, drawn->toLight, -ray.direction).specular *
+                                   (1 / (kPi * drawn->density))
+                             : Color(0);
     if (!isBlack(lobe)) {
-      const bool through = dot(drawn->toLight, normal) < 0;
-      const Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - coat));
+      const bool through = dot(drawn->toLight, at.normal) < 0;
+      const Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - at.coat));
       if (worthwhile(next)) {
-        Interfaces there = inside;
-        if (through && boundary) there.pass(hit->leaving, boundary->body, hit->solid);
-        sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - coat),
-                follow(tracer, hit->leave(drawn->toLight), next, std::move(there),
+        sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - at.coat),
+                follow(tracer, hit->leave(drawn->toLight), next, through ? at.behind() : inside,
                        sampler.branch(kMirrored + through)));
       }
     }
   }
-  if (!isBlack(mirror)) {
+  if (const Color mirror = at.mirror(glossy); !isBlack(mirror)) {
     Path next = onward(RayKind::reflection, mirror);
     if (worthwhile(next)) {
-      const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, normal);
+      const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal);
       next.differentials = widened.get();
       sum.add(Term::Kind::reflection, mirror,
-              follow(tracer, hit->leave(mirrored(ray.direction, normal)), next, inside,
+              follow(tracer, hit->leave(mirrored(ray.direction, at.normal)), next, inside,
                      sampler.branch(kMirrored)));
     }
   }
   std::uint32_t branch = kRefracted;
   bool total = false;
-  for (const SpectralShare& share : glossy ? shares.first(0) : shares) {
-    const Color filter =
-        straight ? passWeight(*bsdf, cosine) : filters * ((1 - shareMirrored(share)) * material.sharp);
-    Path next = onward(RayKind::refraction, share.weight * filter);
+  for (const SpectralShare& share : glossy ? at.shares().first(0) : at.shares()) {
+    const Color filter = share.weight * at.filter(share);
+    Path next = onward(RayKind::refraction, filter);
     const std::uint32_t number = branch++;
     if (!worthwhile(next)) continue;
-    const auto& [body, sides] = *boundary;
-    const Real ratio =
-        straight ? 1 : sides.before.indexAt(share.nanometres) / sides.behind.indexAt(share.nanometres);
-    const auto direction = straight ? std::optional(ray.direction) : refracted(ray.direction, normal, ratio);
-    if (direction) {
-      Interfaces behind = inside;
-      if (!straight) behind.pass(hit->leaving, body, hit->solid);
+    if (const auto direction = at.through(share)) {
+      Interfaces behind = at.behind();
       behind.wavelength = share.nanometres;
       const Footprint widened =
-          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, normal, ratio);
+          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, at.normal, at.ratio(share));
       next.differentials = widened.get();
-      sum.add(Term::Kind::refraction, share.weight * filter,
+      sum.add(Term::Kind::refraction, filter,
               follow(tracer, hit->leave(*direction), next, std::move(behind), sampler.branch(number)));
     } else if (!std::exchange(total, true)) {
       sum.stop(TotalInternalReflection{});

@@ -1,0 +1,135 @@
+#include "app/checkpoint.h"
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include "app/output.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "render/sampler.h"
+#include "scene/options.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBegin = "Trace checkpoint 1\n";
+
+/// What decides about the film: of the options, all but those that are applied to it later.
+std::string identityOf(const Metadata& metadata, const Settings& settings) {
+  std::string text;
+  for (const auto& [key, value] : metadata)
+    if (key == "Software" || key == "Scene") text += key + ": " + value + "\n";
+  text += "Settings:";
+  const bool continues = generatorOf(settings).continues;
+  for (const Choice& choice : changedOptions(settings)) {
+    const Option& option = findOption(choice.option);
+    const bool later = option.repeats == Repeats::nothing || option.repeats == Repeats::tone;
+    if (later || option.group == "Resources" || (continues && choice.option == "spp")) continue;
+    text += " " + choice.option + "=" + choice.value;
+  }
+  return text + "\n";
+}
+
+/// The lines before the film.
+struct Head {
+  std::string identity;
+  std::int64_t done = 0;   ///< samples of tiles
+  std::string hash;        ///< of the film
+  std::size_t length = 0;  ///< of these lines, in bytes
+};
+
+/// Nothing of a file that is no checkpoint.
+std::optional<Head> headOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Head head;
+  std::string line;
+  for (int i = 0; i < 8 && std::getline(file, line); ++i) {
+    head.length += line.size() + 1;
+    if (i == 0) {
+      if (line + "\n" != kBegin) return {};
+    } else if (line.starts_with("Done: ")) {
+      const auto done = parseNumber(std::string_view(line).substr(6));
+      if (!done) return {};
+      head.done = static_cast<std::int64_t>(done->value);
+    } else if (line.starts_with("Hash: ")) {
+      head.hash = line.substr(6);
+      return head;
+    } else {
+      head.identity += line + "\n";
+    }
+  }
+  return {};
+}
+
+std::string hashOf(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hexText(hash.value());
+}
+
+std::string nameOf(const std::string& picture, int number) {
+  return picture + ".checkpoint" + (number == 1 ? "" : "-" + std::to_string(number));
+}
+
+/// Throws std::runtime_error if the file does not fit.
+void fill(Film& film, const std::string& path, const std::string& identity) {
+  const std::optional<Head> head = headOf(path);
+  if (!head) throw std::runtime_error("it is no checkpoint of this version of Trace");
+  if (head->identity != identity) throw std::runtime_error("it is of another picture, scene or setting");
+  const std::string bytes = readFile(path);
+  const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
+  if (hashOf(state) != head->hash) throw std::runtime_error("it is damaged");
+  film.restore(state);
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings)
+    : picture_(picture), identity_(identityOf(metadata, settings)) {}
+
+bool Checkpoint::load(Film& film) {
+  std::error_code ignored;
+  for (int number = 1;; ++number) {
+    path_ = nameOf(picture_, number);
+    if (!fs::exists(path_, ignored)) return false;
+    try {
+      fill(film, path_, identity_);
+      return true;
+    } catch (const Error& error) {
+      whyNot_ = path_ + ": " + error.messages().front().what;
+    } catch (const std::runtime_error& error) {
+      whyNot_ = path_ + ": " + error.what();
+    }
+  }
+}
+
+void Checkpoint::save(const Film& film) {
+  const std::int64_t done = film.samplesDone();
+  std::error_code ignored;
+  for (int number = 1; path_.empty() || fs::exists(path_, ignored); ++number) {
+    const std::optional<Head> head = path_.empty() ? std::nullopt : headOf(path_);
+    const bool ours = head && head->identity == identity_;
+    if (ours && head->done >= done) return;  // another process is ahead
+    if (ours) break;
+    path_ = nameOf(picture_, number);
+  }
+  const std::string state = film.saved();
+  writeFile(path_, std::string(kBegin) + identity_ + "Done: " + std::to_string(done) +
+                       "\nHash: " + hashOf(state) + "\n" + state);
+}
+
+void Checkpoint::remove() {
+  std::error_code ignored;
+  for (int number = 1; fs::exists(nameOf(picture_, number), ignored); ++number) {
+    const std::optional<Head> head = headOf(nameOf(picture_, number));
+    if (head && head->identity == identity_) fs::remove(nameOf(picture_, number), ignored);
+  }
+}
+
+}  // namespace trace

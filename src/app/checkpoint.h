@@ -1,0 +1,42 @@
+// What an unfinished render leaves beside its picture so that the next run goes on where it ended:
+// NAME.png.checkpoint, or with -2, -3, ... where others lie.
+//
+// A few lines of text say of which picture it is, and a Film (Film::saved) follows. It is written whole or
+// not at all. A checkpoint of another picture is never replaced, nor is one that holds more.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "image/film.h"
+#include "image/metadata.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+class Checkpoint {
+ public:
+  /// Of the picture of that file, which has these words (Session::metadata()). Whatever changes a sample
+  /// counts, and so does the number of samples, unless more can be added to them.
+  Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings);
+
+  /// Fills the film from the first file that fits, if there is one.
+  bool load(Film& film);
+  /// Why a file that lies there did not fit, for a person: "out.png.checkpoint: it is of another picture";
+  /// "" if there was none.
+  const std::string& whyNot() const { return whyNot_; }
+
+  /// Where it is, or will be, written.
+  const std::string& path() const { return path_; }
+  /// Writes what is there of the film, unless the file holds as much. Throws Error(Fault::io).
+  void save(const Film& film);
+  /// Removes those of this picture.
+  void remove();
+
+ private:
+  std::string picture_, identity_;
+  std::string path_;
+  std::string whyNot_;
+};
+
+}  // namespace trace

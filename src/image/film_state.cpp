@@ -1,0 +1,161 @@
+// A film as bytes and back, so that a render can go on after its process ended: Film::saved, Film::restore.
+//
+// Numbers stand as they do in memory, so that the same machine, or one like it, goes on with the same bits.
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+#include "image/film.h"
+
+namespace trace {
+namespace {
+
+constexpr std::uint32_t kMark = 0x01020304;  // reads otherwise where bytes stand in another order
+
+class Writer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  std::string& bytes() { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+  T take() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    if (bytes_.size() < sizeof value) throw std::runtime_error("it ends too early");
+    std::memcpy(&value, bytes_.data(), sizeof value);
+    bytes_.remove_prefix(sizeof value);
+    return value;
+  }
+  template <class T>
+  void expect(const T& value, const char* reason) {
+    if (take<T>() != value) throw std::runtime_error(reason);
+  }
+  bool atEnd() const { return bytes_.empty(); }
+
+ private:
+  std::string_view bytes_;
+};
+
+}  // namespace
+
+/// Sees the inside of a film and of its pixels.
+class FilmState {
+ public:
+  static void put(Writer& to, const PixelSum& pixel) {
+    const WeightedMean& mean = pixel.colors_;
+    const bool alike = mean.sum_ == mean.above_ && mean.weights_ == mean.weightsAbove_;  // nearly always
+    to.put(pixel.taken_);
+    to.put(pixel.squares_);
+    to.put(static_cast<std::uint8_t>(alike));
+    to.put(mean.sum_);
+    to.put(mean.weights_);
+    if (alike) return;
+    to.put(mean.above_);
+    to.put(mean.weightsAbove_);
+  }
+
+  static void take(Reader& from, PixelSum& pixel) {
+    WeightedMean& mean = pixel.colors_;
+    pixel.taken_ = from.take<int>();
+    pixel.squares_ = from.take<double>();
+    const bool alike = from.take<std::uint8_t>() != 0;
+    mean.sum_ = from.take<Color>();
+    mean.weights_ = from.take<double>();
+    mean.above_ = alike ? mean.sum_ : from.take<Color>();
+    mean.weightsAbove_ = alike ? mean.weights_ : from.take<double>();
+  }
+
+  static std::string saved(const Film& film) {
+    Writer to;
+    to.put(kMark);
+    to.put(film.width_);
+    to.put(film.height_);
+    to.put(film.tileSize_);
+    to.put(static_cast<std::uint32_t>(film.layers_.size()));
+    to.put(static_cast<std::uint32_t>(film.waves_.size()));
+    for (const Wave& wave : film.waves_) to.put(wave.end);
+    for (std::int64_t i = 0; i < film.tiles(); ++i) {
+      const Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
+      const std::lock_guard lock(state.mutex);
+      to.put(static_cast<std::uint32_t>(state.waves));
+      if (state.waves == 0) continue;
+      const Tile area = film.tile(i);
+      for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+          put(to, film.pixels_[film.index(x, y)]);
+          for (const Film::Layer& layer : film.layers_) to.put(layer.sums.at(x, y));
+        }
+    }
+    return std::move(to.bytes());
+  }
+
+  /// Throws with the film half changed.
+  static void restore(Film& film, std::string_view bytes) {
+    Reader from(bytes);
+    from.expect(kMark, "it was written by another kind of machine");
+    from.expect(film.width_, "it is of another size");
+    from.expect(film.height_, "it is of another size");
+    from.expect(film.tileSize_, "its tiles are of another size");
+    from.expect(static_cast<std::uint32_t>(film.layers_.size()), "it has other passes");
+    std::vector<Wave> waves;
+    for (auto left = from.take<std::uint32_t>(); left > 0; --left) {
+      const int first = waves.empty() ? 0 : waves.back().end, end = from.take<int>();
+      if (end <= first) throw std::runtime_error("its waves of samples make no sense");
+      waves.push_back({first, end});
+    }
+    if (waves.empty()) throw std::runtime_error("it has no samples");
+    const int asked = film.waves_.back().end, there = waves.back().end;
+    if (there > asked)
+      throw std::runtime_error("it is of " + std::to_string(there) + " samples a pixel, more than the " +
+                               std::to_string(asked) + " that are asked for");
+    for (const Wave& wave : wavesOf(asked, there)) waves.push_back(wave);
+    film.waves_ = std::move(waves);
+    for (std::int64_t i = 0; i < film.tiles(); ++i) {
+      Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
+      state.waves = from.take<std::uint32_t>();
+      if (state.waves == 0) continue;
+      if (state.waves > film.waves_.size()) throw std::runtime_error("a tile has more waves than there are");
+      const Tile area = film.tile(i);
+      for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x) {
+          take(from, film.pixels_[film.index(x, y)]);
+          for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
+        }
+    }
+    if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+  }
+
+  static void clear(Film& film, std::vector<Wave> waves) {
+    film.waves_ = std::move(waves);
+    std::fill(film.pixels_.begin(), film.pixels_.end(), PixelSum{});
+    for (Film::Layer& layer : film.layers_)
+      std::fill(layer.sums.pixels.begin(), layer.sums.pixels.end(), Color(0));
+    for (std::int64_t i = 0; i < film.tiles(); ++i) film.states_[static_cast<std::size_t>(i)].waves = 0;
+  }
+};
+
+std::string Film::saved() const { return FilmState::saved(*this); }
+
+void Film::restore(std::string_view bytes) {
+  const std::vector<Wave> before = waves_;
+  try {
+    FilmState::restore(*this, bytes);
+  } catch (const std::runtime_error&) {
+    FilmState::clear(*this, before);
+    throw;
+  }
+}
+
+}  // namespace trace

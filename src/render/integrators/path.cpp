@@ -1,0 +1,195 @@
+#include "render/integrators/path.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/footprint.h"
+#include "image/srgb.h"
+#include "render/interaction.h"
+#include "shading/optics.h"
+
+namespace trace {
+
+struct PathTracer::Path {
+  RayKind kind = RayKind::camera;
+  int depth = 0;
+  Color weight{1};   ///< of the ray's radiance in the sample
+  Real density = 0;  ///< of its direction, among lobes; 0 where there was one only
+  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  Real ink = 0;                                  ///< how much of it an outline covers
+};
+
+namespace {
+
+/// Branches of a place's numbers: its lights by their number, and these.
+constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u;
+/// Paths of fewer bounces are not ended by chance.
+constexpr int kSurely = 3;
+
+Real powerHeuristic(Real density, Real other) {
+  return density * density / (density * density + other * other);
+}
+
+/// The part of what a ray adds to the sample that the firefly limit allows.
+Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
+  const Real limit = tracer.settings().fireflyLimit, most = maxComponent(added);
+  if (!(limit > 0) || kind != RayKind::bounce || !(most > limit)) return 1;
+  const Real part = limit / most, removed = luminanceOf(added) * (1 - part);
+  if (removed < 1e9) tracer.statistics().lightRemoved += static_cast<std::uint64_t>(removed * Statistics::kLightParts);
+  return part;
+}
+
+Color afterMedium(const Gather& sum, const Interfaces& inside, Real t) {
+  const Color& medium = inside.around().passes;
+  return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, t));  // Beer's law
+}
+
+}  // namespace
+
+void PathTracer::prepare(const World& world, const Settings&, Job&) { lamps_ = Lamps(world); }
+
+Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
+  Path path;
+  path.differentials = camera.differentials;
+  path.ink = camera.ink;
+  return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
+}
+
+/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
+Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                        const Interfaces& inside, const Sampler& sampler) const {
+  Gather sum(tracer, path.depth);
+  const World& world = tracer.world();
+  if (!hit) {
+    if (world.outside().isSeenBy(path.kind))
+      sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
+    sum.draw(path.ink);
+    return sum.radiance();
+  }
+  Footprint footprint;  // null where none is wanted
+  if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
+  Sampler numbers = sampler.branch(kChoice);
+  const Vec2 choice = numbers.next2();
+  const Interaction at(tracer, ray, *hit, footprint.get(), inside, choice.y);
+  sum.note(at.bsdf());
+  sum.note(at.indices);
+
+  const Real other = path.density > 0 ? lamps_.density(ray.origin, *hit) : 0;
+  const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
+  sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
+  const int depth = tracer.settings().depth;
+  if (path.depth > depth) {  // it was sent for what shines only
+    sum.stop(DepthLimit{RayKind::bounce, depth});
+    return afterMedium(sum, inside, hit->t);
+  }
+  at.addLights(sum, sampler);
+
+  // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
+  const bool glossy = isGlossy(at.bsdf());
+  const auto shares = glossy ? at.shares().first(0) : at.shares();
+  const SpectralShare* share =
+      shares.empty() ? nullptr
+                     : &shares[static_cast<std::size_t>(choice.y * static_cast<Real>(shares.size()))];
+  const Color mirror = at.mirror(glossy);
+  const Color through =
+      share ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
+  const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
+  constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
+  const Real scattered = scatters(at.bsdf()) ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
+  const Real all = scattered + mirrors + passes;
+  const Real toLobe = all > 0 ? scattered / all : 0, toMirror = all > 0 ? mirrors / all : 0;
+  if (toLobe > 0) addLamp(sum, at, path.depth, toLobe, sampler);
+
+  /// Whether a ray of that weight goes on, and for how many it then stands.
+  const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
+    const Real most = maxComponent(path.weight * weight);
+    Real goes = 1;
+    if (path.depth >= depth && kind != RayKind::bounce)
+      sum.stop(DepthLimit{kind, depth});
+    else if (!(most > 0))
+      sum.stop(BelowThreshold{kind, 0, 0});
+    else if (goes = path.depth < kSurely ? 1 : std::min(1.0, most); numbers.next() >= goes)
+      sum.stop(Roulette{kind, goes});
+    else
+      return 1 / goes;
+    return {};
+  };
+  const auto follow = [&](RayKind kind, Term::Kind term, const Vec3& direction, const Color& weight,
+                          Real density, Interfaces there, const Footprint& widened) {
+    const auto stands = goesOn(kind, weight);
+    if (!stands) return;
+    const Color factor = weight * *stands;
+    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0};
+    const Ray onward = hit->leave(direction);
+    const std::optional<Hit> met = tracer.cast(onward, kind, there);
+    const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
+    sum.add(term, factor * allowed(tracer, kind, path.weight * factor * arriving), arriving, {density, 0, 1});
+  };
+
+  if (all > 0 && choice.x < toLobe) {
+    Sampler lobe = sampler.branch(kLobe);
+    const Real choose = lobe.next();
+    const auto drawn =
+        sample(at.bsdf(), at.frame, -ray.direction, choose, lobe.next2(), Transport::importance);
+    const bool inward = drawn && dot(drawn->toLight, at.normal) < 0;
+    // Normals between vertices may turn directions into the surface.
+    const bool astray = drawn && !inward && dot(drawn->toLight, hit->surface.normal) * at.facing() < 0;
+    if (drawn && !astray && !isBlack(drawn->weight))
+      follow(RayKind::bounce, Term::Kind::bounce, drawn->toLight, drawn->weight * ((1 - at.coat) / toLobe),
+             drawn->density * toLobe, inward && at.transmits ? at.behind() : inside, {});
+  } else if (all > 0 && choice.x < toLobe + toMirror) {
+    follow(RayKind::reflection, Term::Kind::reflection, mirrored(ray.direction, at.normal), mirror / toMirror,
+           0, inside, mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal));
+  } else if (share && passes > 0) {
+    if (const auto direction = at.through(*share)) {
+      Interfaces behind = at.behind();
+      behind.wavelength = share->nanometres;
+      follow(
+          RayKind::refraction, Term::Kind::refraction, *direction, through * (all / passes), 0, behind,
+          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, at.normal, at.ratio(*share)));
+    } else {
+      sum.stop(TotalInternalReflection{});
+    }
+  }
+  sum.draw(path.ink);
+  return afterMedium(sum, inside, hit->t);
+}
+
+/// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is
+/// followed.
+void PathTracer::addLamp(Gather& sum, const Interaction& at, int depth, Real shareOfLobe,
+                         const Sampler& sampler) const {
+  if (lamps_.empty()) return;
+  Sampler numbers = sampler.branch(kLamp);
+  const Real which = numbers.next();
+  const Vec3& from = at.hit.surface.point;
+  const auto place = lamps_.choose(from, which, numbers.next2());
+  if (!place) return;
+  const Vec3 toEye = -at.ray.direction;
+  const Color scattered =
+      evaluate(at.bsdf(), at.frame, toEye, place->toLight, Transport::importance) * (1 - at.coat);
+  const bool inward = dot(place->toLight, at.normal) < 0;
+  if (isBlack(scattered) || (!inward && dot(place->toLight, at.hit.surface.normal) * at.facing() < 0)) return;
+  const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
+  const ChanceTerm chance{place->density, other, powerHeuristic(place->density, other)};
+
+  const Ray ray = at.hit.leave(place->toLight);
+  Interfaces there = inward && at.transmits ? at.behind() : at.inside;
+  const std::optional<Hit> hit = at.tracer.cast(ray, RayKind::lamp, there);
+  Color seen;
+  {
+    Gather light(at.tracer, depth + 1);
+    if (hit && lamps_.met(*place, *hit)) {
+      const PlaceBsdf bsdf = at.tracer.world().shade(*hit);
+      light.note(*bsdf);
+      light.add(Term::Kind::emissive, whitted(*bsdf).emissive);
+    } else if (hit) {
+      light.note(*at.tracer.world().shade(*hit));
+      light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
+    }
+    seen = hit ? afterMedium(light, there, hit->t) : light.radiance();
+  }
+  sum.add(Term::Kind::lamp, scattered * (chance.share / place->density), seen, chance);
+}
+
+}  // namespace trace

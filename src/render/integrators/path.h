@@ -1,0 +1,34 @@
+// Path tracing (Kajiya, The Rendering Equation, 1986): all light, however often it is scattered.
+//
+//   L = Le + sum over lights + lamp + weight * L(one ray, chosen by chance)
+//
+// Lights of the scene are asked one by one, as Whitted's tracer does. Of the objects that shine one place is
+// chosen by chance; a bounced ray may also meet them, and the two are weighed by the power heuristic (Veach
+// 1997, section 9.2.4). Of a surface's mirrored ray, its refracted one and what it scatters one is followed.
+// A ray that was bounced as often as the depth allows sends one more, which sees only what shines: so the
+// last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
+#pragma once
+
+#include "render/gather.h"
+#include "render/integrator.h"
+#include "render/lamps.h"
+
+namespace trace {
+
+class Interaction;
+
+class PathTracer : public Integrator {
+ public:
+  void prepare(const World& world, const Settings& settings, Job& job) override;
+  Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
+
+ private:
+  struct Path;
+  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+              const Interfaces& inside, const Sampler& sampler) const;
+  void addLamp(Gather& sum, const Interaction& at, int depth, Real shareOfLobe, const Sampler& sampler) const;
+
+  Lamps lamps_;
+};
+
+}  // namespace trace

@@ -1,0 +1,114 @@
+#include "render/interaction.h"
+
+#include "math/low_discrepancy.h"
+#include "shading/fresnel.h"
+#include "shading/optics.h"
+
+namespace trace {
+
+Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, const Differentials* footprint,
+                         const Interfaces& inside_, Real spread)
+    : tracer(tracer_),
+      ray(ray_),
+      hit(hit_),
+      inside(inside_),
+      bsdf_(tracer.world().shade(hit, footprint)),
+      material(whitted(*bsdf_)) {
+  const World& world = tracer.world();
+  const Settings& settings = tracer.settings();
+  // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
+  // sides, there by the normal that is shaded; other opaque things are lit from outside only.
+  transmits = material.transmits();
+  const Vec3& shading = hit.surface.shading;
+  const bool turned = hit.twoSided ? dot(ray.direction, shading) > 0 : hit.leaving && transmits;
+  normal = turned ? -shading : shading;
+  frame = world.frame(hit, *bsdf_, normal);
+  cosine = -dot(ray.direction, normal);
+  straight = material.passage == Passage::straight;
+  if (transmits || settings.varnish || tracer.records()) {
+    boundary_.emplace(Boundary{tracer.filling(hit, material), {}});
+    boundary_->sides = inside.at(hit.leaving, boundary_->body, hit.solid);
+    indices = Indices(boundary_->sides, inside.wavelength, inside.nested());
+  }
+  const bool coated = settings.varnish && !transmits && material.index != 1 && cosine > 0;
+  coat = coated ? fresnelDielectric(cosine, indices.before, indices.behind) : 0;
+  // By Fresnel's formula glass mirrors the share R and lets 1 - R through.
+  fresnel_ = straight                                 ? Fresnel::constant
+             : material.passage == Passage::byFresnel ? Fresnel::exact
+                                                      : settings.fresnel;
+  whole_.nanometres = inside.wavelength;
+  const auto disperses = [](const Sides& sides) {
+    return !sides.before.dispersion.none() || !sides.behind.dispersion.none();
+  };
+  if (settings.wavelengths > 1 && transmits && !straight && inside.wavelength == 0 &&
+      disperses(boundary_->sides))
+    fan_ = spectralFan(settings.wavelengths, spread);
+}
+
+void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
+  const World& world = tracer.world();
+  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    const auto light = [&](const Vec2& place, Real share) {
+      const auto arriving = world.illuminate(i, hit.surface.point, place);
+      if (!arriving) return;
+      Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
+      parts.diffuse *= Color(1 - coat);
+      const Color scattered = arriving->scattered(parts) * share;
+      const Color passed = isBlack(scattered) ? Color(0)
+                                              : tracer.visible(hit, arriving->toLight, arriving->distance,
+                                                               inside, material.litThrough);
+      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
+      if (material.shadow < 1)
+        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
+    };
+    if (!world.lightHasSize(i)) {
+      light(kCenter, 1);
+      continue;
+    }
+    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
+    const int rays = tracer.settings().lightSamples;
+    const Vec2 first = numbers.next2();
+    for (int n = 0; n < rays; ++n)
+      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
+  }
+}
+
+Real Interaction::mirroredShare(const SpectralShare& share) const {
+  if (fresnel_ == Fresnel::constant) return 0;  // that is left to the material
+  const Indices at(boundary_->sides, share.nanometres, false);
+  return fresnel_ == Fresnel::schlick ? schlick(cosine, at.before, at.behind)
+                                      : fresnelDielectric(cosine, at.before, at.behind);
+}
+Color Interaction::mirror(bool glossy) const {
+  if (glossy) return Color(transmits ? 0 : coat);
+  Color mirror(coat);
+  if (fresnel_ == Fresnel::constant || !transmits) return mirror + mirrorWeight(*bsdf_, cosine) * (1 - coat);
+  for (const SpectralShare& share : shares())
+    mirror += share.weight * (mirroredShare(share) * material.sharp);
+  return mirror;
+}
+
+Color Interaction::filter(const SpectralShare& share) const {
+  if (straight) return passWeight(*bsdf_, cosine);
+  const bool asSaid = material.passage != Passage::asSaid || tracer.settings().glass == Glass::perCrossing;
+  const Color filters = asSaid ? material.transmissive : Color(1);
+  return filters * ((1 - mirroredShare(share)) * material.sharp);
+}
+
+Real Interaction::ratio(const SpectralShare& share) const {
+  return straight ? 1
+                  : boundary_->sides.before.indexAt(share.nanometres) /
+                        boundary_->sides.behind.indexAt(share.nanometres);
+}
+
+std::optional<Vec3> Interaction::through(const SpectralShare& share) const {
+  return straight ? std::optional(ray.direction) : refracted(ray.direction, normal, ratio(share));
+}
+
+Interfaces Interaction::behind() const {
+  Interfaces there = inside;
+  if (boundary_ && !straight) there.pass(hit.leaving, boundary_->body, hit.solid);
+  return there;
+}
+
+}  // namespace trace

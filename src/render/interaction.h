@@ -1,0 +1,85 @@
+// What an integrator works out where a ray meets a surface: the normal that light sees, what is on both sides
+// and the weights of the rays that go on in one direction only. It stands here once for all integrators.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/gather.h"
+#include "render/sampler.h"
+#include "shading/dispersion.h"
+
+namespace trace {
+
+class Interaction {
+ public:
+  /// Of a ray that met `hit`; `inside` is what it was in there. `footprint` is that of the ray at the hit, if
+  /// textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here. What is
+  /// passed must live longer.
+  Interaction(Tracer& tracer, const Ray& ray, const Hit& hit, const Differentials* footprint,
+              const Interfaces& inside, Real spread);
+  Interaction(const Interaction&) = delete;
+  Interaction& operator=(const Interaction&) = delete;
+
+  const Bsdf& bsdf() const { return *bsdf_; }
+  /// Above 0 if the surface's true normal is on the side where the ray comes from.
+  Real facing() const { return -dot(ray.direction, hit.surface.normal); }
+
+  // --- light that arrives from elsewhere ---
+
+  /// Adds what arrives of each light of the scene, by shadow rays, and is scattered to where the ray comes
+  /// from. Lights with a size are asked for Settings::lightSamples of their places.
+  void addLights(Gather& sum, const Sampler& sampler) const;
+
+  // --- rays that go on in one direction ---
+
+  /// What is refracted: light of all colours, or a fan of wavelengths where this surface begins to split it;
+  /// nothing if it sends no ray through.
+  std::span<const SpectralShare> shares() const {
+    return !fan_.empty() ? std::span(fan_) : std::span(&whole_, transmits ? 1 : 0);
+  }
+  /// The weight of the mirrored ray, for all shares together. `glossy`: what is mirrored is followed into its
+  /// lobe, and this is the coat's alone.
+  Color mirror(bool glossy) const;
+  /// The weight of the refracted ray, without that of the share.
+  Color filter(const SpectralShare& share) const;
+  /// Where it goes, and how the index changes there; nothing at total reflection.
+  std::optional<Vec3> through(const SpectralShare& share) const;
+  Real ratio(const SpectralShare& share) const;
+  /// What a ray is in on the other side.
+  Interfaces behind() const;
+
+  Tracer& tracer;
+  const Ray& ray;
+  const Hit& hit;
+  const Interfaces& inside;
+
+ private:
+  PlaceBsdf bsdf_;
+
+ public:
+  const WhittedTerms& material;
+  Vec3 normal;      ///< unit: to the side that light is seen on
+  Frame frame;      ///< around it
+  Real cosine;      ///< of the ray and the normal
+  bool transmits;   ///< it sends a ray through
+  bool straight;    ///< ... which is not bent
+  Real coat;        ///< the share that a varnish mirrors
+  Indices indices;  ///< before the surface and behind it, where anybody asks
+
+ private:
+  Real mirroredShare(const SpectralShare& share) const;
+
+  /// What fills the body, and both sides of its surface.
+  struct Boundary {
+    Filling body;
+    Sides sides;
+  };
+  std::optional<Boundary> boundary_;  ///< where somebody asks for it
+  Fresnel fresnel_;
+  SpectralShare whole_{0, Color(1)};
+  std::vector<SpectralShare> fan_;
+};
+
+}  // namespace trace

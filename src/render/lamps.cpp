@@ -1,0 +1,116 @@
+#include "render/lamps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/mesh/mesh_tree.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
+#include "image/srgb.h"
+#include "math/warp.h"
+
+namespace trace {
+namespace {
+
+constexpr Real kSphere = 4 * kPi;
+
+/// The factor by which it scales all lengths alike; 0 if it does not.
+Real uniformScale(const Affine& m) {
+  const Vec3 x = linear(m, Vec3{1, 0, 0}), y = linear(m, Vec3{0, 1, 0}), z = linear(m, Vec3{0, 0, 1});
+  const Real scale = length(x), close = 1e-9 * scale * scale;
+  const bool alike =
+      std::abs(dot(y, y) - scale * scale) < close && std::abs(dot(z, z) - scale * scale) < close;
+  const bool square =
+      std::abs(dot(x, y)) < close && std::abs(dot(y, z)) < close && std::abs(dot(z, x)) < close;
+  return alike && square ? scale : 0;
+}
+
+}  // namespace
+
+Lamps::Lamps(const World& world) : first_(world.objectCount(), kNone) {
+  for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
+    const Color emissive = world.termsOf(object).emissive;
+    const std::string_view shape = world.shapeOf(object);
+    if (isBlack(emissive) || shape.empty()) continue;
+    const auto first = static_cast<std::uint32_t>(parts_.size());
+    const Affine& m = world.worldFromObject(object);
+    if (const MeshTree* tree = world.meshTree(object)) {
+      const MeshData& mesh = tree->data();
+      for (const Triangle& t : mesh.triangles) {
+        const auto corner = [&](std::size_t i) { return (m * Vec3(mesh.points[t[i]])); };
+        const Vec3 origin = corner(0), a = corner(1) - origin, b = corner(2) - origin;
+        add({Part::Kind::triangle, object, origin, a, b, length(cross(a, b)) / 2, 0}, emissive);
+      }
+    } else if (shape == Square::kKeyword) {
+      const Vec3 a = linear(m, Vec3{1, 0, 0}), b = linear(m, Vec3{0, 1, 0});
+      add({Part::Kind::parallelogram, object, m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
+          emissive);
+    } else if (const Real radius = uniformScale(m); shape == Sphere::kKeyword && radius > 0) {
+      add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, emissive);
+    }
+    if (parts_.size() > first) first_[object] = first;
+  }
+  Real sum = 0;
+  for (const Part& part : parts_) sums_.push_back(sum += part.share);
+  for (Part& part : parts_) part.share /= sum;
+  for (Real& s : sums_) s /= sum;
+}
+
+void Lamps::add(const Part& part, const Color& emissive) {
+  parts_.push_back(part);
+  const Real area = part.kind == Part::Kind::sphere ? kSphere * part.size * part.size : part.size;
+  parts_.back().share = area * luminanceOf(emissive);
+}
+
+Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
+  if (kind == Kind::sphere) {
+    const Real away2 = dot(origin - from, origin - from), radius2 = size * size;
+    if (!(away2 > radius2)) return 0;
+    const Real sine2 = radius2 / away2;  // 1 - cosine, without the loss of digits
+    return 1 / (2 * kPi * sine2 / (1 + std::sqrt(1 - sine2)));
+  }
+  const Vec3 to = at - from;
+  const Real away2 = dot(to, to), away = std::sqrt(away2);
+  const Vec3 normal = cross(edgeA, edgeB);
+  const Real facing = std::abs(dot(to, normal)) / (away * length(normal));
+  return facing > 0 ? away2 / (facing * size) : 0;
+}
+
+std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Vec2& u) const {
+  const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
+  const auto number =
+      std::min<std::size_t>(static_cast<std::size_t>(found - sums_.begin()), parts_.size() - 1);
+  const Part& part = parts_[number];
+  const std::uint64_t inObject = number - first_[part.object];
+  Vec3 toLight;
+  Vec3 at = part.origin;
+  if (part.kind == Part::Kind::sphere) {
+    const Vec3 to = part.origin - from;
+    const Real away2 = dot(to, to), radius2 = part.size * part.size;
+    if (!(away2 > radius2)) return {};  // from inside it is met by chance
+    toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
+  } else {
+    Vec2 v = u;
+    if (part.kind == Part::Kind::triangle) v = {1 - std::sqrt(u.x), u.y * std::sqrt(u.x)};
+    at = part.origin + part.edgeA * v.x + part.edgeB * v.y;
+    toLight = normalize(at - from);
+  }
+  const Real density = part.share * part.density(from, at);
+  if (!(density > 0)) return {};
+  return Place{part.object, inObject, toLight, density};
+}
+
+Real Lamps::density(const Vec3& from, const Hit& hit) const {
+  if (parts_.empty() || first_[hit.object] == kNone) return 0;
+  const std::size_t first = first_[hit.object];
+  const bool mesh = parts_[first].kind == Part::Kind::triangle;
+  const Part& part = parts_[mesh ? first + hit.part : first];
+  return part.share * part.density(from, hit.surface.point);
+}
+
+bool Lamps::met(const Place& place, const Hit& hit) const {
+  const bool mesh = parts_[first_[place.object]].kind == Part::Kind::triangle;
+  return hit.object == place.object && (!mesh || hit.part == place.part);
+}
+
+}  // namespace trace

@@ -1,0 +1,57 @@
+// Objects that give off light, as a path tracer looks for them: it chooses places on them by chance.
+//
+// Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
+// objects are only met by chance. How often one is chosen follows from its area and its colour.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/world.h"
+
+namespace trace {
+
+class Lamps {
+ public:
+  Lamps() = default;
+  explicit Lamps(const World& world);
+
+  bool empty() const { return parts_.empty(); }
+
+  /// A place that was chosen.
+  struct Place {
+    std::uint32_t object;
+    std::uint64_t part;  ///< the triangle of a mesh
+    Vec3 toLight;        ///< unit
+    Real density;        ///< of that direction, per solid angle
+  };
+  /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
+  std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
+  /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
+  /// it met included; 0 for what is no lamp.
+  Real density(const Vec3& from, const Hit& hit) const;
+  /// Whether the ray to the place met it.
+  bool met(const Place& place, const Hit& hit) const;
+
+ private:
+  /// A triangle, a parallelogram or a sphere, in world space.
+  struct Part {
+    enum class Kind { triangle, parallelogram, sphere } kind;
+    std::uint32_t object;
+    Vec3 origin;        ///< a corner, or the middle
+    Vec3 edgeA, edgeB;  ///< from the corner
+    Real size;          ///< the area, or the radius
+    Real share;         ///< of all choices
+    /// Of the direction to `at`, which lies on it, if the part is chosen.
+    Real density(const Vec3& from, const Vec3& at) const;
+  };
+  void add(const Part& part, const Color& emissive);
+
+  std::vector<Part> parts_;
+  std::vector<Real> sums_;            ///< of the shares, up to and with each part
+  std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+};
+
+}  // namespace trace

@@ -1,0 +1,128 @@
+// What an unfinished render leaves beside its picture.
+#include "app/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "app/output.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "support/folder.h"
+
+namespace trace::test {
+namespace {
+
+class Checkpoints : public testing::Test {
+ protected:
+  static constexpr int kTiles = 3;
+  static Film blank(int samples = 4) { return Film(kTiles * Film::kTileSize, Film::kTileSize, samples); }
+  static Film film(int tiles, int samples = 4) {
+    Film film = blank(samples);
+    for (int i = 0; i < tiles; ++i) {
+      const auto count = static_cast<std::size_t>(Film::kTileSize * Film::kTileSize);
+      film.add(i, 0, {.area = film.tile(i), .colors = std::vector<Color>(count, Color(i + 1)), .layers = {}});
+    }
+    return film;
+  }
+  Checkpoint checkpoint(const char* scene = "one") const {
+    return {folder_ / "out.png", {{"Software", "a test"}, {"Scene", scene}}, settings_};
+  }
+  bool exists(const char* name) const { return std::filesystem::exists(folder_ / name); }
+
+  const Folder folder_;
+  Settings settings_;
+};
+
+TEST_F(Checkpoints, GiveBackWhatWasThere) {
+  checkpoint().save(film(2));
+  Film back = blank();
+  EXPECT_TRUE(checkpoint().load(back));
+  EXPECT_EQ(back.picture(), film(2).picture());
+  EXPECT_TRUE(back.has(1, 0));
+  EXPECT_FALSE(back.has(2, 0));
+  checkpoint().remove();
+  EXPECT_FALSE(exists("out.png.checkpoint"));
+}
+
+TEST_F(Checkpoints, OfAnotherPictureAreLeftAlone) {
+  checkpoint("one").save(film(2));
+  const std::string before = readFile(folder_ / "out.png.checkpoint");
+  Checkpoint other = checkpoint("two");
+  Film back = blank();
+  EXPECT_FALSE(other.load(back));
+  EXPECT_NE(other.whyNot().find("another picture"), std::string::npos) << other.whyNot();
+  EXPECT_EQ(back.picture(), blank().picture());
+  other.save(film(3));
+  EXPECT_EQ(readFile(folder_ / "out.png.checkpoint"), before);
+  EXPECT_TRUE(exists("out.png.checkpoint-2"));
+  checkpoint("two").remove();
+  EXPECT_TRUE(exists("out.png.checkpoint"));
+  EXPECT_FALSE(exists("out.png.checkpoint-2"));
+}
+
+TEST_F(Checkpoints, OfASettingThatChangesSamplesIsAnother) {
+  checkpoint().save(film(2));
+  Film back = blank();
+  settings_.depth = 7;
+  EXPECT_FALSE(checkpoint().load(back));
+  settings_ = {};
+  settings_.exposure = 2, settings_.threads = 3;  // these concern what is made of the film
+  EXPECT_TRUE(checkpoint().load(back));
+}
+
+TEST_F(Checkpoints, TakeMoreSamplesWhereTheyCanBeAdded) {
+  Film more = blank(16);
+  checkpoint().save(film(2));
+  settings_.spp = 16;
+  EXPECT_FALSE(checkpoint().load(more)) << "a grid of 16 has other places";
+  settings_.sampling = SampleKind::sobol, settings_.spp = 4;
+  checkpoint().save(film(2));
+  settings_.spp = 16;
+  Checkpoint enough = checkpoint();
+  EXPECT_TRUE(enough.load(more));
+  EXPECT_EQ(more.waves().back().end, 16);
+  settings_.spp = 2;
+  Film fewer = blank(2);
+  Checkpoint tooFew = checkpoint();
+  EXPECT_FALSE(tooFew.load(fewer));
+  EXPECT_NE(tooFew.whyNot().find("more than the 2"), std::string::npos) << tooFew.whyNot();
+}
+
+TEST_F(Checkpoints, ThatAreDamagedAreLeftAlone) {
+  checkpoint().save(film(2));
+  const std::string name = folder_ / "out.png.checkpoint", whole = readFile(name);
+  for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 40) {
+    writeFile(name, whole.substr(0, length));
+    Film back = blank();
+    ASSERT_FALSE(checkpoint().load(back)) << length;
+    ASSERT_EQ(back.picture(), blank().picture());
+  }
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 40) {
+    std::string changed = whole;
+    changed[at] = static_cast<char>(changed[at] ^ 0x10);
+    writeFile(name, changed);
+    Film back = blank();
+    if (!checkpoint().load(back))
+      ASSERT_EQ(back.picture(), blank().picture()) << at;
+    else
+      ASSERT_EQ(back.picture(), film(2).picture()) << at;  // of how much is done, which is only told
+  }
+}
+
+TEST_F(Checkpoints, OfAnotherProcessThatIsAheadIsKept) {
+  Checkpoint slow = checkpoint(), quick = checkpoint();
+  quick.save(film(3));
+  slow.save(film(1));
+  Film back = blank();
+  EXPECT_TRUE(checkpoint().load(back));
+  EXPECT_TRUE(back.has(2, 0));
+}
+
+TEST_F(Checkpoints, ThatCannotBeWrittenSayWhy) {
+  Checkpoint nowhere(folder_ / "gone/out.png", {}, settings_);
+  EXPECT_THROW(nowhere.save(film(1)), Error);
+}
+
+}  // namespace
+}  // namespace trace::test

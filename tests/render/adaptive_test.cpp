@@ -1,0 +1,103 @@
+// Pixels that stop sampling once they are good enough: --noise-target.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "render/explain.h"
+#include "render/passes.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+class Adaptive : public testing::Test {
+ protected:
+  Adaptive() {
+    Phong phong;
+    phong.ambient = Color(0.2), phong.diffuse = Color(0.7);
+    addObject(scene_, Sphere{}, Affine::translation({0, 0, -3}), phong);
+    scene_.lights.push_back({DirectionalLight{.direction = {-1, -1, -2}, .color = Color(1)}, {}});
+    settings_.width = 80, settings_.height = 60, settings_.spp = 64, settings_.noiseTarget = 0.002;
+    settings_.passes.add(Pass::samples);
+  }
+  Film rendered(int threads) {
+    Settings settings = settings_;
+    settings.threads = threads;
+    Film film = makeFilm(settings, settings.width, settings.height);
+    Job job;
+    EXPECT_EQ(render(build(scene_, settings), settings, film, job).end, End::finished);
+    EXPECT_EQ(job.done, job.total);
+    return film;
+  }
+
+  Scene scene_;
+  Settings settings_;
+};
+
+TEST_F(Adaptive, TheSameBitsForAnyNumberOfThreads) {
+  const Film one = rendered(1);
+  for (const int threads : {2, 7}) {
+    const Film more = rendered(threads);
+    EXPECT_EQ(more.picture(), one.picture());
+    EXPECT_EQ(more.layer(0), one.layer(0));
+  }
+}
+
+TEST_F(Adaptive, NearlyThePictureOfAllSamplesWithAFewOfThem) {
+  const Film few = rendered(2);
+  double taken = 0;
+  for (const Color& c : few.layer(0).pixels) taken += c.r;
+  settings_.noiseTarget = 0;
+  settings_.sampling = SampleKind::sobol;
+  const Film all = rendered(2);
+  for (const Color& c : all.layer(0).pixels) ASSERT_EQ(c, Color(64));
+  const double pixels = settings_.width * settings_.height;
+  EXPECT_LT(taken, 0.4 * 64 * pixels);
+  const Picture a = few.picture(), b = all.picture();
+  double off = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    off += std::abs(a.pixels[i].g - b.pixels[i].g) > 1.0 / 255;
+  EXPECT_LE(off, 0.005 * pixels);
+  EXPECT_GT(taken, 16 * pixels) << "the edge needs more than the fewest";
+}
+
+TEST_F(Adaptive, GoesOnFromWhatWasSaved) {
+  const World world = build(scene_, settings_);
+  const Film whole = rendered(1);
+  Film part = makeFilm(settings_, settings_.width, settings_.height);
+  Settings few = settings_;
+  few.threads = 1;
+  Job job;
+  // Stops in the midst: after two of six tiles of the first wave in which pixels can have settled.
+  std::thread stopper([&] {
+    while (job.done < 16 * part.tiles() + 8) std::this_thread::yield();
+    job.cancel = true;
+  });
+  render(world, few, part, job);
+  stopper.join();
+  Film back = makeFilm(settings_, settings_.width, settings_.height);
+  back.restore(part.saved());
+  Job rest;
+  render(world, settings_, back, rest);
+  EXPECT_EQ(back.picture(), whole.picture());
+  EXPECT_EQ(back.layer(0), whole.layer(0));
+}
+
+TEST_F(Adaptive, IsExplained) {
+  const World world = build(scene_, settings_);
+  const auto integrator = integratorOf(world, settings_);
+  const Film film = rendered(2);
+  const Size size{settings_.width, settings_.height};
+  int settled = 0;
+  for (int x = 0; x < size.width; x += 3) {
+    const Explanation e = explain(world, *integrator, settings_, size, x, 30, 3);
+    EXPECT_EQ(e.pixel, film.picture().at(x, 30)) << x;
+    EXPECT_EQ(static_cast<double>(e.samples.size()), film.layer(0).at(x, 30).r);
+    settled += e.settled;
+  }
+  EXPECT_GT(settled, 10);
+  EXPECT_THROW(explain(world, *integrator, settings_, size, 1, 1, 63), Error) << "it has no such sample";
+}
+
+}  // namespace
+}  // namespace trace::test

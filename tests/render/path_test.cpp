@@ -1,0 +1,140 @@
+// Path tracing against closed forms of radiance.
+#include <gtest/gtest.h>
+
+#include "geometry/shapes/square.h"
+#include "render/explain.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+Phong diffuse(Real albedo, Real emissive = 0) {
+  Phong phong;
+  phong.diffuse = Color(albedo), phong.emissive = Color(emissive);
+  return phong;
+}
+
+Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle); }
+
+/// The inside of a cube of two units around the origin, made of squares.
+void addRoom(Scene& scene, const Phong& phong) {
+  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
+  for (const auto& [axis, angle] : {std::pair{Vec3{0, 1, 0}, 0.0},
+                                    {Vec3{0, 1, 0}, 0.5},
+                                    {Vec3{0, 1, 0}, 1.0},
+                                    {Vec3{0, 1, 0}, 1.5},
+                                    {Vec3{1, 0, 0}, 0.5},
+                                    {Vec3{1, 0, 0}, 1.5}})
+    addObject(scene, Square{}, turned(axis, angle * kPi) * wall, phong);
+}
+
+Settings pathSettings(int depth, int spp, int width = 16) {
+  Settings settings;
+  settings.integrator = IntegratorKind::path;
+  settings.sampling = SampleKind::sobol;
+  settings.width = settings.height = width;
+  settings.depth = depth, settings.spp = spp;
+  return settings;
+}
+
+Real mean(const Picture& picture) {
+  Real sum = 0;
+  for (const Color& c : picture.pixels) sum += c.g;
+  return sum / static_cast<Real>(picture.pixels.size());
+}
+
+/// What a small patch of a floor of albedo 1 at the origin sends up to a camera aslant above it.
+Real floorUnder(const Shape& lamp, const Affine& place, int spp = 1024) {
+  Scene scene;
+  const Affine flat = turned({1, 0, 0}, -kPi / 2);
+  addObject(scene, Square{}, flat * Affine::scaling({0.02, 0.02, 1}), diffuse(1));
+  addObject(scene, lamp, place, diffuse(0, 1));
+  scene.camera.position = {3, 1, 0}, scene.camera.viewdir = {-3, -1, 0};
+  scene.camera.fov = 0.02;
+  return mean(picture(scene, pathSettings(1, spp, 4)));
+}
+
+TEST(Path, AnEmittingRoomHasTheSumOfItsBounces) {
+  for (const Real albedo : {0.2, 0.5, 0.8})
+    for (const int depth : {0, 1, 3, 40}) {
+      Scene scene;
+      addRoom(scene, diffuse(albedo, 1));
+      // The lamps of the last surface are seen directly, which is one bounce more.
+      const Real expected = (1 - std::pow(albedo, depth + 2)) / (1 - albedo);
+      EXPECT_NEAR(mean(picture(scene, pathSettings(depth, 128))) / expected, 1, 0.006)
+          << albedo << " " << depth;
+    }
+}
+
+TEST(Path, SquareLampLightsTheFloorByItsFormFactor) {
+  const Affine above = Affine::translation({0, 1, 0}) * turned({1, 0, 0}, kPi / 2);
+  EXPECT_NEAR(floorUnder(Square{}, above), 0.752275 / kPi, 0.001);
+}
+
+TEST(Path, AMeshLampLightsAsTheSquareDoes) {
+  MeshData data;
+  data.points = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+  data.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Affine above = Affine::translation({0, 1, 0}) * turned({1, 0, 0}, kPi / 2);
+  EXPECT_NEAR(floorUnder(Mesh{std::make_shared<MeshData>(data)}, above), 0.752275 / kPi, 0.001);
+}
+
+TEST(Path, ASphereLampLightsByItsSolidAngle) {
+  const Affine above = Affine::translation({0, 2, 0}) * Affine::scaling({0.5, 0.5, 0.5});
+  EXPECT_NEAR(floorUnder(Sphere{}, above), 1.0 / 16, 0.0002);
+}
+
+TEST(Path, WhatIsOnlyMetByChanceGivesTheSameLight) {
+  // No lamp that is known: a sphere that became an ellipsoid, thin enough to be nearly a disk of radius 1.
+  const Affine flat = Affine::translation({0, 1, 0}) * Affine::scaling({1, 1e-6, 1});
+  EXPECT_NEAR(floorUnder(Sphere{}, flat, 4096), 0.5, 0.005);
+}
+
+TEST(Path, GlassVanishesWhereAllIsOfOneLight) {
+  Scene scene;
+  Phong glass;
+  glass.transmissive = glass.reflective = Color(1), glass.index = 1.5;
+  addObject(scene, Sphere{}, Affine::translation({0, 0, -3}), glass);
+  scene.background.gradient = {{Color(1), Color(1)}};
+  Settings settings = pathSettings(200, 64);
+  settings.fresnel = Fresnel::exact;
+  EXPECT_NEAR(mean(picture(scene, settings)), 1, 0.005);
+}
+
+TEST(Path, LightsOfTheSceneAreThoseOfWhitted) {
+  Scene scene;
+  addObject(scene, Square{}, Affine::translation({0, 0, -2}) * Affine::scaling({9, 9, 1}), diffuse(0.6));
+  scene.lights.push_back({PointLight{.position = {0.5, 1, 1}, .color = Color(0.8)}, {}});
+  Settings settings = pathSettings(4, 1);
+  settings.sampling = SampleKind::grid;
+  const Picture path = picture(scene, settings);
+  settings.integrator = IntegratorKind::whitted;
+  EXPECT_EQ(path, picture(scene, settings)) << "nothing else shines, so nothing bounces";
+}
+
+TEST(Path, TheSameBitsForAnyNumberOfThreadsAndExplained) {
+  Random random(5);
+  Scene scene = randomScene(random, 12);
+  addObject(scene, Square{}, Affine::translation({0, 3, -4}) * turned({1, 0, 0}, kPi / 2), diffuse(0.5, 4));
+  Settings settings = pathSettings(6, 4, 24);
+  settings.threads = 1;
+  const Picture one = picture(scene, settings);
+  for (const int threads : {2, 7}) {
+    settings.threads = threads;
+    EXPECT_EQ(picture(scene, settings), one);
+  }
+  const World world = build(scene, settings);
+  const auto integrator = integratorOf(world, settings);
+  int bounces = 0;
+  for (int at = 0; at < 24; at += 3) {
+    const Explanation e = explain(world, *integrator, settings, {24, 24}, at, at, at % 4);
+    EXPECT_EQ(e.pixel, one.at(at, at)) << at;
+    EXPECT_TRUE(sumsUp(e.tree)) << at;
+    for (const RayNode& node : e.tree.nodes) bounces += node.kind == RayKind::bounce;
+  }
+  EXPECT_GT(bounces, 0);
+}
+
+}  // namespace
+}  // namespace trace::test
