@@ -96,7 +96,8 @@ Picture BackgroundRender::picture() const {
   {
     const std::lock_guard lock(mutex_);
     if (!session_) return {};
-    picture = coarse_, session = session_;
+    picture = coarse_;
+    session = session_;
   }
   const Size size = session->size();
   if (picture.width != size.width || picture.height != size.height)
@@ -195,7 +196,8 @@ void BackgroundRender::coarsePasses(Session& session) {
     if (size.width / factor < kLeastPreview) continue;
     const Settings settings = reduced(session.settings(), size, factor);
     Film film = makeFilm(settings, settings.width, settings.height);
-    coarseJob_.done = 0, coarseJob_.total = 0;
+    coarseJob_.done = 0;
+    coarseJob_.total = 0;
     if (trace::render(session.world(), session.integrator(), settings, film, coarseJob_).end != End::finished)
       return;
     Picture picture = enlarged(film.picture(), size);

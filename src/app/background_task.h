@@ -95,7 +95,8 @@ class BackgroundTask {
       if (cancelled()) continue;
       const std::lock_guard lock(mutex_);
       if (!all_) answers_.clear();
-      answers_.push_back(std::move(answer)), running_ = false;
+      answers_.push_back(std::move(answer));
+      running_ = false;
     }
   }
 

@@ -87,7 +87,9 @@ class FlatFaces {
                                    for (int axis = 0; axis < 3; ++axis)
                                      for (const Real side : {-0.5, 0.5}) {
                                        Vec3 middle, x, y;
-                                       middle[axis] = side, x[(axis + 1) % 3] = 0.5, y[(axis + 2) % 3] = side;
+                                       middle[axis] = side;
+                                       x[(axis + 1) % 3] = 0.5;
+                                       y[(axis + 2) % 3] = side;
                                        square(middle, x, y, false);
                                      }
                                  },
@@ -101,12 +103,16 @@ class FlatFaces {
                                    if (disk.innerRadius == 0) round(0, disk.radius, true, true);
                                  },
                                  [&](const Cylinder& c) {
-                                   if (c.capped) round(0, 1, false, false), round(1, 1, true, false);
+                                   if (c.capped) {
+                                     round(0, 1, false, false);
+                                     round(1, 1, true, false);
+                                   }
                                  },
                                  [&](const Cone& c) {
-                                   if (c.capped)
-                                     round(0, c.bottomRadius, false, false),
-                                         round(c.height, c.topRadius, true, false);
+                                   if (c.capped) {
+                                     round(0, c.bottomRadius, false, false);
+                                     round(c.height, c.topRadius, true, false);
+                                   }
                                  },
                                  [&](const Mesh& mesh) {
                                    for (std::uint32_t i = 0; i < mesh.data->triangles.size(); ++i) {
@@ -196,7 +202,8 @@ std::vector<Vec3> overlap(const Face& a, const Face& b) {
   constexpr std::size_t kPlaces = 4;
   const auto place = [&](const Vec2& p) {
     Vec3 way;
-    way[(axis + 1) % 3] = p.x, way[(axis + 2) % 3] = p.y;
+    way[(axis + 1) % 3] = p.x;
+    way[(axis + 2) % 3] = p.y;
     way[axis] = -dot(a.normal, way) / a.normal[axis];
     return a.corners[0] + way;
   };
@@ -233,8 +240,10 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
   for (std::size_t begin = 0; begin < faces.size();) {
     std::size_t end = begin + 1;  // of keys without a gap
     bool several = false;
-    while (end < faces.size() && faces[end].key - faces[end - 1].key <= kNear)
-      several = several || faces[end].object != faces[begin].object, ++end;
+    while (end < faces.size() && faces[end].key - faces[end - 1].key <= kNear) {
+      several = several || faces[end].object != faces[begin].object;
+      ++end;
+    }
     if (several) {
       const int axis = longest(faces[begin].normal);
       for (std::size_t i = begin; i < end; ++i) measure(faces[i], axis);

@@ -75,8 +75,10 @@ void Document::take(const Reading& reading, bool anew) {
         ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices, reading.source.commandLine}));
   }
   moments_.insert(reading.scene);
-  onDisk_ = reading.scene, written_ = reading.written;
-  messages_ = reading.messages, fingerprint_ = reading.fingerprint;
+  onDisk_ = reading.scene;
+  written_ = reading.written;
+  messages_ = reading.messages;
+  fingerprint_ = reading.fingerprint;
   changesWithTime_ = reading.changesWithTime;
   ++readings_;
 }
@@ -84,7 +86,8 @@ void Document::take(const Reading& reading, bool anew) {
 void Document::open(const std::string& file, std::vector<Choice> commandLine) {
   const Reading reading = read({file, commandLine, {}});
   take(reading, true);
-  file_ = file, commandLine_ = std::move(commandLine);
+  file_ = file;
+  commandLine_ = std::move(commandLine);
   ownFile_ = keepsText(reading.scene->format) ? file : "";
   editions_ = {{"", reading.scene, reading.text, {}}};
   current_ = 0;
@@ -154,10 +157,12 @@ bool Document::apply(const Change& change, const Reading& reading) {
   const bool wasEdited = sceneEdited();
   if (change.anew) {
     take(reading, true);
-    next.scene = reading.scene, next.text = reading.text;
+    next.scene = reading.scene;
+    next.text = reading.text;
   } else if (*reading.scene != *onDisk_) {  // else what was edited is kept
     take(reading, false);
-    next.scene = reading.scene, next.text = reading.text;
+    next.scene = reading.scene;
+    next.text = reading.text;
     if (wasEdited)
       messages_.warn(Place{.file = file_},
                      change.option + " read the file again, without what was edited here",
@@ -257,7 +262,8 @@ void Document::noteSaved(const Saved& saved) {
   if (!ours) return;
   file_ = saved.what.file;
   ownFile_ = keepsText(writableFormatFor(file_).name) ? file_ : "";
-  written_ = saved.written, onDisk_ = saved.what.scene;
+  written_ = saved.written;
+  onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
   choicesOnDisk_ = saved.what.choices;
   fingerprint_ = saved.fingerprint;

@@ -23,7 +23,10 @@ class Canvas {
   }
 
   void draw(const DrawnFrame& f) {
-    left_ = f.at.x, top_ = f.at.y, right_ = f.at.x + f.width, bottom_ = f.at.y + f.height;
+    left_ = f.at.x;
+    top_ = f.at.y;
+    right_ = f.at.x + f.width;
+    bottom_ = f.at.y + f.height;
   }
 
   void draw(const DrawnLine& l) {
@@ -45,7 +48,8 @@ class Canvas {
       if (std::abs(dy) > 1) {
         const double a = l.from.x + (y - reach - l.from.y) / dy * dx;
         const double b = l.from.x + (y + 1 + reach - l.from.y) / dy * dx;
-        x0 = std::max(x0, std::min(a, b) - reach), x1 = std::min(x1, std::max(a, b) + reach);
+        x0 = std::max(x0, std::min(a, b) - reach);
+        x1 = std::min(x1, std::max(a, b) + reach);
       }
       cover(x0, y, x1, y + 1, l.color, coverage);
     }

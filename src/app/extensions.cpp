@@ -180,7 +180,8 @@ void writeExtensionPictures(const std::string& scenes, const std::string& folder
     const Picture off = pictureOf(e, false, scenes), on = pictureOf(e, true, scenes);
     const PictureDifference d =
         difference(levels(off), levels(on), {.pixelsPerDegree = usualPixelsPerDegree()});
-    write("off", off), write("on", on);
+    write("off", off);
+    write("on", on);
     write("difference", shows().front().picture(d.pictures(), 2));
   }
 }

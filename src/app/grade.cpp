@@ -86,7 +86,8 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
       difference(loadPicture(reference), task.renderScenes ? rendered(test, task, inputs) : loadPicture(test),
                  task.difference);
   pair.unit = d.unit();
-  pair.width = d.reference.picture.width, pair.height = d.reference.picture.height;
+  pair.width = d.reference.picture.width;
+  pair.height = d.reference.picture.height;
   pair.verdict = !d.numbers.sameSize      ? Verdict::sizesDiffer
                  : d.numbers.identical    ? Verdict::identical
                  : within(d, task.limits) ? Verdict::within

@@ -101,7 +101,10 @@ void turnedFaces(const LintScene& s, Findings& findings) {
     for (std::size_t i = 0; i < edges.size();) {
       std::size_t end = i + 1;
       while (end < edges.size() && !(edges[i] < edges[end])) ++end;
-      if (end - i == 2) ++shared, against += edges[i].upward == edges[i + 1].upward;
+      if (end - i == 2) {
+        ++shared;
+        against += edges[i].upward == edges[i + 1].upward;
+      }
       i = end;
     }
     if (against == 0) return;

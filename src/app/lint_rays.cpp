@@ -44,7 +44,10 @@ std::vector<Found> allCrossings(const World& world, const Ray& ray, Real tMost) 
 Settings sparse(const Settings& settings) {
   Settings result = settings;
   result.outlines = 0;  // lines that wide would cover small things
-  result.width = kWidth, result.height = kHeight, result.spp = 1, result.region = {};
+  result.width = kWidth;
+  result.height = kHeight;
+  result.spp = 1;
+  result.region = {};
   result.threshold = std::max(result.threshold, kCounts / 2);
   return result;
 }
@@ -298,10 +301,12 @@ double shareInsideOut(const World& world, std::uint32_t object, const MeshData& 
     for (const Found& found : allCrossings(world, {center + normal * far, -normal}, kInfinity)) {
       if (found.object != object) continue;
       met = met || found.part == i;
-      before += !met, ++all;
+      before += !met;
+      ++all;
     }
     if (!met || all % 2 != 0) continue;  // an open surface has no inside
-    ++asked, inside += before % 2;
+    ++asked;
+    inside += before % 2;
   }
   return asked > 3 ? static_cast<double>(inside) / asked : 0;
 }

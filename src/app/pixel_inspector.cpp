@@ -28,7 +28,10 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
 
 void PixelInspector::want(const std::shared_ptr<const Session>& session, int x, int y, int sample) {
   if (session == session_ && x == x_ && y == y_ && sample == sample_) return;
-  session_ = session, x_ = x, y_ = y, sample_ = sample;
+  session_ = session;
+  x_ = x;
+  y_ = y;
+  sample_ = sample;
   ask();
 }
 
@@ -39,7 +42,9 @@ void PixelInspector::pin(bool on) {
 }
 
 void PixelInspector::forget() {
-  shown_ = {}, pinned_.reset(), session_.reset();
+  shown_ = {};
+  pinned_.reset();
+  session_.reset();
   ask();
 }
 
@@ -60,7 +65,10 @@ void PixelInspector::ask() {
 bool PixelInspector::update() {
   std::optional<Shown> answer = task_.take();
   if (!answer) return false;
-  if (answer->pinned != pinned_) answer->pinned.reset(), answer->pairs.clear();  // asked for before forget()
+  if (answer->pinned != pinned_) {  // asked for before forget()
+    answer->pinned.reset();
+    answer->pairs.clear();
+  }
   shown_ = std::move(*answer);
   return true;
 }

@@ -37,8 +37,10 @@ std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool
   std::uint64_t hits = 0;
   for (const Query& query : queries)
     if (anyHit)
-      world.crossings(query.ray, query.tMost, Faces::both, statistics,
-                      [&](const Found&) { return ++hits, true; });
+      world.crossings(query.ray, query.tMost, Faces::both, statistics, [&](const Found&) {
+        ++hits;
+        return true;
+      });
     else
       hits += world.closest(query.ray, Faces::both, statistics).has_value();
   return hits;
@@ -61,7 +63,8 @@ RayBench::Kind measure(const World& world, std::string_view name, const std::vec
     double spent = 0, rounds = 0;
     do {
       answer(world, queries, anyHit, statistics);
-      spent = cpuSeconds() - begin, ++rounds;
+      spent = cpuSeconds() - begin;
+      ++rounds;
     } while (spent < kLeastSeconds);
     seconds.push_back(spent / rounds);
   }
@@ -83,12 +86,15 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   const World world = compile(scene, settings, messages);
   bench.buildCpu = cpuSeconds() - cpu;
   bench.buildWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  bench.triangles = world.triangleCount(), bench.bytes = world.bytes();
+  bench.triangles = world.triangleCount();
+  bench.bytes = world.bytes();
 
   const SampleRules rules(settings, size);
   const std::size_t most = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
   std::vector<Query> primary, bounce, shadow;
-  primary.reserve(most), bounce.reserve(most), shadow.reserve(most * scene.lights.size());
+  primary.reserve(most);
+  bounce.reserve(most);
+  shadow.reserve(most * scene.lights.size());
   Statistics statistics;
   std::optional<Work> work(std::in_place, "making the rays", size.height);
   for (int y = 0; y < size.height; ++y) {
@@ -112,7 +118,9 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   const auto add = [&](std::string_view name, const std::vector<Query>& queries, bool anyHit) {
     if (!queries.empty()) bench.kinds.push_back(measure(world, name, queries, anyHit, passes));
   };
-  add("primary", primary, false), add("bounce", bounce, false), add("shadow", shadow, true);
+  add("primary", primary, false);
+  add("bounce", bounce, false);
+  add("shadow", shadow, true);
   return bench;
 }
 

@@ -103,8 +103,11 @@ class Panel {
 
 /// What the camera of the world sees, paler; white where nothing is.
 DrawnPicture faint(const World& world, Settings settings, const Point2& at, double width, double height) {
-  settings.width = static_cast<int>(width), settings.height = static_cast<int>(height);
-  settings.region = {}, settings.spp = 1, settings.timeLimit = 0;
+  settings.width = static_cast<int>(width);
+  settings.height = static_cast<int>(height);
+  settings.region = {};
+  settings.spp = 1;
+  settings.timeLimit = 0;
   settings.depth = std::min(settings.depth, 2);
   settings.passes = {};
   Film film = makeFilm(settings, settings.width, settings.height);
@@ -130,13 +133,17 @@ Camera sideCamera(const CameraFrame& front, const Vec3& updir, const std::vector
   const auto extend = [&](const Vec3& p) {
     if (isFinite(p)) box.extend({dot(p, ahead), dot(p, up), dot(p, right)});
   };
-  for (const RaySegment& segment : segments) extend(segment.from), extend(segment.to);
+  for (const RaySegment& segment : segments) {
+    extend(segment.from);
+    extend(segment.to);
+  }
   const Vec3 center = box.center(), size = box.size();
   const Real half = std::max({size.y / 2, size.x / 2 / aspect, 1e-3 * size.z}) * 1.1;
   const Real distance = 30 * half + size.z;
   Camera camera;
   camera.position = ahead * center.x + up * center.y + right * (center.z + distance);
-  camera.viewdir = -right, camera.updir = up;
+  camera.viewdir = -right;
+  camera.updir = up;
   camera.fov = 2 * std::atan(half / distance) * 180 / kPi;
   camera.aspectratio = aspect;
   return camera;
@@ -177,7 +184,10 @@ class RayDrawing {
   }
   Real size() const {
     Box3 box;
-    for (const RaySegment& segment : segments_) box.extend(segment.from), box.extend(segment.to);
+    for (const RaySegment& segment : segments_) {
+      box.extend(segment.from);
+      box.extend(segment.to);
+    }
     return length(box.size());
   }
 
@@ -237,7 +247,10 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
     drawing.things.push_back(DrawnLine{{x, y + kLine / 2}, {x + 36, y + kLine / 2}, color, 3, dashed});
     drawing.things.push_back(DrawnWords{{x + 46, y}, words, kInk});
     x += (2 * kPanelWidth + kMargin) / 3;
-    if (x > 2 * kPanelWidth) x = kMargin, y += kLine;
+    if (x > 2 * kPanelWidth) {
+      x = kMargin;
+      y += kLine;
+    }
   };
   for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
   entry("dashed: goes on without end", kInk, true);

@@ -12,7 +12,10 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   if (fraction < kLeastFraction) return {};
   constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
   const double steady = elapsed / fraction - elapsed;  // if the rest goes on as until now
-  if (!left_) left_ = steady, last_ = elapsed;
+  if (!left_) {
+    left_ = steady;
+    last_ = elapsed;
+  }
   const double passed = elapsed - last_;
   *left_ -= passed;
   *left_ += (1 - std::exp(-kSmoothing * passed / std::max(elapsed, 1e-9))) * (steady - *left_);

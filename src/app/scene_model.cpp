@@ -91,7 +91,10 @@ SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& wi
       return found == list.end() ? nullptr : found->corners;
     };
     if (Corners corners = in(kept)) return corners;
-    if (Corners corners = in(made_)) return kept.push_back({shape, corners}), corners;
+    if (Corners corners = in(made_)) {
+      kept.push_back({shape, corners});
+      return corners;
+    }
   }
   Corners corners = std::make_shared<const std::vector<SurfaceCorner>>(
       tessellate(shape, shape.type().ofObjects ? kDivisionsOfSolids : kDivisions, within));

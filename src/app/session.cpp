@@ -99,8 +99,10 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
 
 void Session::open(Scene scene, const Settings& settings) {
   strict_ = false;
-  messages_ = {}, phases_ = {};
-  scene_ = std::move(scene), settings_ = settings;
+  messages_ = {};
+  phases_ = {};
+  scene_ = std::move(scene);
+  settings_ = settings;
   fingerprint_.clear();
 }
 

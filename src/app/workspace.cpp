@@ -126,8 +126,12 @@ void Workspace::want(Document::Change change) {
   if (wanted_) {
     const bool anew = change.anew || wanted_->anew;
     const bool continues = change.continues && wanted_->continues;
-    if (change.option.empty()) change.option = wanted_->option, change.value = wanted_->value;
-    change.continues = continues, change.anew = anew;
+    if (change.option.empty()) {
+      change.option = wanted_->option;
+      change.value = wanted_->value;
+    }
+    change.continues = continues;
+    change.anew = anew;
   }
   wanted_ = change;
   rereading_.start([change, number = ++wantedNumber_, source = document.source(change)](const Cancelled&) {
@@ -157,8 +161,11 @@ void Workspace::takeReread() {
       note(shown(document.file()) + " changed on disk and was read again; undo takes that back");
     if (last)
       wanted_.reset();
-    else  // the drag goes on
-      wanted_->continues = wanted_->option == change.option, wanted_->anew = false;
+    else {
+      // the drag goes on
+      wanted_->continues = wanted_->option == change.option;
+      wanted_->anew = false;
+    }
   }
 }
 
@@ -246,7 +253,8 @@ void Workspace::takeSaved() {
 
 void Workspace::startRender() {
   if (!document.isOpen()) return;
-  rendered_ = document.sharedScene(), renderedSettings_ = document.settings();
+  rendered_ = document.sharedScene();
+  renderedSettings_ = document.settings();
   render.start(rendered_, renderedSettings_);
 }
 

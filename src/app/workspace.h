@@ -56,7 +56,11 @@ class Workspace {
   /// It holds colours as they were rendered, before any tone.
   bool referenceIsLinear() const { return referenceIsLinear_; }
   std::uint64_t referenceVersion() const { return referenceVersion_; }
-  void closeReference() { reference_.reset(), referenceFile_.clear(), ++referenceVersion_; }
+  void closeReference() {
+    reference_.reset();
+    referenceFile_.clear();
+    ++referenceVersion_;
+  }
 
   /// Writes what is rendered so far.
   void savePicture(const std::string& file);

@@ -186,7 +186,10 @@ class Temporary {
   /// False if the file can have no name here, so that one with a name has to be written.
   bool takePlace() {
     if (name_.empty()) {
-      if (!target_.exists && linkAs(target_.path)) return sync(), true;
+      if (!target_.exists && linkAs(target_.path)) {
+        sync();
+        return true;
+      }
       for (int i = 0; i < kTries && name_.empty(); ++i)
         if (const std::string name = randomName(target_.folder); linkAs(name))
           name_ = name;

@@ -43,15 +43,22 @@ std::vector<std::string> withValues(const std::vector<std::string>& words, Verb 
       if (!flag.commands.has(command) || flag.takes != Flag::Takes::optional) continue;
       const std::string name = "--" + std::string(flag.name);
       if (word != name && !(flag.letter && word == std::string("-") + flag.letter)) continue;
-      word = name, value = flag.alone;
-      if (isOneOf(next, flag.values)) value = next, ++i;
+      word = name;
+      value = flag.alone;
+      if (isOneOf(next, flag.values)) {
+        value = next;
+        ++i;
+      }
       break;
     }
     if (takesOptions(command)) {
       for (const Option& option : options()) {
         if (option.kind != Option::Kind::boolean || word != "--" + std::string(option.name)) continue;
         value = "on";
-        if (isSwitch(next)) value = next, ++i;
+        if (isSwitch(next)) {
+          value = next;
+          ++i;
+        }
       }
     }
     result.push_back(value.empty() ? word : word + "=" + value);

@@ -92,8 +92,14 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     arguments = parse(words, command.verb);
     understood = true;
     console = Console(arguments.logLevel, arguments.quiet);
-    if (arguments.help) return printResult(page(named ? &command : nullptr, arguments.helpAll)), kDone;
-    if (arguments.version) return printResult("Trace " TRACE_VERSION "\n"), kDone;
+    if (arguments.help) {
+      printResult(page(named ? &command : nullptr, arguments.helpAll));
+      return kDone;
+    }
+    if (arguments.version) {
+      printResult("Trace " TRACE_VERSION "\n");
+      return kDone;
+    }
     return runLimited(command, arguments, console, budget);
   } catch (const Error& error) {
     liftMemoryLimit();

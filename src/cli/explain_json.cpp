@@ -190,25 +190,34 @@ class Writer {
     Json json;
     json["why"] = match(why, [](const auto& w) { return w.kName; });
     const auto kind = [](RayKind k) { return name(k); };
-    match(why,
-          Overloaded{[&](const DepthLimit& w) { json["unsent"] = kind(w.unsent), json["limit"] = w.limit; },
-                     [&](const BelowThreshold& w) {
-                       json["unsent"] = kind(w.unsent), json["contribution"] = w.contribution;
-                       json["threshold"] = w.threshold;
-                     },
-                     [&](const Roulette& w) { json["unsent"] = kind(w.unsent), json["chance"] = w.chance; },
-                     [&](const CutOff& w) {
-                       json["object"] = object(w.object, w.materials), json["distance"] = w.t;
-                       json["limit"] = w.limit;
-                     },
-                     [&](const Culled& w) {
-                       json["object"] = object(w.object, w.materials), json["distance"] = w.t;
-                     },
-                     [&](const Blocked& w) {
-                       json["object"] = object(w.object, w.materials), json["part"] = w.part;
-                       json["distance"] = w.t;
-                     },
-                     [](const auto&) {}});
+    match(why, Overloaded{[&](const DepthLimit& w) {
+                            json["unsent"] = kind(w.unsent);
+                            json["limit"] = w.limit;
+                          },
+                          [&](const BelowThreshold& w) {
+                            json["unsent"] = kind(w.unsent);
+                            json["contribution"] = w.contribution;
+                            json["threshold"] = w.threshold;
+                          },
+                          [&](const Roulette& w) {
+                            json["unsent"] = kind(w.unsent);
+                            json["chance"] = w.chance;
+                          },
+                          [&](const CutOff& w) {
+                            json["object"] = object(w.object, w.materials);
+                            json["distance"] = w.t;
+                            json["limit"] = w.limit;
+                          },
+                          [&](const Culled& w) {
+                            json["object"] = object(w.object, w.materials);
+                            json["distance"] = w.t;
+                          },
+                          [&](const Blocked& w) {
+                            json["object"] = object(w.object, w.materials);
+                            json["part"] = w.part;
+                            json["distance"] = w.t;
+                          },
+                          [](const auto&) {}});
     return json;
   }
 

@@ -278,7 +278,8 @@ std::span<const Flag> flags() {
            "show errors only: no warnings, no progress, no last line when all went well",
            [](Arguments& a, std::string_view) {
              a.quiet = true;
-             a.logLevel = LogLevel::error, a.progress = ProgressStyle::none;
+             a.logLevel = LogLevel::error;
+             a.progress = ProgressStyle::none;
            }},
       Flag{"strict", 0, Takes::nothing, "", "", kStrict, true, "warnings about the scene are errors",
            [](Arguments& a, std::string_view) { a.strict = true; }},

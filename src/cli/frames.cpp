@@ -142,7 +142,8 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
         renderPictureWatched(session, arguments, signals, console, progress, files, part);
     reportLosses(session, result, console);
     if (result.end != End::finished) {
-      code = exitCode(result), stopped = whyStopped(result);
+      code = exitCode(result);
+      stopped = whyStopped(result);
       break;
     }
     const SavedPicture saved = save(session, files, console);

@@ -62,7 +62,10 @@ void checkIsScene(const std::string& scene) {
 
 int renderCommand(const Arguments& arguments, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
-  if (arguments.printDefaults) return printResult(defaultsText()), kDone;
+  if (arguments.printDefaults) {
+    printResult(defaultsText());
+    return kDone;
+  }
 
   if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
   const std::string named = outputName(arguments);

@@ -146,8 +146,10 @@ Picture pictureOf(const Texture& texture, int width, int height, Real across) {
 }  // namespace
 
 int textureCommand(const Arguments& arguments, const Console& console) {
-  if (arguments.files.empty() && arguments.output.empty())
-    return printResult(arguments.markdown ? fieldsMarkdown() : kindsText()), kDone;
+  if (arguments.files.empty() && arguments.output.empty()) {
+    printResult(arguments.markdown ? fieldsMarkdown() : kindsText());
+    return kDone;
+  }
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray texture: expected one texture, found " + std::to_string(arguments.files.size()));
@@ -160,7 +162,10 @@ int textureCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkWritable(arguments.output);
   const Texture texture =
       inScene ? ofScene(named.substr(0, colon), named.substr(colon + 1), console) : ofKind(named);
-  if (arguments.output.empty()) return printResult(fieldsText(texture)), kDone;
+  if (arguments.output.empty()) {
+    printResult(fieldsText(texture));
+    return kDone;
+  }
   const Picture picture = pictureOf(texture, width, height, arguments.across.value_or(inScene ? 1 : 4));
   writePicture(arguments.output, picture, Rounding::nearest);
   return kDone;

@@ -49,9 +49,15 @@ void MeshRepairs::check(MeshData& mesh, const Place& place) {
       throw Error(Fault::scene, place,
                   "point " + std::to_string(i) + ": expected three finite numbers of at most 3.4e38");
   for (Vec3f& normal : mesh.normals)
-    if (!isFinite(normal)) normal = {}, ++notFinite_;
+    if (!isFinite(normal)) {
+      normal = {};
+      ++notFinite_;
+    }
   for (Vec2& uv : mesh.uvs)
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = {}, ++notFinite_;
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+      uv = {};
+      ++notFinite_;
+    }
   degenerate_ += dropDegenerate(mesh);
   zeroNormals_ += repairNormals(mesh);
   triangles_ += mesh.triangles.size();

@@ -101,7 +101,8 @@ void loadTextures(Scene& scene, Messages& messages) {
       if (pixels.map || pixels.file.empty()) return;
       const auto [found, fresh] = byPath.try_emplace(pictureFile(scene.file, pixels.file));
       if (!fresh) return;
-      found->second.name = pixels.file, found->second.place = pixels.place;
+      found->second.name = pixels.file;
+      found->second.place = pixels.place;
       files.push_back(&*found);
     });
   if (files.empty()) return;

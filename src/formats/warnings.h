@@ -25,7 +25,10 @@ class WarningsByKind {
   /// to whom finding the place is work.
   bool again(std::string_view kind) {
     const auto found = kinds_.find(kind);
-    if (found != kinds_.end()) return ++all_[found->second].times, true;
+    if (found != kinds_.end()) {
+      ++all_[found->second].times;
+      return true;
+    }
     return all_.size() == kMostKinds && ++others_ > 0;
   }
 

@@ -105,8 +105,10 @@ Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const Picture
 ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
   ExrLayout layout;
   const Imath::Box2i& data = header.dataWindow();
-  layout.minX = data.min.x, layout.minY = data.min.y;
-  layout.maxX = data.max.x, layout.maxY = data.max.y;
+  layout.minX = data.min.x;
+  layout.minY = data.min.y;
+  layout.maxX = data.max.x;
+  layout.maxY = data.max.y;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
     layout.channels.push_back(
         {c.channel().type == Imf::HALF ? 2 : 4, c.channel().xSampling, c.channel().ySampling});
@@ -115,14 +117,18 @@ ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
     const Imf::TileDescription& tile = header.tileDescription();
     if (tile.xSize < 1 || tile.ySize < 1 || tile.xSize > kLargestTile || tile.ySize > kLargestTile)
       throw std::runtime_error("tiles of 1 to 65536 pixels a side were expected");
-    layout.tileWidth = static_cast<int>(tile.xSize), layout.tileHeight = static_cast<int>(tile.ySize);
+    layout.tileWidth = static_cast<int>(tile.xSize);
+    layout.tileHeight = static_cast<int>(tile.ySize);
   }
   using Packing = ExrLayout::Packing;
   switch (header.compression()) {
     case Imf::NO_COMPRESSION: layout.packing = Packing::none; break;
     case Imf::RLE_COMPRESSION: layout.packing = Packing::runs; break;
     case Imf::ZIPS_COMPRESSION: layout.packing = Packing::deflate; break;
-    case Imf::ZIP_COMPRESSION: layout.packing = Packing::deflate, layout.rows = 16; break;
+    case Imf::ZIP_COMPRESSION:
+      layout.packing = Packing::deflate;
+      layout.rows = 16;
+      break;
     case Imf::PXR24_COMPRESSION: layout.rows = 16; break;
     case Imf::DWAB_COMPRESSION: layout.rows = 256; break;
     default: layout.rows = 32; break;

@@ -90,7 +90,8 @@ class RgbeReader {
         for (unsigned char& value : pixel) value = next();
       return;
     }
-    next(), next();
+    next();
+    next();
     const size_t high = next(), length = high << 8 | next();
     if (length != row.size()) throw std::runtime_error("a row has the wrong length");
     for (size_t channel = 0; channel < 4; ++channel) readChannel(row, channel);

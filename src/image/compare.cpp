@@ -25,10 +25,17 @@ Comparison statistics(int width, int height, double peak, double tolerance, Diff
       bool beyond = false;
       for (int channel = 0; channel < 3; ++channel, ++i) {
         const double d = differenceAt(i);
-        if (d > c.maxDifference) c.maxDifference = d, c.worstX = x, c.worstY = y;
+        if (d > c.maxDifference) {
+          c.maxDifference = d;
+          c.worstX = x;
+          c.worstY = y;
+        }
         sum += d;
         sumOfSquares += d * d;
-        if (d > tolerance) ++c.valuesBeyond, beyond = true;
+        if (d > tolerance) {
+          ++c.valuesBeyond;
+          beyond = true;
+        }
       }
       c.pixelsBeyond += beyond;
     }

@@ -168,7 +168,8 @@ void checkExrBlocks(std::string_view bytes, const ExrHeaders& headers, const Exr
     if (headers.several) block.integer();  // the part
     std::int64_t column = 0, row = 0;
     if (tiled) {
-      column = block.integer(), row = block.integer();
+      column = block.integer();
+      row = block.integer();
       const int levelX = block.integer(), levelY = block.integer();
       if (levelX != 0 || levelY != 0) throw std::runtime_error("a tile is not where it belongs");
     } else {

@@ -167,7 +167,9 @@ struct MipMap::Ellipse {
     if (!(shortest < wanted)) return;
     const Real square = longest * longest, narrow = shortest * shortest;
     const Real share = (wanted * wanted - narrow) / (square - narrow);
-    a += share * (square - a), b -= share * b, c += share * (square - c);
+    a += share * (square - a);
+    b -= share * b;
+    c += share * (square - c);
     shortest = wanted;
   }
 };
@@ -200,7 +202,9 @@ Texel MipMap::weighted(const Level& level, const Vec2& place, const Ellipse& ell
   const Real narrow = ellipse.shortest * min(toX, toY), room = max(0, 1 - narrow * narrow);
   Real A = ellipse.c * toY * toY + room, B = -2 * ellipse.b * toX * toY, C = ellipse.a * toX * toX + room;
   const Real inverse = 1 / (A * C - B * B / 4);
-  A *= inverse, B *= inverse, C *= inverse;
+  A *= inverse;
+  B *= inverse;
+  C *= inverse;
   const Real high = std::sqrt(A / (A * C - B * B / 4));
   const bool decodes = lookup.srgb && &level == &base_;
   return lookedUp(level, decodes ? &linear() : nullptr, lookup, [&](const auto& texels) {

@@ -22,9 +22,13 @@ struct Share {
     if (n == 1) return;
     first = 2 * i;
     if (n % 2 == 0) {
-      count = 2, weight[0] = weight[1] = m;
+      count = 2;
+      weight[0] = weight[1] = m;
     } else {  // 1 / m of a texel is n / m wide: parts of the first and the last, all of the middle one
-      count = 3, weight[0] = m - i, weight[1] = m, weight[2] = i + 1;
+      count = 3;
+      weight[0] = m - i;
+      weight[1] = m;
+      weight[2] = i + 1;
     }
   }
 };
@@ -89,7 +93,8 @@ MipMap::Level MipMap::halved(const Level& level, const std::vector<float>& linea
     } else {  // 16 bits, so that rounding at every level does not show
       const double finest = std::numeric_limits<std::uint16_t>::max();
       const double finer = std::max(1.0, std::floor(finest / level.colorMost));
-      next.colorMost *= finer, next.alphaMost *= finer;
+      next.colorMost *= finer;
+      next.alphaMost *= finer;
       next.samples = means<std::uint16_t>(
           level, samples, [=](In sample, int) { return sample * finer; },
           [=](double mean) { return static_cast<std::uint16_t>(std::min(mean + 0.5, finest)); });

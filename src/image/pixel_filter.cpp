@@ -49,7 +49,8 @@ PixelFilter::PixelFilter(FilterKind kind, Real radius) {
   sums_.push_back(0);
   for (int i = 0; i < kSteps; ++i) {
     const Real value = row.profile((2 * (i + 0.5)) / kSteps - 1);
-    sum += value, absolute += std::abs(value);
+    sum += value;
+    absolute += std::abs(value);
     sums_.push_back(absolute);
     signs_.push_back(value < 0 ? -1 : 1);
   }

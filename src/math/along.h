@@ -69,7 +69,10 @@ inline bool mayBePositive(const Along<Interval>& a) { return a.value.high > 0; }
 /// The length of the vector (a, b, ...).
 inline Along<Real> lengthOf(std::initializer_list<Along<Real>> parts) {
   Real square = 0, product = 0;
-  for (const Along<Real>& p : parts) square += p.value * p.value, product += p.value * p.slope;
+  for (const Along<Real>& p : parts) {
+    square += p.value * p.value;
+    product += p.value * p.slope;
+  }
   const Real l = std::sqrt(square);
   return {l, l > 0 ? product / l : 0};
 }

@@ -15,8 +15,14 @@ struct Box3 {
   bool unbounded() const { return !empty() && !(isFinite(low) && isFinite(high)); }
   Vec3 center() const { return low * 0.5 + high * 0.5; }
   Vec3 size() const { return empty() ? Vec3{} : high - low; }
-  void extend(const Vec3& p) { low = min(low, p), high = max(high, p); }
-  void extend(const Box3& b) { low = min(low, b.low), high = max(high, b.high); }
+  void extend(const Vec3& p) {
+    low = min(low, p);
+    high = max(high, p);
+  }
+  void extend(const Box3& b) {
+    low = min(low, b.low);
+    high = max(high, b.high);
+  }
   bool contains(const Vec3& p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
   }

@@ -39,8 +39,10 @@ Real FractalSum::at(std::array<Real, N> p, Real width, const std::int64_t* perio
       total += weight * signal;
       ridge = std::clamp(2 * signal, 0.0, 1.0);
     }
-    squares += weight * weight, weights += weight;
-    weight *= gain, width *= lacunarity;
+    squares += weight * weight;
+    weights += weight;
+    weight *= gain;
+    width *= lacunarity;
     for (int axis = 0; axis < N; ++axis) {
       p[axis] = p[axis] * lacunarity + kMoved[axis];
       repeats[axis] = static_cast<std::int64_t>(static_cast<Real>(repeats[axis]) * lacunarity + 0.5);

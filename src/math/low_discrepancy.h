@@ -87,17 +87,30 @@ inline Vec2 haltonPoint(std::uint32_t i, std::uint64_t seed) {
 constexpr std::uint32_t permuted(std::uint32_t i, std::uint32_t count, std::uint64_t seed) {
   const auto p = static_cast<std::uint32_t>(mixBits(seed));
   std::uint32_t w = count - 1;
-  w |= w >> 1, w |= w >> 2, w |= w >> 4, w |= w >> 8, w |= w >> 16;
+  w |= w >> 1;
+  w |= w >> 2;
+  w |= w >> 4;
+  w |= w >> 8;
+  w |= w >> 16;
   do {
-    i ^= p, i *= 0xe170893du;
-    i ^= p >> 16, i ^= (i & w) >> 4;
-    i ^= p >> 8, i *= 0x0929eb3fu;
-    i ^= p >> 23, i ^= (i & w) >> 1;
-    i *= 1 | p >> 27, i *= 0x6935fa69u;
-    i ^= (i & w) >> 11, i *= 0x74dcb303u;
-    i ^= (i & w) >> 2, i *= 0x9e501cc3u;
-    i ^= (i & w) >> 2, i *= 0xc860a3dfu;
-    i &= w, i ^= i >> 5;
+    i ^= p;
+    i *= 0xe170893du;
+    i ^= p >> 16;
+    i ^= (i & w) >> 4;
+    i ^= p >> 8;
+    i *= 0x0929eb3fu;
+    i ^= p >> 23;
+    i ^= (i & w) >> 1;
+    i *= 1 | p >> 27;
+    i *= 0x6935fa69u;
+    i ^= (i & w) >> 11;
+    i *= 0x74dcb303u;
+    i ^= (i & w) >> 2;
+    i *= 0x9e501cc3u;
+    i ^= (i & w) >> 2;
+    i *= 0xc860a3dfu;
+    i &= w;
+    i ^= i >> 5;
   } while (i >= count);
   return (i + p) % count;
 }

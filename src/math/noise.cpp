@@ -52,7 +52,8 @@ Real gradientNoise(const std::array<Real, N>& p, std::uint32_t seed, const std::
       if (low < 0) low += period[axis];
       high = low + 1 == period[axis] ? 0 : low + 1;
     }
-    bits[axis][0] = axisBits(low, axis), bits[axis][1] = axisBits(high, axis);
+    bits[axis][0] = axisBits(low, axis);
+    bits[axis][1] = axisBits(high, axis);
   }
   constexpr auto& kSlopes = trace::kSlopes<N>;
   constexpr int kEdges = 1 << (N - 1), kDrop = 32 - std::countr_zero(kSlopes.size());

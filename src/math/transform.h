@@ -19,7 +19,9 @@ struct Affine {
   }
   static Affine scaling(const Vec3& s) {
     Affine m;
-    m.row[0].x = s.x, m.row[1].y = s.y, m.row[2].z = s.z;
+    m.row[0].x = s.x;
+    m.row[1].y = s.y;
+    m.row[2].z = s.z;
     return m;
   }
   /// Right-handed, about a unit `axis`, by `angle` radians (Rodrigues).
@@ -70,7 +72,9 @@ inline Affine inverse(const Affine& m) {
   const Vec3 c1 = cross(m.row[2], m.row[0]) / d;
   const Vec3 c2 = cross(m.row[0], m.row[1]) / d;
   Affine r;
-  r.row[0] = {c0.x, c1.x, c2.x}, r.row[1] = {c0.y, c1.y, c2.y}, r.row[2] = {c0.z, c1.z, c2.z};
+  r.row[0] = {c0.x, c1.x, c2.x};
+  r.row[1] = {c0.y, c1.y, c2.y};
+  r.row[2] = {c0.z, c1.z, c2.z};
   r.offset = -linear(r, m.offset);
   return r;
 }

@@ -25,9 +25,10 @@ Vec3 saneNormal(const Vec3& plain, const Vec3& bent, const Vec3& direction, cons
   for (int i = 0; i < kHalvings; ++i) {
     const Real middle = (low + high) / 2;
     const Vec3 between = normalize(plain * (1 - middle) + bent * middle);
-    if (sane(between, direction, trueNormal))
-      low = middle, best = between;
-    else
+    if (sane(between, direction, trueNormal)) {
+      low = middle;
+      best = between;
+    } else
       high = middle;
   }
   return best;

@@ -22,7 +22,9 @@ Explanation explain(const World& world, const Integrator& integrator, const Sett
   Explanation result;
   PixelTracer plain(world, integrator, settings, size);
   require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
-  result.tree.x = x, result.tree.y = y, result.tree.sample = sample;
+  result.tree.x = x;
+  result.tree.y = y;
+  result.tree.sample = sample;
   PixelTracer(world, integrator, settings, size, &result.tree).sample(x, y, sample);
 
   PixelSum sum;

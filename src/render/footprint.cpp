@@ -9,7 +9,8 @@ struct NormalChange {
   NormalChange(const World& world, const Hit& hit, const Vec3& normal, const Differentials& arrived) {
     const SurfaceSlopes slopes = world.slopes(hit);
     const Real side = dot(normal, hit.surface.shading) < 0 ? -1 : 1;
-    x = slopes.normalAlong(arrived.originX) * side, y = slopes.normalAlong(arrived.originY) * side;
+    x = slopes.normalAlong(arrived.originX) * side;
+    y = slopes.normalAlong(arrived.originY) * side;
   }
 };
 

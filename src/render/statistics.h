@@ -32,8 +32,13 @@ struct Statistics {
   std::uint64_t pathRays() const { return allRays() - rays[static_cast<std::size_t>(RayKind::shadow)]; }
   Statistics& operator+=(const Statistics& other) {
     for (std::size_t i = 0; i < rays.size(); ++i) rays[i] += other.rays[i];
-    for (std::size_t i = 0; i < kShapes; ++i) tests[i] += other.tests[i], hits[i] += other.hits[i];
-    depths += other.depths, nodes.count += other.nodes.count, badSamples += other.badSamples;
+    for (std::size_t i = 0; i < kShapes; ++i) {
+      tests[i] += other.tests[i];
+      hits[i] += other.hits[i];
+    }
+    depths += other.depths;
+    nodes.count += other.nodes.count;
+    badSamples += other.badSamples;
     lightRemoved += other.lightRemoved;
     return *this;
   }

@@ -244,17 +244,22 @@ void Tracer::begin(const Ray& ray, RayKind kind, Real tMost, Real wavelength) {
     throw Error(Fault::limit, "the sample takes more than " + std::to_string(kMostRecordedRays) + " rays",
                 "a smaller --depth or a --threshold makes them fewer");
   RayNode node;
-  node.kind = kind, node.parent = current_, node.ray = ray, node.tMost = tMost;
+  node.kind = kind;
+  node.parent = current_;
+  node.ray = ray;
+  node.tMost = tMost;
   node.wavelength = wavelength;
   if (current_ != kNoNode) node.depth = tree_->nodes[static_cast<std::size_t>(current_)].depth + 1;
-  node.nodes = statistics_.nodes.count, node.tests = testsSoFar();  // finish() makes them differences
+  node.nodes = statistics_.nodes.count;
+  node.tests = testsSoFar();  // finish() makes them differences
   last_ = static_cast<int>(tree_->nodes.size());
   tree_->nodes.push_back(std::move(node));
 }
 
 RayNode& Tracer::finish() {
   RayNode& node = tree_->nodes.back();
-  node.nodes = statistics_.nodes.count - node.nodes, node.tests = testsSoFar() - node.tests;
+  node.nodes = statistics_.nodes.count - node.nodes;
+  node.tests = testsSoFar() - node.tests;
   return node;
 }
 
@@ -275,7 +280,8 @@ void Tracer::record(int node, const Indices& indices) {
 
 void Tracer::record(int index, const Color& through, const Color& radiance) {
   RayNode& node = tree_->nodes[static_cast<std::size_t>(index)];
-  node.through = through, node.radiance = radiance;
+  node.through = through;
+  node.radiance = radiance;
   const bool sentOn = std::any_of(node.terms.begin(), node.terms.end(), [&](const Term& term) {
     return term.ray != kNoNode && tree_->nodes[static_cast<std::size_t>(term.ray)].kind != RayKind::shadow;
   });

@@ -68,7 +68,10 @@ class Tracer {
   /// Rays from now on are children of the one cast last; returns its node.
   int enter() { return records() ? current_ = std::exchange(last_, kNoNode) : kNoNode; }
   void leave(int node) {
-    if (recorded(node)) current_ = tree_->nodes[static_cast<std::size_t>(node)].parent, last_ = node;
+    if (recorded(node)) {
+      current_ = tree_->nodes[static_cast<std::size_t>(node)].parent;
+      last_ = node;
+    }
   }
   void record(int node, Term term);
   void record(int node, const RayEnd& why);

@@ -17,11 +17,15 @@ struct Barycentric {
   explicit Barycentric(const Corners& v) : corner(v.a) {
     const Vec3 ab = v.b - v.a, ac = v.c - v.a, normal = cross(ab, ac);
     const Real square = dot(normal, normal);
-    if (square > 0) second = cross(ac, normal) / square, third = cross(normal, ab) / square;
+    if (square > 0) {
+      second = cross(ac, normal) / square;
+      third = cross(normal, ab) / square;
+    }
   }
   TriangleHit at(const Vec3& p) const {
     TriangleHit hit;
-    hit.b[1] = dot(second, p - corner), hit.b[2] = dot(third, p - corner);
+    hit.b[1] = dot(second, p - corner);
+    hit.b[2] = dot(third, p - corner);
     hit.b[0] = 1 - hit.b[1] - hit.b[2];
     return hit;
   }
@@ -85,7 +89,8 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
                           const Differentials* arrived) const {
   const Affine& in = objects_[object].placement.inFromOut();
   TexturePlace place;
-  place.point = in * surface.point, place.uv = surface.uv;
+  place.point = in * surface.point;
+  place.uv = surface.uv;
   if (!arrived) return place;
   place.pointX = linear(in, arrived->originX);
   place.pointY = linear(in, arrived->originY);

@@ -86,7 +86,9 @@ void World::closestOfShape(const Instance& instance, std::uint32_t object, const
     const auto part = static_cast<std::uint64_t>(crossing.part);
     if (!best.after(crossing.t, object, part)) return;
     ++statistics.hits[instance.kind];
-    best.t = crossing.t, best.object = object, best.part = part;
+    best.t = crossing.t;
+    best.object = object;
+    best.part = part;
   });
 }
 

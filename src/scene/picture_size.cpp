@@ -46,7 +46,8 @@ Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const
           "width", sizes.height * (ratio > 0 ? ratio : camera.aspectratio * shownAcross(settings.stereo)));
     isScene = false;
   }
-  settings.width = sizes.width, settings.height = sizes.height;
+  settings.width = sizes.width;
+  settings.height = sizes.height;
   return settings;
 }
 

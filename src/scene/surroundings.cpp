@@ -146,7 +146,8 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
   if (before && !now.backdrop && !now.environment) now = *before;
   Reader reader(now.files, limits);
   if (now.backdropFile != settings.backdrop) {
-    now.backdrop = nullptr, now.backdropFile = settings.backdrop;
+    now.backdrop = nullptr;
+    now.backdropFile = settings.backdrop;
     if (const std::string& file = settings.backdrop.path; !file.empty()) {
       const Work work("reading the backdrop");
       now.backdrop = std::make_shared<const Picture>(madeOr(
@@ -157,7 +158,8 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
   const bool sameMap = now.environmentFile == settings.environment && now.kind == settings.environmentKind;
   if (!sameMap) {
     now.environment = now.sharpEnvironment = nullptr;
-    now.environmentFile = settings.environment, now.kind = settings.environmentKind;
+    now.environmentFile = settings.environment;
+    now.kind = settings.environmentKind;
     if (const std::string& file = settings.environment.path; !file.empty()) {
       const Work work("reading the environment");
       now.sharpEnvironment = std::make_shared<const EnvironmentMap>(madeOr(

@@ -139,7 +139,8 @@ Scatter MixedBsdf::scatter(const Frame& frame, const Vec3& toLight, const Vec3& 
   for (int i = 0; i < 3; ++i) {
     if (!(parts->weight[i] > 0)) continue;
     const Scatter part = trace::scatter(parts->of[i], frame, toLight, toEye);
-    sum.diffuse += parts->weight[i] * part.diffuse, sum.specular += parts->weight[i] * part.specular;
+    sum.diffuse += parts->weight[i] * part.diffuse;
+    sum.specular += parts->weight[i] * part.specular;
   }
   return sum;
 }

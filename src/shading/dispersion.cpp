@@ -83,7 +83,9 @@ std::vector<SpectralShare> spectralFan(int count, Real shift) {
     }
     largest->weight.*channel += rest;
   };
-  balanced(&Color::r), balanced(&Color::g), balanced(&Color::b);
+  balanced(&Color::r);
+  balanced(&Color::g);
+  balanced(&Color::b);
   return fan;
 }
 

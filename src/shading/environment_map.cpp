@@ -96,7 +96,8 @@ EnvironmentMap::EnvironmentMap(EnvironmentKind kind, std::vector<Picture> pictur
     : kind_(kind), pictures_(std::move(pictures)) {
   if (kind_ != EnvironmentKind::latLong) return;
   const Picture& picture = pictures_.front();
-  top_ = meanOfRow(picture, 0), bottom_ = meanOfRow(picture, picture.height - 1);
+  top_ = meanOfRow(picture, 0);
+  bottom_ = meanOfRow(picture, picture.height - 1);
 }
 
 EnvironmentMap::EnvironmentMap(Picture picture, EnvironmentKind kind)
@@ -175,7 +176,8 @@ Color EnvironmentMap::at(const Spot& s) const {
       const Real weight = (i == 0 ? 1 - fx : fx) * (j == 0 ? 1 - fy : fy);
       const Real half = p.width / 2.0;
       if (weight == 0 || std::hypot(cx + 0.5 - half, cy + 0.5 - half) > half) continue;
-      sum += p.at(cx, cy) * weight, weights += weight;
+      sum += p.at(cx, cy) * weight;
+      weights += weight;
     }
   if (weights > 0) return sum / weights;
   // The rim of a disc of few texels: the nearest one toward the middle.

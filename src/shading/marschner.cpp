@@ -14,7 +14,10 @@ Real logBessel(Real x) {
     return x - std::log(2 * kPi * x) / 2 +
            std::log(1 + 1 / (8 * x) + 9 / (128 * x * x) + 225 / (3072 * x * x * x));
   Real sum = 1, term = 1;
-  for (int i = 1; i < 40; ++i) term *= x * x / (4.0 * i * i), sum += term;
+  for (int i = 1; i < 40; ++i) {
+    term *= x * x / (4.0 * i * i);
+    sum += term;
+  }
   return std::log(sum);
 }
 
@@ -82,7 +85,9 @@ struct MarschnerBsdf::Seen {
       return cosInside > 0 ? std::exp(-absorbed * 2 * std::cos(offInside) / cosInside) : 0;
     };
     const Color t{passes(bsdf.absorption.r), passes(bsdf.absorption.g), passes(bsdf.absorption.b)};
-    share[0] = Color(mirrored), share[1] = t * (in * in), share[2] = share[1] * t * mirrored;
+    share[0] = Color(mirrored);
+    share[1] = t * (in * in);
+    share[2] = share[1] * t * mirrored;
     const auto rest = [&](Real last, Real pass) {
       const Real again = pass * mirrored;
       return again < 1 ? last * again / (1 - again) : 0;

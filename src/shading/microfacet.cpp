@@ -117,7 +117,8 @@ struct AlbedoTable {
         const Vec3 light = mirroredAt(half, eye);
         if (!(light.z > 0)) continue;
         const Real share = facets.seenAndLit(eye, light) / facets.seen(eye) / (kSamples * kSamples);
-        sum.white += share, sum.schlick += share * schlickWeight(dot(eye, half));
+        sum.white += share;
+        sum.schlick += share * schlickWeight(dot(eye, half));
       }
     return {min(1, sum.white), min(1, sum.schlick)};
   }
@@ -177,7 +178,8 @@ MicrofacetAlbedo MicrofacetLobe::mean() const {
     const Real phi = (i + 0.5) * kPi / 2 / kAround;
     const MicrofacetAlbedo there =
         meanMicrofacetAlbedo(facets.kind, widthTo({std::cos(phi), std::sin(phi), 0}));
-    sum.white += there.white / kAround, sum.schlick += there.schlick / kAround;
+    sum.white += there.white / kAround;
+    sum.schlick += there.schlick / kAround;
   }
   return sum;
 }

@@ -145,7 +145,9 @@ struct LocalBsdf : WhittedTerms {
 
   LocalBsdf() = default;
   explicit LocalBsdf(const Said& model) : said(model) {
-    emissive = model.emissive, ambient = model.ambient, shadow = model.shadow;
+    emissive = model.emissive;
+    ambient = model.ambient;
+    shadow = model.shadow;
   }
 
   bool scatters() const { return true; }

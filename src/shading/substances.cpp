@@ -85,9 +85,12 @@ std::optional<Material> libraryMaterial(std::string_view name) {
   for (const Substance& substance : kTable) {
     if (substance.name != name) continue;
     Phong clear;
-    clear.specular = Color(0.5), clear.shininess = 300, clear.transmissive = Color(1);
+    clear.specular = Color(0.5);
+    clear.shininess = 300;
+    clear.transmissive = Color(1);
     clear.index = substance.index;
-    clear.dispersion = substance.dispersion, clear.abbe = substance.abbe;
+    clear.dispersion = substance.dispersion;
+    clear.abbe = substance.abbe;
     clear.attenuationColor = substance.color;
     return Material{std::string(name), clear, {}};
   }

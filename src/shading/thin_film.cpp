@@ -24,8 +24,10 @@ struct Faces {
     if (total) return;
     const Real c1 = std::sqrt(s1), c2 = std::sqrt(s2), n1 = film.index, n2 = film.behind;
     const auto amplitude = [](Real a, Real b) { return a + b > 0 ? (a - b) / (a + b) : 0; };
-    front[0] = amplitude(c0, n1 * c1), back[0] = amplitude(n1 * c1, n2 * c2);
-    front[1] = amplitude(n1 * c0, c1), back[1] = amplitude(n2 * c1, n1 * c2);
+    front[0] = amplitude(c0, n1 * c1);
+    back[0] = amplitude(n1 * c1, n2 * c2);
+    front[1] = amplitude(n1 * c0, c1);
+    back[1] = amplitude(n2 * c1, n1 * c2);
     path = 2 * n1 * c1 * film.nanometres;
   }
 

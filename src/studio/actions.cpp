@@ -84,8 +84,11 @@ constexpr std::array kTable{
     Action{"File", "Open reference...", 'R', true, true, "choose a picture to compare with", openReference,
            always, nullptr},
     Action{"File", "Close reference", 0, false, false, "compare no more",
-           [](Studio& s) { s.workspace.closeReference(), s.picture.view = View::picture; }, hasReference,
-           nullptr},
+           [](Studio& s) {
+             s.workspace.closeReference();
+             s.picture.view = View::picture;
+           },
+           hasReference, nullptr},
     Action{"File", "Background image...", 0, false, false, "choose a picture to be seen behind everything",
            [](Studio& s) { chooseFile(s, findOption("backdrop")); }, hasScene, nullptr},
     Action{"File", "Environment map...", 0, false, false,
@@ -117,7 +120,11 @@ constexpr std::array kTable{
     Action{"View", "Fit the picture", 'F', false, false, "the whole picture",
            [](Studio& s) { s.picture.fit = true; }, hasPicture, nullptr},
     Action{"View", "Actual pixels", 'A', false, false, "one pixel of the picture to one of the screen",
-           [](Studio& s) { s.picture.fit = false, s.picture.zoom = 1; }, hasPicture, nullptr},
+           [](Studio& s) {
+             s.picture.fit = false;
+             s.picture.zoom = 1;
+           },
+           hasPicture, nullptr},
     Action{"View", "Next comparison", 'C', false, false,
            "picture, reference, side by side, swipe, difference", [](Studio& s) { s.picture.nextView(); },
            hasReference, nullptr},
@@ -126,8 +133,11 @@ constexpr std::array kTable{
     Action{"View", "Darker", '-', false, false, "exposure half a stop down",
            [](Studio& s) { s.picture.exposure -= 0.5f; }, always, nullptr},
     Action{"View", "Light theme", 'L', true, false, "dark letters on light, or light on dark",
-           [](Studio& s) { s.theme.light = !s.theme.light, s.themeChanged = true; }, always,
-           [](const Studio& s) { return s.theme.light; }},
+           [](Studio& s) {
+             s.theme.light = !s.theme.light;
+             s.themeChanged = true;
+           },
+           always, [](const Studio& s) { return s.theme.light; }},
     Action{"View", "Larger text", '=', true, false, "enlarge everything",
            [](Studio& s) { zoomText(s, 1.125f); }, always, nullptr},
     Action{"View", "Smaller text", '-', true, false, "shrink everything",
@@ -217,7 +227,10 @@ void closeOnEscape(const Studio& studio) {
 }
 
 void drawHelp(Studio& studio) {
-  if (studio.showHelp) ImGui::OpenPopup(kHelpTitle), studio.showHelp = false;
+  if (studio.showHelp) {
+    ImGui::OpenPopup(kHelpTitle);
+    studio.showHelp = false;
+  }
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
@@ -257,7 +270,10 @@ void drawHelp(Studio& studio) {
 }
 
 void drawAbout(Studio& studio) {
-  if (studio.showAbout) ImGui::OpenPopup(kAboutTitle), studio.showAbout = false;
+  if (studio.showAbout) {
+    ImGui::OpenPopup(kAboutTitle);
+    studio.showAbout = false;
+  }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   bool open = true;
   if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
@@ -320,8 +336,10 @@ std::string keyText(const Action& action) {
 void drawMenu(Studio& studio) {
   takeKeys(studio);
   if (!ImGui::BeginMainMenuBar()) return;
-  if (const std::string asked = std::exchange(studio.menuToOpen, ""); !asked.empty())
-    ImGui::OpenPopup(asked.c_str()), showKeyboardCursor();
+  if (const std::string asked = std::exchange(studio.menuToOpen, ""); !asked.empty()) {
+    ImGui::OpenPopup(asked.c_str());
+    showKeyboardCursor();
+  }
   for (std::size_t i = 0; i < kTable.size();) {
     const char* menu = kTable[i].menu;
     const bool open = ImGui::BeginMenu(menu);

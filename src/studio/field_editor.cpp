@@ -94,7 +94,10 @@ bool editChoice(const std::string_view* names, std::size_t count, std::size_t& v
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("##value", std::string(names[value]).c_str())) return false;
   for (std::size_t i = 0; i < count; ++i)
-    if (ImGui::Selectable(std::string(names[i]).c_str(), i == value)) value = i, changed = true;
+    if (ImGui::Selectable(std::string(names[i]).c_str(), i == value)) {
+      value = i;
+      changed = true;
+    }
   ImGui::EndCombo();
   return changed;
 }

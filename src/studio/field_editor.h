@@ -105,7 +105,8 @@ template <class Element>
 bool editValue(const FieldFacts& facts, std::vector<Element>& values) {
   if (values.empty()) {
     if (!addButton()) return false;
-    return values.emplace_back(), true;
+    values.emplace_back();
+    return true;
   }
   if (!beginList(values.size())) return false;
   bool changed = false;

@@ -16,14 +16,18 @@ namespace fs = std::filesystem;
 
 void FileDialog::open(const std::string& title, Purpose purpose, const std::string& at,
                       std::vector<std::string> suffixes, std::function<void(const std::string&)> chosen) {
-  title_ = title, purpose_ = purpose, suffixes_ = std::move(suffixes), chosen_ = std::move(chosen);
+  title_ = title;
+  purpose_ = purpose;
+  suffixes_ = std::move(suffixes);
+  chosen_ = std::move(chosen);
   name_ = purpose == Purpose::write ? fs::path(at).filename().string() : "";
   open_ = appearing_ = focusName_ = true;
   enter(nearestFolder(at));
 }
 
 void FileDialog::enter(const std::string& folder) {
-  problem_.clear(), overwrite_ = false;
+  problem_.clear();
+  overwrite_ = false;
   try {
     entries_ = listFolder(folder, suffixes_);
     folder_ = folder;
@@ -94,7 +98,10 @@ void FileDialog::draw(bool escape, bool entered) {
   ImGui::SetNextWindowSize({std::min(characters(90), view.Size.x * 0.9f), view.Size.y * 0.7f},
                            ImGuiCond_Appearing);
   if (!ImGui::BeginPopupModal(title_.c_str(), &open_)) return;
-  if (escape) open_ = false, ImGui::CloseCurrentPopup();
+  if (escape) {
+    open_ = false;
+    ImGui::CloseCurrentPopup();
+  }
   const bool typing = ImGui::GetIO().WantTextInput;  // then Enter belongs to the field
 
   std::string typed = folder_;
@@ -115,7 +122,10 @@ void FileDialog::draw(bool escape, bool entered) {
                                                   : "Save",
                         {characters(16), 0});
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {characters(16), 0})) open_ = false, ImGui::CloseCurrentPopup();
+  if (ImGui::Button("Cancel", {characters(16), 0})) {
+    open_ = false;
+    ImGui::CloseCurrentPopup();
+  }
   const std::string& named = focused_.empty() ? name_ : focused_;
   if (done && !name_.empty())
     choose(name_);

@@ -19,7 +19,10 @@ Kept& kept() {
 }  // namespace
 
 void keepLandmarks() { kept().on = true; }
-void forgetLandmarks() { kept().places.clear(), kept().focused.clear(); }
+void forgetLandmarks() {
+  kept().places.clear();
+  kept().focused.clear();
+}
 
 const std::string& focusedLandmark() { return kept().focused; }
 

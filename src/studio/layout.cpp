@@ -61,8 +61,10 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       if (!open) continue;
       studio.layout.front[dock] = panel.name;
       if (asked) studio.layout.ask.clear();
-      if (asked && std::exchange(studio.layout.focus, false))
-        ImGui::SetNextWindowFocus(), showKeyboardCursor();
+      if (asked && std::exchange(studio.layout.focus, false)) {
+        ImGui::SetNextWindowFocus();
+        showKeyboardCursor();
+      }
       ImGui::BeginChild(panel.name.data(), {0, 0}, false, ImGuiWindowFlags_NoScrollWithMouse);
       panel.draw(studio);
       ImGui::EndChild();
@@ -138,7 +140,10 @@ void drawStudio(Studio& studio) {
   std::vector<Message> remarks;
   for (std::string& remark : takeRemarks())
     remarks.push_back({.severity = Message::Severity::warning, .what = std::move(remark)});
-  if (!remarks.empty()) studio.workspace.report(remarks), studio.show("Log");
+  if (!remarks.empty()) {
+    studio.workspace.report(remarks);
+    studio.show("Log");
+  }
 }
 
 }  // namespace trace::studio

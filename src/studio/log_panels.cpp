@@ -48,7 +48,10 @@ void drawLog(Studio& studio) {
     if (!entry.hint.empty()) ImGui::TextDisabled("    %s", entry.hint.c_str());
     ImGui::PopTextWrapPos();
   }
-  if (log.size() != seen) ImGui::SetScrollHereY(1), seen = log.size();
+  if (log.size() != seen) {
+    ImGui::SetScrollHereY(1);
+    seen = log.size();
+  }
   ImGui::EndChild();
   if (ImGui::BeginPopupContextWindow()) {
     if (ImGui::MenuItem("Clear")) studio.workspace.clearLog();

@@ -53,7 +53,10 @@ bool update(Studio& studio, bool hurry) {
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures();
   workspace.update();
-  if (workspace.failures() > failures) studio.show("Log"), studio.quit = false;
+  if (workspace.failures() > failures) {
+    studio.show("Log");
+    studio.quit = false;
+  }
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling = studio.rays.modelTask.busy();
   due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
@@ -134,7 +137,10 @@ int main(int argc, char** argv) {
   guardStreams();
   try {
     const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
-    if (arguments.help) return std::fputs(studio::helpText().c_str(), stdout), 0;
+    if (arguments.help) {
+      std::fputs(studio::helpText().c_str(), stdout);
+      return 0;
+    }
     return studio::run(arguments);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -146,7 +146,8 @@ bool editNumber(const char* id, double& value, const NumberLook& look) {
 bool editNumber(const char* id, int& value, const NumberLook& look) {
   constexpr double kMost = 2147483647;
   NumberLook inRange = look;
-  inRange.least = std::max(look.least, -kMost), inRange.most = std::min(look.most, kMost);
+  inRange.least = std::max(look.least, -kMost);
+  inRange.most = std::min(look.most, kMost);
   double number = value;
   if (!edit(id, number, inRange, true)) return false;
   const int now = static_cast<int>(std::lround(number));

@@ -52,11 +52,17 @@ void refresh(Studio& studio) {
     const Picture difference = colours ? falseColours(picture, *reference, view.magnify)
                                        : differences(picture, *reference, view.magnify);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
-    view.differenceView = view.view, view.differenceMagnify = view.magnify;
+    view.differenceView = view.view;
+    view.differenceMagnify = view.magnify;
   }
-  view.referenceVersion = workspace.referenceVersion(), view.exposed = view.exposure;
-  view.development = developmentOf(settings), view.rounding = settings.rounding;
-  if (pictureChanged) view.refreshed = now, view.refreshCost = 0;
+  view.referenceVersion = workspace.referenceVersion();
+  view.exposed = view.exposure;
+  view.development = developmentOf(settings);
+  view.rounding = settings.rounding;
+  if (pictureChanged) {
+    view.refreshed = now;
+    view.refreshCost = 0;
+  }
 }
 
 void drawBar(Studio& studio) {
@@ -81,7 +87,10 @@ void drawBar(Studio& studio) {
   if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
     runAction("Export picture...");
   if (button("Fit", "the whole picture (F)", true)) view.fit = true;
-  if (button("1:1", "one pixel to one of the screen (A)", true)) view.fit = false, view.zoom = 1;
+  if (button("1:1", "one pixel to one of the screen (A)", true)) {
+    view.fit = false;
+    view.zoom = 1;
+  }
 
   const auto roomFor = [](float wide) {  // else on the next line
     if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
@@ -153,11 +162,13 @@ void zoomAndPan(PictureView& view, const Frame& frame) {
     const float before = view.zoom;
     view.zoom = std::clamp(view.zoom * std::pow(1.25f, io.MouseWheel), 0.02f, 128.0f);
     const double keep = before / view.zoom;  // the place under the cursor stays there
-    view.centreX = x + (view.centreX - x) * keep, view.centreY = y + (view.centreY - y) * keep;
+    view.centreX = x + (view.centreX - x) * keep;
+    view.centreY = y + (view.centreY - y) * keep;
     view.fit = false;
   }
   if (ImGui::IsMouseDragging(1, 0) || ImGui::IsMouseDragging(2, 0)) {
-    view.centreX -= io.MouseDelta.x / frame.size.x, view.centreY -= io.MouseDelta.y / frame.size.y;
+    view.centreX -= io.MouseDelta.x / frame.size.x;
+    view.centreY -= io.MouseDelta.y / frame.size.y;
     if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) view.fit = false;
   }
 }
@@ -220,7 +231,10 @@ void drawWelcome(Studio& studio, ImVec2 area) {
   ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
   if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
   const auto recent = studio.workspace.recent();
-  if (!recent.empty()) ImGui::NewLine(), centred("Opened lately:");
+  if (!recent.empty()) {
+    ImGui::NewLine();
+    centred("Opened lately:");
+  }
   for (const std::string& file : recent) {
     ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));

@@ -40,7 +40,10 @@ struct PictureView {
   /// Takes the pixel as if it were clicked, and brings it into view.
   void goTo(int x, int y) {
     pixel.choose(x, y, {shown.width, shown.height});
-    if (!fit) centreX = (x + 0.5) / shown.width, centreY = (y + 0.5) / shown.height;
+    if (!fit) {
+      centreX = (x + 0.5) / shown.width;
+      centreY = (y + 0.5) / shown.height;
+    }
   }
   void nextView() { view = static_cast<View>((static_cast<int>(view) + 1) % 6); }
 };

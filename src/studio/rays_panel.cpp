@@ -71,8 +71,10 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   ImGui::SetNextItemWidth(
       std::max(characters(10), ImGui::GetContentRegionAvail().x - all - ImGui::GetStyle().ItemSpacing.x));
   const int before = step;
-  if (ImGui::SliderInt("##step", &step, 1, count, format))
-    view.step = before, stepRays(studio, step - before);
+  if (ImGui::SliderInt("##step", &step, 1, count, format)) {
+    view.step = before;
+    stepRays(studio, step - before);
+  }
   ImGui::SameLine();
   if (ImGui::Button("All")) view.step = -1;
 }
@@ -276,7 +278,8 @@ void showBoxes(Studio& studio) {
   if (!pixel || view.selected < 0) return;
   const Session& session = *pixel->session;
   view.boxes = visitedBoxes(session.world(), session.settings(), nodeAt(pixel->tree(), view.selected));
-  view.boxesOf = view.selected, view.box = static_cast<int>(view.boxes.size());
+  view.boxesOf = view.selected;
+  view.box = static_cast<int>(view.boxes.size());
 }
 
 namespace {
@@ -297,10 +300,13 @@ void updatePixel(Studio& studio) {
   const TracedPixel& pixel = *inspector.traced();
   const std::size_t count = pixel.tree().nodes.size();
   if (pixel.x != view.x || pixel.y != view.y || count != view.rays) {
-    view.step = -1, view.selected = count > 0 ? 0 : -1;
+    view.step = -1;
+    view.selected = count > 0 ? 0 : -1;
     view.closed.assign(count, 0);
   }
-  view.x = pixel.x, view.y = pixel.y, view.rays = count;
+  view.x = pixel.x;
+  view.y = pixel.y;
+  view.rays = count;
   view.boxesOf = -1;
 }
 

@@ -135,7 +135,8 @@ struct SceneDrawer::State {
 
   void resize(int w, int h) {
     if (w == width && h == height) return;
-    width = w, height = h;
+    width = w;
+    height = h;
     glBindRenderbuffer(GL_RENDERBUFFER, colourBuffer);
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, kSamples, GL_RGB8, w, h);
     glBindRenderbuffer(GL_RENDERBUFFER, depthBuffer);
@@ -222,7 +223,8 @@ ImTextureID SceneDrawer::show(SpaceDrawing drawing) {
 void SceneDrawer::State::draw(const SpaceDrawing& d) {
   resize(d.width, d.height);
   for (std::size_t i = 0; i < 16; ++i) matrix[i] = static_cast<float>(d.matrix[i / 4][i % 4]);
-  eye = d.eye, inside = d.inside;
+  eye = d.eye;
+  inside = d.inside;
   glBindFramebuffer(GL_FRAMEBUFFER, smooth);
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
@@ -268,7 +270,8 @@ void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
     glUniform3f(glGetUniformLocation(surface, name), static_cast<float>(p.x), static_cast<float>(p.y),
                 static_cast<float>(p.z));
   };
-  place("eye", eye), place("inside", inside);
+  place("eye", eye);
+  place("inside", inside);
   glBindVertexArray(surfaceArray);
   const int colour = glGetUniformLocation(surface, "colour"), wall = glGetUniformLocation(surface, "wall");
   for (const DrawSurface& part : parts) {

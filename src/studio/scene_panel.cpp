@@ -50,7 +50,10 @@ void scrollIntoView() {
 void entry(Studio& studio, Selected kind, std::size_t index, const std::string& name) {
   ImGui::PushID(static_cast<int>(index));
   const bool selected = studio.selected == kind && studio.selectedIndex == index;
-  if (ImGui::Selectable(name.c_str(), selected)) studio.selected = kind, studio.selectedIndex = index;
+  if (ImGui::Selectable(name.c_str(), selected)) {
+    studio.selected = kind;
+    studio.selectedIndex = index;
+  }
   landmark("entry " + std::string(Studio::kSelectedNames[static_cast<int>(kind)]) + " " +
            std::to_string(index));
   if (selected && studio.revealSelected) scrollIntoView();
@@ -253,7 +256,10 @@ void drawScene(Studio& studio) {
                             : studio.selected == Selected::light    ? scene.lights.size()
                             : studio.selected == Selected::material ? scene.materials.size()
                                                                     : 1;
-  if (studio.selectedIndex >= count) studio.selected = Selected::camera, studio.selectedIndex = 0;
+  if (studio.selectedIndex >= count) {
+    studio.selected = Selected::camera;
+    studio.selectedIndex = 0;
+  }
   ImGui::BeginChild("fields", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   ImGui::PushID(static_cast<int>(studio.selectedIndex));
   switch (studio.selected) {

@@ -194,7 +194,10 @@ constexpr std::array kTable{
               s.select(kindOf(a[0]), static_cast<std::size_t>(std::max(0, whole(a[1]))));
               return true;
             },
-            [](const Words& a) { kindOf(a[0]), whole(a[1]); }},
+            [](const Words& a) {
+              kindOf(a[0]);
+              whole(a[1]);
+            }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",
             [](Studio& s, const Words&) { return !s.workspace.inspector.busy(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
@@ -278,7 +281,10 @@ bool Script::step(Studio& studio) {
   try {
     if (failed) fail(workspace);
     waits_ = !commandOf(line.words).run(studio, argumentsOf(line.words));
-    if (!waits_) ++next_, framesToWait_ = kSettle;
+    if (!waits_) {
+      ++next_;
+      framesToWait_ = kSettle;
+    }
     return true;
   } catch (const Error& error) {
     Message message = error.messages().front();

@@ -54,7 +54,8 @@ struct SeeThrough::State {
 
   void resize(int w, int h) {
     if (w == width && h == height) return;
-    width = w, height = h;
+    width = w;
+    height = h;
     // Depths as they are: rounded ones would let a surface show through itself.
     for (const unsigned depth : {solid, before[0], before[1]})
       texture(depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);

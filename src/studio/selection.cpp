@@ -27,9 +27,10 @@ void followList(Studio& studio, Selected kind, const std::vector<Thing>& before,
   if (const auto came = oneMore(before, after)) return studio.select(kind, *came);
   const auto gone = oneMore(after, before);
   if (!gone || studio.selected != kind || studio.selectedIndex < *gone) return;
-  if (studio.selectedIndex == *gone)
-    studio.selected = Selected::none, studio.selectedIndex = 0;
-  else
+  if (studio.selectedIndex == *gone) {
+    studio.selected = Selected::none;
+    studio.selectedIndex = 0;
+  } else
     --studio.selectedIndex;
 }
 
@@ -81,7 +82,8 @@ void deleteSelected(Studio& studio) {
     scene.lights.erase(scene.lights.begin() + at);
   }
   document.edit("delete " + name, std::move(scene));
-  studio.selected = Selected::none, studio.selectedIndex = 0;
+  studio.selected = Selected::none;
+  studio.selectedIndex = 0;
 }
 
 void duplicateSelected(Studio& studio) {

@@ -69,7 +69,8 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
     DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
     surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
     if (view.surfaces == Surfaces::wireframe) {
-      surface.opacity = kWire, surface.wall = false;
+      surface.opacity = kWire;
+      surface.wall = false;
       drawing.wires.push_back(surface);
     } else {
       (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
@@ -112,7 +113,10 @@ int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVe
     const int i = segment.node;
     if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || !view.inStep(i)) continue;
     const float d = distanceTo(view, matrix, low, size, segment);
-    if (d < least) least = d, nearest = i;
+    if (d < least) {
+      least = d;
+      nearest = i;
+    }
   }
   return nearest;
 }
@@ -176,7 +180,11 @@ void drawSwitches(Studio& studio) {
   landmark("from camera");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
   ImGui::SameLine();
-  if (ImGui::Button("Reset")) view.orbitFile.clear(), view.modelScene.reset(), view.fromCamera = false;
+  if (ImGui::Button("Reset")) {
+    view.orbitFile.clear();
+    view.modelScene.reset();
+    view.fromCamera = false;
+  }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look at everything again");
   if (!ImGui::BeginPopup("show")) return;
   ImGui::Checkbox("lights", &view.lightsShown);

@@ -18,7 +18,8 @@ std::string preferencesFile(const Studio& studio) { return studio.configFolder +
 
 void showKeyboardCursor() {
   ImGuiContext& context = *ImGui::GetCurrentContext();
-  context.NavDisableHighlight = false, context.NavDisableMouseHover = true;
+  context.NavDisableHighlight = false;
+  context.NavDisableMouseHover = true;
 }
 
 void keepKeyboard(Studio& studio) {
@@ -50,7 +51,8 @@ void noteKeyboard(Studio& studio) {
   studio.keyboard.hidden = context.NavDisableHighlight;
   if (!context.NavWindow || context.NavLayer != ImGuiNavLayer_Main) return;
   const ImRect& at = context.NavWindow->NavRectRel[ImGuiNavLayer_Main];
-  studio.keyboard.item = context.NavId, studio.keyboard.window = context.NavWindow->ID;
+  studio.keyboard.item = context.NavId;
+  studio.keyboard.window = context.NavWindow->ID;
   studio.keyboard.place = {at.Min.x, at.Min.y, at.Max.x, at.Max.y};
 }
 

@@ -66,7 +66,9 @@ struct Studio {
   std::size_t selectedIndex = 0;
   bool revealSelected = false;  ///< the list scrolls to it when it is drawn next
   void select(Selected kind, std::size_t index) {
-    selected = kind, selectedIndex = index, revealSelected = true;
+    selected = kind;
+    selectedIndex = index;
+    revealSelected = true;
   }
   unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go
 
@@ -89,7 +91,10 @@ struct Studio {
   }
   void show(const std::string& panel) { layout.ask = panel; }
   /// With the keyboard in it.
-  void goTo(const std::string& panel) { layout.ask = panel, layout.focus = true; }
+  void goTo(const std::string& panel) {
+    layout.ask = panel;
+    layout.focus = true;
+  }
 };
 
 /// What belonged to the scene before is forgotten when another is opened: the chosen pixel, the selection.

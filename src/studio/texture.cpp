@@ -12,7 +12,8 @@ Texture::~Texture() {
 
 void Texture::set(const Bytes& bytes) {
   if (!name_) glGenTextures(1, &name_);
-  width_ = bytes.width, height_ = bytes.height;
+  width_ = bytes.width;
+  height_ = bytes.height;
   ++version_;
   glBindTexture(GL_TEXTURE_2D, name_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

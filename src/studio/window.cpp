@@ -33,7 +33,8 @@ struct Window::State {
   int framesDue = 3;          // what happens in a frame may show only in the next
 
   void add(InputEvent event) {
-    event.time = glfwGetTime(), event.slack = slack;
+    event.time = glfwGetTime();
+    event.slack = slack;
     queue.add(event);
     happened = true;
   }
@@ -56,8 +57,10 @@ constexpr double kLeastFrame = 1e-4;  // seconds: Dear ImGui's clock must not st
 }
 
 void limitToMonitor(int& width, int& height) {
-  if (const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor()))
-    width = std::min(width, mode->width), height = std::min(height, mode->height);
+  if (const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor())) {
+    width = std::min(width, mode->width);
+    height = std::min(height, mode->height);
+  }
 }
 
 }  // namespace

@@ -185,7 +185,8 @@ TEST_F(Cli, QuietShowsErrorsOnly) {
   EXPECT_EQ(run({"convert", "odd.ray", "b.ray", "-q"}).err, "");
   EXPECT_TRUE(contains(run({"nowhere.ray", "-q"}).err, "cannot read \"nowhere.ray\""));
   EXPECT_TRUE(contains(run({"odd.ray", "-q", "--strict"}).err, "wood"));
-  const Run limited = run({"odd.ray", "-w", "1000", "--spp", "65536", "-q", "--time-limit", "0.5", "part.png"});
+  const Run limited =
+      run({"odd.ray", "-w", "1000", "--spp", "65536", "-q", "--time-limit", "0.5", "part.png"});
   EXPECT_EQ(limited.code, 5);
   EXPECT_TRUE(contains(limited.err, "stopped by the time limit")) << "a part is not what was asked for";
 }

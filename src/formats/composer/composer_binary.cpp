@@ -19,14 +19,18 @@ class BinaryReader {
     constexpr std::int32_t kCheck = 123456789;
     const std::size_t start = at_;
     if (integer() != kCheck) {
-      at_ = start, big_ = true;
+      at_ = start;
+      big_ = true;
       if (integer() != kCheck) fail("expected the integer 123456789 in one of both byte orders");
     }
     if (std::abs(real() - 3.1415926) > 1e-6) fail("expected the number 3.1415926");
     File file;
     View v;
-    v.position = vector(), v.direction = vector(), v.focalDistance = real();
-    v.up = vector(), v.verticalFov = real();
+    v.position = vector();
+    v.direction = vector();
+    v.focalDistance = real();
+    v.up = vector();
+    v.verticalFov = real();
     if (v.verticalFov != 0) file.view = v;
     for (std::uint32_t n = count(12 * kWord); n > 0; --n) file.lamps.push_back(lamp());
     for (std::uint32_t n = count(3 * kWord); n > 0; --n) file.objects.push_back(object());
@@ -50,7 +54,10 @@ class BinaryReader {
     const std::uint32_t value = bits();
     float number;
     std::memcpy(&number, &value, sizeof number);
-    if (!std::isfinite(number)) at_ -= 4, fail("expected a finite number");
+    if (!std::isfinite(number)) {
+      at_ -= 4;
+      fail("expected a finite number");
+    }
     return static_cast<Real>(number);
   }
   Vec3 vector() {
@@ -64,22 +71,29 @@ class BinaryReader {
   /// Of things that take at least `size` bytes each.
   std::uint32_t count(std::size_t size) {
     const std::int32_t n = integer();
-    if (n < 0 || static_cast<std::size_t>(n) > (bytes_.size() - at_) / size)
-      at_ -= kWord,
-          fail("found the number " + std::to_string(n) + " of things, more than the file has room for");
+    if (n < 0 || static_cast<std::size_t>(n) > (bytes_.size() - at_) / size) {
+      at_ -= kWord;
+      fail("found the number " + std::to_string(n) + " of things, more than the file has room for");
+    }
     return static_cast<std::uint32_t>(n);
   }
   std::int32_t choice(std::int32_t most, const char* what) {
     const std::int32_t n = integer();
-    if (n < 0 || n > most) at_ -= kWord, fail(std::string(what) + ": expected 0 to " + std::to_string(most));
+    if (n < 0 || n > most) {
+      at_ -= kWord;
+      fail(std::string(what) + ": expected 0 to " + std::to_string(most));
+    }
     return n;
   }
 
   Lamp lamp() {
     Lamp l;
     l.kind = static_cast<Lamp::Kind>(choice(2, "kind of light"));
-    l.position = vector(), l.direction = vector(), l.color = color();
-    l.dropOffRate = real(), l.cutOffAngle = real();
+    l.position = vector();
+    l.direction = vector();
+    l.color = color();
+    l.dropOffRate = real();
+    l.cutOffAngle = real();
     return l;
   }
 
@@ -90,8 +104,12 @@ class BinaryReader {
     o.name = name();
     for (std::uint32_t n = old_ ? 1 : count(14 * kWord); n > 0; --n) {
       Material& m = o.materials.emplace_back();
-      m.diffuse = color(), m.ambient = color(), m.specular = color(), m.emission = color();
-      m.shininess = real(), m.ktran = real();
+      m.diffuse = color();
+      m.ambient = color();
+      m.specular = color();
+      m.emission = color();
+      m.shininess = real();
+      m.ktran = real();
     }
     if (isSphere)
       o.sphere = sphere();
@@ -104,7 +122,10 @@ class BinaryReader {
     const std::int32_t length = integer();
     if (length < 0) return {};
     const std::size_t size = static_cast<std::size_t>(length) + 1;
-    if (size > bytes_.size() - at_) at_ -= 4, fail("a name is longer than the file");
+    if (size > bytes_.size() - at_) {
+      at_ -= 4;
+      fail("a name is longer than the file");
+    }
     std::string text(bytes_.substr(at_, size - 1));
     at_ += size;
     return text.substr(0, text.find('\0'));
@@ -112,16 +133,22 @@ class BinaryReader {
 
   Sphere sphere() {
     Sphere s;
-    s.origin = vector(), s.radius = real();
-    for (int i = 0; i < 3; ++i) s.axis[i] = vector(), s.length[i] = real();
+    s.origin = vector();
+    s.radius = real();
+    for (int i = 0; i < 3; ++i) {
+      s.axis[i] = vector();
+      s.length[i] = real();
+    }
     return s;
   }
 
   void polygons(PolySet& p) {
     choice(2, "kind of polygons");
     p.vertexNormals = choice(1, "kind of normals") == 0;
-    if (!old_)
-      p.vertexMaterials = choice(1, "binding of materials") == 1, p.hasUv = choice(1, "texture") == 1;
+    if (!old_) {
+      p.vertexMaterials = choice(1, "binding of materials") == 1;
+      p.hasUv = choice(1, "texture") == 1;
+    }
     integer();  // of a grid: polygons in a row
     const std::size_t size =
         kWord * (3u + (p.vertexNormals ? 3u : 0u) + (p.vertexMaterials ? 1u : 0u) + (p.hasUv ? 2u : 0u));
@@ -132,7 +159,10 @@ class BinaryReader {
         v.position = vector();
         if (p.vertexNormals) v.normal = vector();
         if (p.vertexMaterials) v.material = bits();
-        if (p.hasUv) v.uv.x = real(), v.uv.y = real();
+        if (p.hasUv) {
+          v.uv.x = real();
+          v.uv.y = real();
+        }
       }
     }
   }

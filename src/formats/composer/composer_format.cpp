@@ -70,7 +70,8 @@ class Reader {
  public:
   Reader(const std::string& file, cf::File content, Messages& messages)
       : content_(std::move(content)), messages_(messages) {
-    scene_.file = file, scene_.format = "composer";
+    scene_.file = file;
+    scene_.format = "composer";
   }
 
   Scene read() {
@@ -99,7 +100,8 @@ class Reader {
     }
     const cf::View& v = *content_.view;
     scene_.camera.position = v.position;
-    scene_.camera.viewdir = v.direction, scene_.camera.updir = v.up;
+    scene_.camera.viewdir = v.direction;
+    scene_.camera.updir = v.up;
     scene_.camera.fov = v.verticalFov * 180 / kPi;
     if (!canLook(v.direction, v.up) || !(scene_.camera.fov > 0 && scene_.camera.fov < 180))
       throw Error(Fault::scene, place(),
@@ -122,7 +124,9 @@ class Reader {
     switch (lamp.kind) {
       case cf::Lamp::Kind::point: {
         PointLight light{lamp.position, lamp.color};
-        light.constant = kConstant, light.linear = kLinear, light.quadratic = kQuadratic;
+        light.constant = kConstant;
+        light.linear = kLinear;
+        light.quadratic = kQuadratic;
         scene_.lights.push_back({light, place()});
         break;
       }
@@ -133,7 +137,9 @@ class Reader {
         SpotLight light{.position = lamp.position, .direction = lamp.direction, .color = lamp.color};
         light.angle = light.fullAngle = std::clamp(lamp.cutOffAngle * 180 / kPi, 0.0, 180.0);
         light.exponent = std::max(0.0, kShininessScale * lamp.dropOffRate);
-        light.constant = kConstant, light.linear = kLinear, light.quadratic = kQuadratic;
+        light.constant = kConstant;
+        light.linear = kLinear;
+        light.quadratic = kQuadratic;
         scene_.lights.push_back({light, place()});
         break;
       }

@@ -307,9 +307,11 @@ class TextWriter {
     if (file.view) {
       const View& v = *file.view;
       open("camera");
-      line("position", v.position), line("viewDirection", v.direction),
-          line("focalDistance", v.focalDistance);
-      line("orthoUp", v.up), line("verticalFOV", v.verticalFov);
+      line("position", v.position);
+      line("viewDirection", v.direction);
+      line("focalDistance", v.focalDistance);
+      line("orthoUp", v.up);
+      line("verticalFOV", v.verticalFov);
       close();
     }
     for (const Lamp& lamp : file.lamps) write(lamp);
@@ -324,7 +326,10 @@ class TextWriter {
     if (l.kind != Lamp::Kind::directional) line("position", l.position);
     if (l.kind != Lamp::Kind::point) line("direction", l.direction);
     line("color", l.color);
-    if (l.kind == Lamp::Kind::spot) line("dropOffRate", l.dropOffRate), line("cutOffAngle", l.cutOffAngle);
+    if (l.kind == Lamp::Kind::spot) {
+      line("dropOffRate", l.dropOffRate);
+      line("cutOffAngle", l.cutOffAngle);
+    }
     close();
   }
 
@@ -334,8 +339,12 @@ class TextWriter {
     line("numMaterials", std::to_string(o.materials.size()));
     for (const Material& m : o.materials) {
       open("material");
-      line("diffColor", m.diffuse), line("ambColor", m.ambient), line("specColor", m.specular);
-      line("emisColor", m.emission), line("shininess", m.shininess), line("ktran", m.ktran);
+      line("diffColor", m.diffuse);
+      line("ambColor", m.ambient);
+      line("specColor", m.specular);
+      line("emisColor", m.emission);
+      line("shininess", m.shininess);
+      line("ktran", m.ktran);
       close();
     }
     if (o.sphere)
@@ -346,10 +355,14 @@ class TextWriter {
   }
 
   void write(const Sphere& s) {
-    line("origin", s.origin), line("radius", s.radius);
+    line("origin", s.origin);
+    line("radius", s.radius);
     static constexpr const char *kAxes[] = {"xaxis", "yaxis", "zaxis"},
                                 *kLengths[] = {"xlength", "ylength", "zlength"};
-    for (int i = 0; i < 3; ++i) line(kAxes[i], s.axis[i]), line(kLengths[i], s.length[i]);
+    for (int i = 0; i < 3; ++i) {
+      line(kAxes[i], s.axis[i]);
+      line(kLengths[i], s.length[i]);
+    }
   }
 
   void write(const PolySet& p) {
@@ -357,7 +370,8 @@ class TextWriter {
     line("normType", p.vertexNormals ? "PER_VERTEX_NORMAL" : "PER_FACE_NORMAL");
     line("materialBinding", p.vertexMaterials ? "PER_VERTEX_MATERIAL" : "PER_OBJECT_MATERIAL");
     line("hasTextureCoords", p.hasUv ? "TRUE" : "FALSE");
-    line("rowSize", "0"), line("numPolys", std::to_string(p.counts.size()));
+    line("rowSize", "0");
+    line("numPolys", std::to_string(p.counts.size()));
     auto vertex = p.vertices.begin();
     for (std::uint32_t count : p.counts) {
       open("poly");
@@ -366,24 +380,45 @@ class TextWriter {
         line("pos", Vec3f(vertex->position));
         if (p.vertexNormals) line("norm", Vec3f(vertex->normal));
         if (p.vertexMaterials) line("materialIndex", std::to_string(vertex->material));
-        if (p.hasUv) line("s", static_cast<float>(vertex->uv.x)), line("t", static_cast<float>(vertex->uv.y));
+        if (p.hasUv) {
+          line("s", static_cast<float>(vertex->uv.x));
+          line("t", static_cast<float>(vertex->uv.y));
+        }
       }
       close();
     }
   }
 
   void indent() { text_.append(2 * static_cast<std::size_t>(depth_), ' '); }
-  void open(const char* name) { indent(), ++depth_, text_ += std::string(name) + " {\n"; }
-  void close() { --depth_, indent(), text_ += "}\n"; }
-  void number(Real value) { text_ += ' ', appendNumber(text_, value, digits_); }
+  void open(const char* name) {
+    indent();
+    ++depth_;
+    text_ += std::string(name) + " {\n";
+  }
+  void close() {
+    --depth_;
+    indent();
+    text_ += "}\n";
+  }
+  void number(Real value) {
+    text_ += ' ';
+    appendNumber(text_, value, digits_);
+  }
   /// Meshes are read as floats.
-  void number(float value) { text_ += ' ', appendNumber(text_, value, digits_); }
+  void number(float value) {
+    text_ += ' ';
+    appendNumber(text_, value, digits_);
+  }
   template <class... Numbers>
   void line(const char* name, Numbers... numbers) {
     indent(), text_ += name, (number(numbers), ...), text_ += '\n';
   }
   void line(const char* name, const std::string& value) {
-    indent(), text_ += name, text_ += ' ', text_ += value, text_ += '\n';
+    indent();
+    text_ += name;
+    text_ += ' ';
+    text_ += value;
+    text_ += '\n';
   }
   void line(const char* name, const char* value) { line(name, std::string(value)); }
   void line(const char* name, const Vec3& v) { line(name, v.x, v.y, v.z); }

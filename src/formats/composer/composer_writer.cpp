@@ -67,7 +67,8 @@ class Writer {
     if (light.fullAngle < light.angle) warn("spot lights get a sharp edge");
     cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
     lamp.color = light.color;
-    lamp.dropOffRate = light.exponent / kShininessScale, lamp.cutOffAngle = light.angle * kPi / 180;
+    lamp.dropOffRate = light.exponent / kShininessScale;
+    lamp.cutOffAngle = light.angle * kPi / 180;
     file_.lamps.push_back(lamp);
   }
   void add(const RectangleLight& light) {
@@ -113,7 +114,8 @@ class Writer {
     const Color around = p.ambient * ambientLight;
     const auto share = [](double a, double d) { return d > 0 ? a / d : 0; };
     m.ambient = {share(around.r, p.diffuse.r), share(around.g, p.diffuse.g), share(around.b, p.diffuse.b)};
-    m.specular = p.specular, m.emission = p.emissive;
+    m.specular = p.specular;
+    m.emission = p.emissive;
     m.shininess = p.shininess * settings_.shininessScale / kShininessScale;
     const bool mirrorsAsItShines = p.mirrorsSpecular && settings_.mirrorDefault == MirrorDefault::specular;
     const Color mirror = mirrorsAsItShines ? p.specular : p.reflective;
@@ -146,10 +148,12 @@ class Writer {
 
   static cf::Sphere sphere(const Affine& m) {
     cf::Sphere s;
-    s.origin = m.offset, s.radius = 0;
+    s.origin = m.offset;
+    s.radius = 0;
     for (int i = 0; i < 3; ++i) {
       const Vec3 axis{m.row[0][i], m.row[1][i], m.row[2][i]};
-      s.length[i] = length(axis), s.axis[i] = axis / s.length[i];
+      s.length[i] = length(axis);
+      s.axis[i] = axis / s.length[i];
       s.radius += s.length[i] / 3;
     }
     return s;
@@ -158,7 +162,8 @@ class Writer {
   void add(cf::Object& o, const MeshData& mesh, const Object& object) {
     const Affine &m = object.worldFromObject, inverted = inverse(m);
     cf::PolySet& p = o.polygons;
-    p.vertexNormals = !mesh.normals.empty(), p.hasUv = !mesh.uvs.empty();
+    p.vertexNormals = !mesh.normals.empty();
+    p.hasUv = !mesh.uvs.empty();
     // The format counts materials from 0 in each object.
     std::vector<std::uint32_t> used(mesh.materials);
     std::sort(used.begin(), used.end());

@@ -32,7 +32,9 @@ void Reader::addLight(const Values& v, L light) {
   if constexpr (requires { light.constant; }) {
     Vec3 fading = vrml2_ ? v.vector("attenuation", {1, 0, 0}) : fading_;
     if (fading == Vec3{}) fading = {1, 0, 0};
-    light.constant = fading.x, light.linear = fading.y, light.quadratic = fading.z;
+    light.constant = fading.x;
+    light.linear = fading.y;
+    light.quadratic = fading.z;
   }
   if constexpr (requires { light.direction; })
     if (!(length(light.direction) > 0))

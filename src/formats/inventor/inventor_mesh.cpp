@@ -85,7 +85,10 @@ struct CornerKey {
 MeshData meshOf(Faces faces) {
   if (!faces.counterClockwise) {
     auto first = faces.corners.begin();
-    for (std::uint32_t count : faces.counts) std::reverse(first, first + count), first += count;
+    for (std::uint32_t count : faces.counts) {
+      std::reverse(first, first + count);
+      first += count;
+    }
   }
   if (!faces.hasNormals && faces.creaseAngle > 0) mixNormals(faces);
 

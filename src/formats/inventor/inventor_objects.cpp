@@ -51,7 +51,8 @@ void Reader::box(const Values& v, State& s) {
   if (!s.paint->picture) return add(v, s, Cube{}, Affine::scaling(size));
   if (addAgain(v, s)) return;
   State own = s;
-  own.ordered = own.counterClockwise = own.solid = true, own.creaseAngle = 0;
+  own.ordered = own.counterClockwise = own.solid = true;
+  own.creaseAngle = 0;
   mesh(v, own, boxWithUvs(size), {});
   remember(v, s);
 }
@@ -66,7 +67,9 @@ Affine Reader::upright() { return Affine::rotation({1, 0, 0}, -kPi / 2); }
 
 Affine Reader::uprightFromBack() {
   Affine turn;  // x, y, z to z, x, y
-  turn.row[0] = {0, 1, 0}, turn.row[1] = {0, 0, 1}, turn.row[2] = {1, 0, 0};
+  turn.row[0] = {0, 1, 0};
+  turn.row[1] = {0, 0, 1};
+  turn.row[2] = {1, 0, 0};
   return turn;
 }
 

@@ -73,7 +73,8 @@ void Reader::material(const Values& v, State& state) {
   repaint(v, state, [&](Paint& p) {
     const Paint before = p;
     p = paintOf(v, vrml2_);
-    p.picture = before.picture, p.textureTransform = before.textureTransform;
+    p.picture = before.picture;
+    p.textureTransform = before.textureTransform;
     p.unlit = !vrml2_ && before.unlit;
   });
 }
@@ -88,7 +89,8 @@ void Reader::packedColor(const Values& v, State& state) {
 }
 
 void Reader::unpack(const std::vector<double>& n, Paint& paint) {
-  paint.diffuse.clear(), paint.transparency.clear();
+  paint.diffuse.clear();
+  paint.transparency.clear();
   for (double number : n) {
     const auto bits = static_cast<std::uint32_t>(std::clamp(number, 0.0, 4294967295.0));
     const auto byte = [&](int i) { return (bits >> (8 * i) & 255) / 255.0; };
@@ -107,7 +109,8 @@ void Reader::lightModel(const Values& v, State& s) {
 
 void Reader::shapeHints(const Values& v, State& s) {
   const std::string_view order = v.word("vertexOrdering", "UNKNOWN_ORDERING");
-  s.ordered = order != "UNKNOWN_ORDERING", s.counterClockwise = order != "CLOCKWISE";
+  s.ordered = order != "UNKNOWN_ORDERING";
+  s.counterClockwise = order != "CLOCKWISE";
   s.solid = v.word("shapeType", "UNKNOWN_SHAPE_TYPE") == "SOLID";
   s.creaseAngle = v.number("creaseAngle", document_.oldCrease() ? 0.5 : 0);
 }
@@ -141,7 +144,10 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
     return first;
   }
   const Place place = document_.place(v.node().token);
-  if (type == "MovieTexture") return textures_.note(nameOf(v), place), std::nullopt;
+  if (type == "MovieTexture") {
+    textures_.note(nameOf(v), place);
+    return std::nullopt;
+  }
 
   PaintedPicture picture;
   if (const std::string name = nameOf(v); !name.empty()) {

@@ -46,7 +46,8 @@ class Reader {
         library_(library),
         nesting_(nesting),
         vrml2_(document.version() == Document::Version::vrml2) {
-    scene_.file = document.file(), scene_.format = "inventor";
+    scene_.file = document.file();
+    scene_.format = "inventor";
   }
   /// The file as a scene, with what it lacks.
   Scene read();

@@ -55,8 +55,10 @@ void indexedRuns(const std::vector<double>& indices, End&& end) {
   for (std::size_t slot = 0; slot < indices.size(); ++slot) {
     if (indices[slot] >= 0)
       items.push_back({asIndex(indices[slot]), order++, static_cast<std::uint32_t>(slot)});
-    if ((indices[slot] < 0 || slot + 1 == indices.size()) && !items.empty())
-      end(items, part++), items.clear();
+    if ((indices[slot] < 0 || slot + 1 == indices.size()) && !items.empty()) {
+      end(items, part++);
+      items.clear();
+    }
   }
 }
 
@@ -149,8 +151,10 @@ class Spine {
     for (std::size_t i = 0; i < points.size(); ++i) along_.push_back(unit(tangent(i)));
     fill(along_, {0, 1, 0});
     for (std::size_t i = 0; i < points.size(); ++i) across_.push_back(unit(bend(i)));
-    if (!closed_ && points.size() > 2)
-      across_.front() = across_[1], across_.back() = across_[points.size() - 2];
+    if (!closed_ && points.size() > 2) {
+      across_.front() = across_[1];
+      across_.back() = across_[points.size() - 2];
+    }
     fill(across_, straight());
     for (std::size_t i = 1; i < across_.size(); ++i)
       if (dot(across_[i], across_[i - 1]) < 0) across_[i] = -across_[i];
@@ -254,7 +258,10 @@ Surface extrusion(const Values& shape) {
   for (std::uint32_t i = 0; i + 1 < rows; ++i)
     for (std::uint32_t j = 0; j + 1 < n; ++j) {
       surface.outline.face(i);
-      corner(i, j), corner(i, j + 1), corner(i + 1, j + 1), corner(i + 1, j);
+      corner(i, j);
+      corner(i, j + 1);
+      corner(i + 1, j + 1);
+      corner(i + 1, j);
     }
   Box3 flat;
   for (const Vec2& p : section) flat.extend({p.x, p.y, 0});

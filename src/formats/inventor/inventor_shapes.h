@@ -20,9 +20,15 @@ struct Outline {
   std::vector<std::uint32_t> slots;   ///< of each corner: its place in coordIndex, the -1 counted too
   std::size_t bad = 0;                ///< faces that were left out
 
-  void face(std::uint32_t part) { counts.push_back(0), parts.push_back(part); }
+  void face(std::uint32_t part) {
+    counts.push_back(0);
+    parts.push_back(part);
+  }
   void corner(std::uint32_t point, std::uint32_t order, std::uint32_t slot) {
-    points.push_back(point), orders.push_back(order), slots.push_back(slot), ++counts.back();
+    points.push_back(point);
+    orders.push_back(order);
+    slots.push_back(slot);
+    ++counts.back();
   }
 };
 

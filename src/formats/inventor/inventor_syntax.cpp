@@ -51,7 +51,10 @@ class Parser {
       for (int i = 0; i < 3 && tokens_.peek().is(Token::Kind::word); ++i) tokens_.next();
       return true;
     }
-    if (tokens_.skipWord("PROTO")) return proto(), true;
+    if (tokens_.skipWord("PROTO")) {
+      proto();
+      return true;
+    }
     if (tokens_.skipWord("EXTERNPROTO")) {
       const Token name = tokens_.word("EXTERNPROTO");
       warn(name, "EXTERNPROTO " + std::string(name.text) + " is not read: its nodes are left out");
@@ -120,7 +123,9 @@ class Parser {
     if (++depth_ > kMostNesting)
       tokens_.fail(type, "expected at most " + std::to_string(kMostNesting) + " levels of nodes, found more");
     auto made = std::make_unique<Node>();
-    made->type = type.text, made->name = name, made->token = type;
+    made->type = type.text;
+    made->name = name;
+    made->token = type;
     if (const auto found = protoByName_.find(type.text); found != protoByName_.end())
       made->proto = found->second;
     body(*made, type);

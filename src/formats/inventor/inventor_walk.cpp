@@ -91,7 +91,10 @@ std::string fieldsWithoutNodes(const Node& node) {
   std::vector<std::string> names;
   for (const Field& field : node.fields)
     if (field.nodes.empty() && field.name != "children") names.emplace_back(field.name.substr(0, 40));
-  if (names.size() > kMost) names.resize(kMost), names.emplace_back("other fields");
+  if (names.size() > kMost) {
+    names.resize(kMost);
+    names.emplace_back("other fields");
+  }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
     text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];

@@ -154,7 +154,8 @@ class Elements {
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_));
     if (components < 1 || components > 4 || size < 1 || size > 4) fail("expected a scalar or a vector");
-    components_ = static_cast<std::size_t>(components), size_ = static_cast<std::size_t>(size);
+    components_ = static_cast<std::size_t>(components);
+    size_ = static_cast<std::size_t>(size);
     stride_ = view.byteStride ? view.byteStride : components_ * size_;
     count_ = accessor.count;
     const bool viewFits = view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset;
@@ -244,7 +245,9 @@ Affine transformOf(const tinygltf::Node& node) {
   Affine m;
   if (node.matrix.size() == 16) {  // column by column
     const auto& a = node.matrix;
-    m.row[0] = {a[0], a[4], a[8]}, m.row[1] = {a[1], a[5], a[9]}, m.row[2] = {a[2], a[6], a[10]};
+    m.row[0] = {a[0], a[4], a[8]};
+    m.row[1] = {a[1], a[5], a[9]};
+    m.row[2] = {a[2], a[6], a[10]};
     m.offset = {a[12], a[13], a[14]};
     return m;
   }
@@ -377,7 +380,8 @@ class GltfReader {
     if (!(fov > 0 && fov < 180) || (parallel && !(std::abs(aspect) > 0 && std::isfinite(aspect))) ||
         !canLook(camera.viewdir, camera.updir) || !isFinite(camera.position))
       return messages_.warn(place_, "camera \"" + from.name + "\" cannot look; it is left out");
-    camera.viewdir = normalize(camera.viewdir), camera.updir = normalize(camera.updir);
+    camera.viewdir = normalize(camera.viewdir);
+    camera.updir = normalize(camera.updir);
     camera.fov = fov;
     if (std::abs(aspect) > 0 && std::isfinite(aspect)) camera.aspectratio = std::abs(aspect);
     model_.camera = camera;
@@ -536,13 +540,15 @@ class GltfReader {
               : from.alphaMode == "MASK" ? MetallicRoughness::Alpha::mask
                                          : MetallicRoughness::Alpha::opaque;
     m.cutoff = from.alphaCutoff;
-    m.metallic = share(pbr.metallicFactor), m.roughness = share(pbr.roughnessFactor);
+    m.metallic = share(pbr.metallicFactor);
+    m.roughness = share(pbr.roughnessFactor);
     m.transmission = share(extension(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0));
     m.index = extension(from.extensions, "KHR_materials_ior", "ior", 1.5);
     if (!(m.index > 0) || !std::isfinite(m.index)) m.index = 1.5;
     if (!isFinite(m.baseColor) || !isFinite(m.emissive)) {
       messages_.warn(place_, "material \"" + from.name + "\" has numbers that are not finite");
-      m.baseColor = Color(1), m.emissive = Color();
+      m.baseColor = Color(1);
+      m.emissive = Color();
     }
     readPictures(from, m);
     Material material = toMaterial(from.name, m);
@@ -583,7 +589,10 @@ class GltfReader {
     const auto own =
         static_cast<int>(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
     const int image = imageOf(info.index);
-    if (image < 0 || set.value_or(own) != own) return noteTexture(info.index), std::nullopt;
+    if (image < 0 || set.value_or(own) != own) {
+      noteTexture(info.index);
+      return std::nullopt;
+    }
     set = own;
     ImageMap map = modelPicture(pixelsOf(image));
     const int sampler = gltf_.textures[static_cast<std::size_t>(info.index)].sampler;
@@ -612,7 +621,8 @@ class GltfReader {
              : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
                                                              : Wrap::repeat;
     };
-    map.wrapU = wrap(sampler.wrapS), map.wrapV = wrap(sampler.wrapT);
+    map.wrapU = wrap(sampler.wrapS);
+    map.wrapV = wrap(sampler.wrapT);
     const int least = sampler.minFilter;
     if (least == TINYGLTF_TEXTURE_FILTER_NEAREST || least == TINYGLTF_TEXTURE_FILTER_LINEAR)
       map.filter = TexelFilter::bilinear;

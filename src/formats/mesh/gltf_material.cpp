@@ -41,7 +41,9 @@ Principled toPrincipled(const MetallicRoughness& m) {
   Principled model;
   model.color = model.ambient = m.baseColor;
   model.emissive = m.emissive;
-  model.metallic = m.metallic, model.roughness = m.roughness, model.index = m.index;
+  model.metallic = m.metallic;
+  model.roughness = m.roughness;
+  model.index = m.index;
   return model;
 }
 

@@ -40,7 +40,10 @@ void checkGltfTree(const nlohmann::json& root, const Place& place) {
       }
       const auto child = (*children)[path.back().next++].get<std::size_t>();
       if (seen[child] == Seen::open) fail(place, child, node);
-      if (seen[child] == Seen::no) seen[child] = Seen::open, path.push_back({child, 0});
+      if (seen[child] == Seen::no) {
+        seen[child] = Seen::open;
+        path.push_back({child, 0});
+      }
     }
   }
 }

@@ -44,7 +44,8 @@ MeshData merged(std::vector<WorldMesh> meshes) {
     for (const Triangle& t : mesh.triangles)
       all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    append(all.points, mesh.points), append(all.materials, mesh.materials);
+    append(all.points, mesh.points);
+    append(all.materials, mesh.materials);
     if (normals) append(all.normals, mesh.normals);
     if (uvs) append(all.uvs, mesh.uvs);
   }
@@ -71,7 +72,11 @@ class Row {
     else
       appendNumber(out_, number, options_.digits);
   }
-  void add(const Vec3f& v) { add(v.x), add(v.y), add(v.z); }
+  void add(const Vec3f& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
   void end() {
     if (options_.ascii) out_ += '\n';
     first_ = true;
@@ -146,12 +151,18 @@ class ObjWriter {
 
   void line(std::string_view keyword, std::initializer_list<double> numbers) {
     out_ += keyword;
-    for (double n : numbers) out_ += ' ', appendNumber(out_, n, digits_);
+    for (double n : numbers) {
+      out_ += ' ';
+      appendNumber(out_, n, digits_);
+    }
     out_ += '\n';
   }
   void line(std::string_view keyword, const Vec3f& v) {
     out_ += keyword;
-    for (int i = 0; i < 3; ++i) out_ += ' ', appendNumber(out_, v[i], digits_);
+    for (int i = 0; i < 3; ++i) {
+      out_ += ' ';
+      appendNumber(out_, v[i], digits_);
+    }
     out_ += '\n';
   }
   void line(std::string_view keyword, std::string_view word) {
@@ -163,9 +174,12 @@ class ObjWriter {
   void material(const std::string& name, const Phong& phong) {
     const bool mirrors = phong.mirrors() || (phong.mirrorsSpecular && !isBlack(phong.specular));
     line("newmtl", name);
-    color("Ka", phong.ambient), color("Kd", phong.diffuse), color("Ks", phong.specular);
+    color("Ka", phong.ambient);
+    color("Kd", phong.diffuse);
+    color("Ks", phong.specular);
     color("Ke", phong.emissive);
-    line("Ns", {phong.shininess}), line("Ni", {phong.index});
+    line("Ns", {phong.shininess});
+    line("Ni", {phong.index});
     if (phong.transmits()) color("Tf", phong.transmissive);
     const int glass = mirrors ? 7 : 9, opaque = mirrors ? 3 : isBlack(phong.specular) ? 1 : 2;
     line("illum", {static_cast<double>(phong.transmits() ? glass : opaque)});
@@ -186,7 +200,9 @@ class ObjWriter {
       }
       out_ += '\n';
     }
-    points_ += mesh.points.size(), uvs_ += mesh.uvs.size(), normals_ += mesh.normals.size();
+    points_ += mesh.points.size();
+    uvs_ += mesh.uvs.size();
+    normals_ += mesh.normals.size();
   }
 
   std::string take() { return std::move(out_); }
@@ -219,11 +235,15 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     row.add(mesh.points[i]);
     if (!mesh.normals.empty()) row.add(mesh.normals[i]);
-    if (!mesh.uvs.empty())
-      row.add(static_cast<float>(mesh.uvs[i].x)), row.add(static_cast<float>(mesh.uvs[i].y));
+    if (!mesh.uvs.empty()) {
+      row.add(static_cast<float>(mesh.uvs[i].x));
+      row.add(static_cast<float>(mesh.uvs[i].y));
+    }
     if (colored) {
       const Color color = phongOf(scene.materials.at(m[i])).diffuse;
-      row.add(toByte(color.r)), row.add(toByte(color.g)), row.add(toByte(color.b));
+      row.add(toByte(color.r));
+      row.add(toByte(color.g));
+      row.add(toByte(color.b));
     }
     row.end();
   }

@@ -58,9 +58,10 @@ Material toMaterial(const tinyobj::material_t& mtl) {
   // Exporters write Tf for opaque materials too: it counts only where something else says glass.
   const Color filter = isBlack(color(mtl.transmittance)) ? Color(1) : color(mtl.transmittance);
   const double opacity = std::clamp(static_cast<double>(mtl.dissolve), 0.0, 1.0);
-  if (opacity < 1)
-    phong.transmissive = filter * (1 - opacity), phong.diffuse *= Color(opacity);
-  else if (isOneOf({4, 6, 7, 9}))
+  if (opacity < 1) {
+    phong.transmissive = filter * (1 - opacity);
+    phong.diffuse *= Color(opacity);
+  } else if (isOneOf({4, 6, 7, 9}))
     phong.transmissive = color(mtl.transmittance);
 
   return {mtl.name, phong, {}};

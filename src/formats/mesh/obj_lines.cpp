@@ -77,13 +77,16 @@ class ObjCheck {
     if (const std::size_t comment = text.find('#'); comment != text.npos) text = text.substr(0, comment);
     LineWords words(text);
     const std::string_view key = words.next();
-    if (key == "v")
-      point(text, words), ++points_;
-    else if (key == "vn")
-      numbers(text, words, key, 3, 3), ++normals_;
-    else if (key == "vt")
-      numbers(text, words, key, 1, 3), ++uvs_;
-    else if (key == "f")
+    if (key == "v") {
+      point(text, words);
+      ++points_;
+    } else if (key == "vn") {
+      numbers(text, words, key, 3, 3);
+      ++normals_;
+    } else if (key == "vt") {
+      numbers(text, words, key, 1, 3);
+      ++uvs_;
+    } else if (key == "f")
       face(key, words);
     else
       other(key, words);

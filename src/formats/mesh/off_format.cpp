@@ -22,9 +22,18 @@ struct Kind {
 /// [ST][C][N]OFF; nothing for other words, and for points of other than three dimensions (4OFF, nOFF).
 std::optional<Kind> kindOf(std::string_view word) {
   Kind kind;
-  if (word.starts_with("ST")) kind.uv = true, word.remove_prefix(2);
-  if (word.starts_with("C")) kind.color = true, word.remove_prefix(1);
-  if (word.starts_with("N")) kind.normal = true, word.remove_prefix(1);
+  if (word.starts_with("ST")) {
+    kind.uv = true;
+    word.remove_prefix(2);
+  }
+  if (word.starts_with("C")) {
+    kind.color = true;
+    word.remove_prefix(1);
+  }
+  if (word.starts_with("N")) {
+    kind.normal = true;
+    word.remove_prefix(1);
+  }
   return word == "OFF" ? std::optional(kind) : std::nullopt;
 }
 
@@ -39,7 +48,8 @@ class OffReader {
     if (const double edges = words_.number("the number of edges");
         !(edges >= 0) || edges != std::floor(edges))
       words_.fail("expected the number of edges, a whole number, found " + toText(edges));
-    mesh_.points.reserve(points), mesh_.triangles.reserve(faces);
+    mesh_.points.reserve(points);
+    mesh_.triangles.reserve(faces);
     for (std::size_t i = 0; i < points; ++i) readPoint(kind);
     if (kind.color) takeColors();
     for (std::size_t i = 0; i < faces; ++i) readFace(i);

@@ -96,7 +96,10 @@ class PlyReader {
     const int u = element.find({"u", "s", "texture_u", "tx"}),
               v = element.find({"v", "t", "texture_v", "ty"});
     std::vector<float> uvs(u >= 0 && v >= 0 ? 2 * element.count : 0);
-    if (!uvs.empty()) want(u, {&uvs[0], 2}), want(v, {&uvs[1], 2});
+    if (!uvs.empty()) {
+      want(u, {&uvs[0], 2});
+      want(v, {&uvs[1], 2});
+    }
 
     body_.readColumns(element, columns_);
     for (std::size_t i = 0; i < uvs.size(); i += 2) mesh_.uvs.push_back({uvs[i], uvs[i + 1]});

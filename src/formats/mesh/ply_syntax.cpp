@@ -90,9 +90,10 @@ class HeaderReader {
         continue;
       }
       if (words_[0] == "end_header") break;
-      if (words_[0] == "format")
-        readFormat(), format = true;
-      else if (words_[0] == "element")
+      if (words_[0] == "format") {
+        readFormat();
+        format = true;
+      } else if (words_[0] == "element")
         readElement();
       else if (words_[0] == "property")
         readProperty();

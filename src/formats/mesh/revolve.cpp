@@ -21,8 +21,10 @@ std::vector<Vec2> profileNormals(std::span<const Vec2> profile) {
   std::vector<Vec2> normals(profile.size());
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const Vec2 n = normalOf(profile[i], profile[i + 1]);
-    normals[i].x += n.x, normals[i].y += n.y;
-    normals[i + 1].x += n.x, normals[i + 1].y += n.y;
+    normals[i].x += n.x;
+    normals[i].y += n.y;
+    normals[i + 1].x += n.x;
+    normals[i + 1].y += n.y;
   }
   // On the axis the surface must not come to a point if the profile arrives there level.
   for (std::size_t i : {std::size_t{0}, profile.size() - 1})

@@ -93,12 +93,14 @@ class TextReader {
       if (word != "facet") words_.fail("expected \"facet\" or \"endsolid\"", word);
       expect("normal");
       vector("a normal's three numbers");
-      expect("outer"), expect("loop");
+      expect("outer");
+      expect("loop");
       for (int corner = 0; corner < 3; ++corner) {
         expect("vertex");
         solid.corner(vector("a corner's three numbers"));
       }
-      expect("endloop"), expect("endfacet");
+      expect("endloop");
+      expect("endfacet");
     }
     words_.line();  // the name again
     solid.finish(std::move(name), place_, model_, repairs_);

@@ -59,7 +59,10 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
     work.reached(done++);
     std::optional<MeshData> triangles;
     const auto* mesh = object.shape.as<Mesh>();
-    if (!mesh) triangles = tessellated(object.shape), sampled |= triangles.has_value();
+    if (!mesh) {
+      triangles = tessellated(object.shape);
+      sampled |= triangles.has_value();
+    }
     if ((mesh || triangles) && invertible(object.worldFromObject))
       meshes.push_back({object.name, object.material,
                         transformed(mesh ? *mesh->data : *triangles, object.worldFromObject)});

@@ -21,26 +21,34 @@ bool numbers(const Item& tuple, Real* to, int count) {
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to) {
-  if (!value.is(Kind::number)) return findings.expected(value, name, "a number"), false;
+  if (!value.is(Kind::number)) {
+    findings.expected(value, name, "a number");
+    return false;
+  }
   to = value.number();
   return true;
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, int& to) {
-  if (value.is(Kind::number) && !fitsInt(value.number()))
-    return findings.expected(value, name,
-                             "a whole number from " + toText(-kMostWhole) + " to " + toText(kMostWhole)),
-           false;
-  if (!value.is(Kind::number) || value.number() != std::floor(value.number()))
-    return findings.expected(value, name, "a whole number"), false;
+  if (value.is(Kind::number) && !fitsInt(value.number())) {
+    findings.expected(value, name,
+                      "a whole number from " + toText(-kMostWhole) + " to " + toText(kMostWhole));
+    return false;
+  }
+  if (!value.is(Kind::number) || value.number() != std::floor(value.number())) {
+    findings.expected(value, name, "a whole number");
+    return false;
+  }
   to = static_cast<int>(value.number());
   return true;
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, bool& to) {
   const bool yes = value.is(Kind::word) && value.text() == "true";
-  if (!yes && !(value.is(Kind::word) && value.text() == "false"))
-    return findings.expected(value, name, "true or false"), false;
+  if (!yes && !(value.is(Kind::word) && value.text() == "false")) {
+    findings.expected(value, name, "true or false");
+    return false;
+  }
   to = yes;
   return true;
 }
@@ -70,7 +78,10 @@ std::string written(const Pixels& value, int digits) { return written(value.file
 
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {
   Real n[3];
-  if (!numbers(value, n, 3)) return findings.expected(value, name, "(x, y, z)"), false;
+  if (!numbers(value, n, 3)) {
+    findings.expected(value, name, "(x, y, z)");
+    return false;
+  }
   to = {n[0], n[1], n[2]};
   return true;
 }
@@ -79,17 +90,20 @@ bool read(Findings& findings, std::string_view name, const Item& value, Color& t
   Real n[3];
   if (value.is(Kind::number))
     n[0] = n[1] = n[2] = value.number();  // a grey
-  else if (!numbers(value, n, 3))
-    return findings.expected(value, name, "(red, green, blue)",
-                             value.is(Kind::call) ? didYouMean(value.key(), textureKinds()) : ""),
-           false;
+  else if (!numbers(value, n, 3)) {
+    findings.expected(value, name, "(red, green, blue)",
+                      value.is(Kind::call) ? didYouMean(value.key(), textureKinds()) : "");
+    return false;
+  }
   to = {n[0], n[1], n[2]};
   return true;
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, std::string& to) {
-  if (!value.is(Kind::word) && !value.is(Kind::number))
-    return findings.expected(value, name, "a name"), false;
+  if (!value.is(Kind::word) && !value.is(Kind::number)) {
+    findings.expected(value, name, "a name");
+    return false;
+  }
   to = value.is(Kind::word) ? value.text() : value.source();
   return true;
 }
@@ -167,14 +181,18 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
   constexpr int kMostSide = 4096;
   std::string file;
   if (!read(findings, name, value, file)) return false;
-  if (file.empty()) return to = {}, true;
+  if (file.empty()) {
+    to = {};
+    return true;
+  }
   try {
     const Picture picture =
         decodePicture(readBeside(findings.syntax().file(), file, findings.scene().inputs), file);
-    if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide)
-      return findings.error(value, std::string(name) + ": expected a picture of 2 to " +
-                                       std::to_string(kMostSide) + " pixels along each side"),
-             false;
+    if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide) {
+      findings.error(value, std::string(name) + ": expected a picture of 2 to " + std::to_string(kMostSide) +
+                                " pixels along each side");
+      return false;
+    }
     auto grid = std::make_shared<HeightGrid>(picture.width, picture.height);
     for (int y = 0; y < picture.height; ++y)  // the picture's first row is the farthest
       for (int x = 0; x < picture.width; ++x)
@@ -183,7 +201,8 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
     return true;
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
-    return findings.error(value, error.messages().front().what, error.messages().front().hint), false;
+    findings.error(value, error.messages().front().what, error.messages().front().hint);
+    return false;
   }
 }
 

@@ -100,12 +100,16 @@ std::string form(const std::vector<Element>&) {
 template <std::size_t N>
 bool read(Findings& findings, std::string_view name, const Item& value, std::array<Real, N>& to) {
   if (numbers(value, to.data(), static_cast<int>(N))) return true;
-  return findings.expected(value, name, form(to)), false;
+  findings.expected(value, name, form(to));
+  return false;
 }
 /// A list in brackets, of tuples of numbers or of lists.
 template <class Element>
 bool read(Findings& findings, std::string_view name, const Item& value, std::vector<Element>& to) {
-  if (!value.is(Kind::tuple)) return findings.expected(value, name, "a list " + form(to)), false;
+  if (!value.is(Kind::tuple)) {
+    findings.expected(value, name, "a list " + form(to));
+    return false;
+  }
   std::vector<Element> list;
   for (const Item item : value) {
     list.emplace_back();

@@ -28,9 +28,11 @@ std::size_t hashOf(const Material& material) {
   match(material.model, [&]<class Model>(const Model& model) {
     forEachField<Model>([&](const auto& f) {
       const auto& value = model.*f.member;
-      if constexpr (requires { value.r; })
-        add(value.r), add(value.g), add(value.b);
-      else if constexpr (requires { value.size(); })
+      if constexpr (requires { value.r; }) {
+        add(value.r);
+        add(value.g);
+        add(value.b);
+      } else if constexpr (requires { value.size(); })
         add(static_cast<double>(value.size()));
       else
         add(static_cast<double>(value));
@@ -148,7 +150,8 @@ void Materials::field(Block& block, const Item& field) {
   if (key == kLibrary) return fromLibrary(block, field.value());
   Phong* phong = std::get_if<Phong>(&block.material.model);
   if (phong && key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
-    block.gaveReflective = false, phong->mirrorsSpecular = true;
+    block.gaveReflective = false;
+    phong->mirrorsSpecular = true;
     return;
   }
   const bool isNumber = field.value().is(Kind::number);
@@ -171,7 +174,10 @@ void Materials::field(Block& block, const Item& field) {
     if (key == "shininess" && field.value().is(Kind::number)) block.shininess = field;
   }
   if (!phong) return;
-  if (key == "reflective") block.gaveReflective = true, phong->mirrorsSpecular = false;
+  if (key == "reflective") {
+    block.gaveReflective = true;
+    phong->mirrorsSpecular = false;
+  }
   if (key == "specular" && !block.gaveReflective) phong->mirrorsSpecular = true;
 }
 

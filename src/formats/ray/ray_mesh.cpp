@@ -172,8 +172,10 @@ class MeshReader {
   static std::string faceName(std::size_t number) { return "face " + std::to_string(number); }
 
   bool readFace(const Item& face, std::size_t number) {
-    if (!face.is(Kind::tuple))
-      return findings_.expected(face, faceName(number), "a list of points, as in (0, 1, 2)"), false;
+    if (!face.is(Kind::tuple)) {
+      findings_.expected(face, faceName(number), "a list of points, as in (0, 1, 2)");
+      return false;
+    }
     std::uint32_t first = 0, last = 0;
     std::size_t count = 0;
     for (const Item item : face) {
@@ -184,7 +186,10 @@ class MeshReader {
       last = point;
       ++count;
     }
-    if (count < 3) return findings_.expected(face, faceName(number), "at least 3 points"), false;
+    if (count < 3) {
+      findings_.expected(face, faceName(number), "at least 3 points");
+      return false;
+    }
     const std::size_t triangles = count - 2;
     if (triangles > 1)
       data_.polygons.push_back({static_cast<std::uint32_t>(data_.triangles.size() - triangles),
@@ -193,9 +198,10 @@ class MeshReader {
   }
 
   bool readIndex(const Item& item, std::size_t number, std::uint32_t& point) {
-    if (!item.is(Kind::number) || item.number() != std::floor(item.number()) || item.number() < 0)
-      return findings_.expected(item, faceName(number), "the number of a point, a whole number from 0"),
-             false;
+    if (!item.is(Kind::number) || item.number() != std::floor(item.number()) || item.number() < 0) {
+      findings_.expected(item, faceName(number), "the number of a point, a whole number from 0");
+      return false;
+    }
     if (item.number() >= static_cast<double>(data_.points.size())) {
       const std::string count = std::to_string(data_.points.size());
       findings_.error(item, faceName(number) + " uses point " + describe(item) + " but the mesh has " + count,
@@ -215,16 +221,20 @@ class MeshReader {
     for (const Item item : *sharpEdges_) {
       const std::string name = "sharp edge " + std::to_string(number++);
       Real n[3];
-      if (!numbers(item, n, 3) || !(n[2] >= 0))
-        return findings_.expected(item, name, "(point, point, sharpness from 0)"), false;
+      if (!numbers(item, n, 3) || !(n[2] >= 0)) {
+        findings_.expected(item, name, "(point, point, sharpness from 0)");
+        return false;
+      }
       const auto point = [&](Real x) {  // none of those there are for what is no number of a point
         return x >= 0 && x < static_cast<Real>(data_.points.size()) && x == std::floor(x)
                    ? static_cast<std::uint32_t>(x)
                    : std::numeric_limits<std::uint32_t>::max();
       };
       const std::uint32_t a = point(n[0]), b = point(n[1]);
-      if (!edges.contains({std::min(a, b), std::max(a, b)}))
-        return findings_.expected(item, name, "two neighbouring points of a face"), false;
+      if (!edges.contains({std::min(a, b), std::max(a, b)})) {
+        findings_.expected(item, name, "two neighbouring points of a face");
+        return false;
+      }
       creases_.push_back({a, b, n[2]});
     }
     if (operations_.subdivide == 0)

@@ -72,7 +72,8 @@ void changeCamera(TextEdits& edits, const Camera& from, const Camera& to) {
   const Item& block = blocks.back();  // the last counts
   changeDirections(edits, block, from, to);
   Camera was = from;
-  was.viewdir = to.viewdir, was.updir = to.updir;  // they are settled
+  was.viewdir = to.viewdir;
+  was.updir = to.updir;  // they are settled
   if (const std::optional<Item> wide = fieldOf(block, "horizontal_fov"); wide && was.fov != to.fov) {
     was.fov = to.fov;
     edits.replace(*wide, fieldText("fov", written(to.fov, 0)));

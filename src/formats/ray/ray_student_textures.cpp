@@ -44,7 +44,8 @@ Marble asMarble(const StudentMarble& said) {
   for (int i = 0; i < marble.octaves; ++i) squares += std::pow(0.25, i);
   marble.turbulence = marble.frequency * said.contrast * std::sqrt(squares);
   const Real dark = 2 * said.lightness - 1;
-  marble.a = said.color, marble.b = said.color * max(dark, 0);
+  marble.a = said.color;
+  marble.b = said.color * max(dark, 0);
   if (dark < 0)  // what is below black is black
     marble.ramp = {{0, said.color.r, said.color.g, said.color.b}, {1 / (1 - dark), 0, 0, 0}};
   return marble;

@@ -86,7 +86,8 @@ class Parser {
 
   std::uint32_t open(Kind kind, std::size_t offset) {
     Node node;
-    node.kind = kind, node.offset = static_cast<std::uint32_t>(offset);
+    node.kind = kind;
+    node.offset = static_cast<std::uint32_t>(offset);
     nodes_.push_back(node);
     return static_cast<std::uint32_t>(nodes_.size() - 1);
   }
@@ -98,7 +99,8 @@ class Parser {
   std::uint32_t openAround(std::uint32_t word, Kind kind) {
     nodes_.push_back(nodes_[word]);
     nodes_.back().end = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[word].kind = kind, nodes_[word].quoted = false;
+    nodes_[word].kind = kind;
+    nodes_[word].quoted = false;
     return word;
   }
 

@@ -62,7 +62,10 @@ class Syntax {
   /// Is there a call of kKey?
   bool hasKeys() const { return hasKeys_; }
   /// Takes another tree over the same source.
-  void replace(std::vector<Node> nodes) { nodes_ = std::move(nodes), hasKeys_ = false; }
+  void replace(std::vector<Node> nodes) {
+    nodes_ = std::move(nodes);
+    hasKeys_ = false;
+  }
   const std::string& file() const { return file_; }
 
   /// With the whole line of text.

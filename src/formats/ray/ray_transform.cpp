@@ -76,7 +76,10 @@ std::vector<Real> axisAndAngle(const Affine& turn) {
     for (int i = 0; i < 3; ++i) {
       Vec3 c = column(turn, i);
       entry(c, i) += 1;
-      if (length(c) > most) most = length(c), axis = c;
+      if (length(c) > most) {
+        most = length(c);
+        axis = c;
+      }
     }
     if (dot(axis, skew) < 0) axis = -axis;
   }
@@ -264,7 +267,10 @@ class Fitting {
     while (at < steps.size() && steps[at].kind != Form::translate) ++at;
     if (at == steps.size()) {  // a matrix may move too
       for (at = 0; at < steps.size() && steps[at].kind != Form::matrix;) ++at;
-      if (at == steps.size()) steps.insert(steps.begin(), {Form::translate, {0, 0, 0}}), at = 0;
+      if (at == steps.size()) {
+        steps.insert(steps.begin(), {Form::translate, {0, 0, 0}});
+        at = 0;
+      }
     }
     Affine left = outer_;
     for (std::size_t i = 0; i < at; ++i) left = left * affineOf(steps[i]);

@@ -49,7 +49,8 @@ class Reader {
  public:
   Reader(const std::string& file, std::string_view bytes, Messages& messages)
       : tokens_(file, bytes, kRules), messages_(messages) {
-    scene_.file = file, scene_.format = "ubc";
+    scene_.file = file;
+    scene_.format = "ubc";
   }
 
   Scene read() {
@@ -133,9 +134,13 @@ class Reader {
     warnings_.warn(tokens_.place(key),
                    "\"" + std::string(key.text.substr(0, 40)) + "\" is given again; the last counts");
   }
-  double single(const Parameter& p) const { return counted(p, 1), p.numbers[0]; }
+  double single(const Parameter& p) const {
+    counted(p, 1);
+    return p.numbers[0];
+  }
   Color color(const Parameter& p) const {
-    return counted(p, 3), Color{p.numbers[0], p.numbers[1], p.numbers[2]};
+    counted(p, 3);
+    return Color{p.numbers[0], p.numbers[1], p.numbers[2]};
   }
   void counted(const Parameter& p, std::size_t count) const {
     if (p.numbers.size() == count) return;
@@ -158,15 +163,19 @@ class Reader {
     height_ = pixels("Dimensions");
   }
   void perspective(const Token& token) {
-    view_.fovy = number("Perspective"), view_.aspect = number("Perspective");
-    view_.near = number("Perspective"), view_.far = number("Perspective");
+    view_.fovy = number("Perspective");
+    view_.aspect = number("Perspective");
+    view_.near = number("Perspective");
+    view_.far = number("Perspective");
     if (viewPlace_.line == 0) viewPlace_ = tokens_.place(token);
     if (!tokens_.peek().is(Token::Kind::number)) return;
     messages_.warn(tokens_.place(tokens_.next()),
                    "Perspective: a fifth number, of stereo pictures, is ignored");
   }
   void lookAt(const Token& token) {
-    view_.eye = vector("LookAt"), view_.center = vector("LookAt"), view_.up = vector("LookAt");
+    view_.eye = vector("LookAt");
+    view_.center = vector("LookAt");
+    view_.up = vector("LookAt");
     viewPlace_ = tokens_.place(token);
   }
   void supersampling() {
@@ -225,9 +234,10 @@ class Reader {
         surface.emission = color(p);
       else if (key == "shininess")
         surface.shininess = single(p);
-      else if (key == "shadow")
-        shadowGiven_ = true, surface.shadow = single(p);
-      else if (key == "reflect")
+      else if (key == "shadow") {
+        shadowGiven_ = true;
+        surface.shadow = single(p);
+      } else if (key == "reflect")
         surface.reflect = single(p);
       else if (key == "refract")
         refract = single(p);
@@ -306,7 +316,8 @@ class Reader {
     if (bottom < 0 || top < 0) negative(token, min(bottom, top));
     conic.bottomRadius = std::abs(bottom);
     conic.topRadius = std::abs(top);
-    conic.zMin = number("Conic"), conic.zMax = number("Conic");
+    conic.zMin = number("Conic");
+    conic.zMax = number("Conic");
     const std::uint32_t material = materialName();
     if (conic.zMin == conic.zMax || (conic.bottomRadius == 0 && conic.topRadius == 0))
       return messages_.warn(tokens_.place(token), "a conic without height or width is left out");
@@ -337,8 +348,10 @@ class Reader {
     }
     for (Object& object : found->second) {
       MeshData mesh = *object.shape.as<Mesh>()->data;
-      mesh.normals.clear(), mesh.materials.clear();
-      mesh.generateNormals = false, mesh.twoSided = true;
+      mesh.normals.clear();
+      mesh.materials.clear();
+      mesh.generateNormals = false;
+      mesh.twoSided = true;
       object.shape = Mesh{std::make_shared<const MeshData>(std::move(mesh))};
     }
     return found->second;
@@ -454,7 +467,10 @@ Beginning beginning(std::string_view bytes) {
     const std::string_view line = bytes.substr(0, bytes.find('\n'));
     const std::string_view word = firstWord(line);
     if (!word.empty()) {
-      if (isCommand(word)) ++result.commands, result.first |= !any;
+      if (isCommand(word)) {
+        ++result.commands;
+        result.first |= !any;
+      }
       result.old |= word == "Resolution" || word == "Camera";
       any = true;
     }

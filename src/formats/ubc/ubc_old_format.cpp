@@ -16,7 +16,8 @@ class Reader {
  public:
   Reader(const std::string& file, std::string_view bytes, Messages& messages)
       : tokens_(file, bytes, {.marks = "", .comment = '#'}), messages_(messages) {
-    scene_.file = file, scene_.format = "ubc";
+    scene_.file = file;
+    scene_.format = "ubc";
   }
 
   Scene read() {
@@ -26,12 +27,17 @@ class Reader {
     while (!tokens_.atEnd()) {
       const Token name = tokens_.word("scene");
       if (name.text == "Resolution") {
-        width = pixels(), height = pixels();
+        width = pixels();
+        height = pixels();
       } else if (name.text == "Camera") {
         viewPlace = tokens_.place(name);
-        view.eye = vector("Camera"), view.center = vector("Camera"), view.up = vector("Camera");
-        view.fovy = tokens_.number("Camera"), view.aspect = tokens_.number("Camera");
-        view.near = tokens_.number("Camera"), view.far = tokens_.number("Camera");
+        view.eye = vector("Camera");
+        view.center = vector("Camera");
+        view.up = vector("Camera");
+        view.fovy = tokens_.number("Camera");
+        view.aspect = tokens_.number("Camera");
+        view.near = tokens_.number("Camera");
+        view.far = tokens_.number("Camera");
       } else if (name.text == "Material") {
         material();
       } else if (name.text == "Sphere") {
@@ -81,9 +87,13 @@ class Reader {
     const Place place = tokens_.place(tokens_.peek());
     const std::string name = id("Material");
     Surface s;
-    s.ambient = color("Material"), s.diffuse = color("Material"), s.specular = color("Material");
-    s.emission = color("Material"), s.shininess = tokens_.number("Material");
-    s.shadow = tokens_.number("Material"), s.reflect = tokens_.number("Material");
+    s.ambient = color("Material");
+    s.diffuse = color("Material");
+    s.specular = color("Material");
+    s.emission = color("Material");
+    s.shininess = tokens_.number("Material");
+    s.shadow = tokens_.number("Material");
+    s.reflect = tokens_.number("Material");
     for (Color* own : {&s.ambient, &s.diffuse, &s.specular, &s.emission}) *own *= Color(1 - s.reflect);
     materials_.insert_or_assign(name, static_cast<std::uint32_t>(scene_.materials.size()));
     scene_.materials.push_back({name, phong(s), {}});

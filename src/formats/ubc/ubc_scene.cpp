@@ -15,16 +15,21 @@ constexpr Real kFarthest = 1e30;  // that the options of passes take
 
 Phong phong(const Surface& s) {
   Phong phong;
-  phong.ambient = s.ambient, phong.diffuse = s.diffuse, phong.specular = s.specular;
-  phong.emissive = s.emission, phong.reflective = Color(s.reflect);
-  phong.shininess = s.shininess, phong.shadow = s.shadow;
+  phong.ambient = s.ambient;
+  phong.diffuse = s.diffuse;
+  phong.specular = s.specular;
+  phong.emissive = s.emission;
+  phong.reflective = Color(s.reflect);
+  phong.shininess = s.shininess;
+  phong.shadow = s.shadow;
   return phong;
 }
 
 void addLamp(Scene& scene, const Lamp& lamp, const Place& place) {
   if (!isBlack(lamp.ambient)) scene.lights.push_back({AmbientLight{lamp.ambient}, place});
   PointLight light{.position = lamp.position, .color = lamp.diffuse};
-  light.constant = lamp.attenuation.x, light.linear = lamp.attenuation.y;
+  light.constant = lamp.attenuation.x;
+  light.linear = lamp.attenuation.y;
   light.quadratic = lamp.attenuation.z;
   if (lamp.attenuation == Vec3{}) light.constant = 1;
   light.radius = lamp.radius;
@@ -37,8 +42,10 @@ Camera camera(const View& view, const Place& place) {
   camera.position = view.eye;
   camera.viewdir = view.center - view.eye;
   camera.updir = view.up;
-  camera.fov = view.fovy, camera.aspectratio = view.aspect;
-  camera.near = view.near, camera.far = view.far;
+  camera.fov = view.fovy;
+  camera.aspectratio = view.aspect;
+  camera.near = view.near;
+  camera.far = view.far;
   if (!canLook(camera.viewdir, camera.updir))
     throw Error(
         Fault::scene, place,

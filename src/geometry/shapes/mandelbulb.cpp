@@ -66,7 +66,10 @@ Affine MandelbulbStep::step(const Vec3& w) const {
   const int p = shape_.power;
   const Real rho = std::sqrt(w.x * w.x + w.y * w.y), r = length(w);
   Affine f;
-  if (r == 0) return f.row[0] = f.row[1] = f.row[2] = {}, f;
+  if (r == 0) {
+    f.row[0] = f.row[1] = f.row[2] = {};
+    return f;
+  }
   const Complex a = rho > 0 ? Complex{w.x / rho, w.y / rho} : Complex{1, 0};
   const Complex unitUp{w.z / r, rho / r};
   const Complex around = raised(a, p, {1, 0}), up = raised(unitUp, p, {1, 0});

@@ -14,7 +14,10 @@ void meshCrossings(const MeshTree& mesh, const Ray& ray, const VisitCrossing& vi
   std::uint64_t triangles = 0;
   for (const Real side : {1.0, -1.0}) {
     std::vector<Crossing> met;
-    const auto add = [&](const MeshHit& m) { return met.push_back({side * m.hit.t, m.triangle}), false; };
+    const auto add = [&](const MeshHit& m) {
+      met.push_back({side * m.hit.t, m.triangle});
+      return false;
+    };
     mesh.crossings({ray.origin, ray.direction * side}, kInfinity, add, {nodes, triangles});
     std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.part < b.part; });
     for (std::size_t i = 0; i < met.size(); ++i)

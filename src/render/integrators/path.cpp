@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/footprint.h"
 #include "image/srgb.h"
+#include "render/footprint.h"
 #include "render/interaction.h"
 #include "shading/optics.h"
 
@@ -35,7 +35,8 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
   const Real limit = tracer.settings().fireflyLimit, most = maxComponent(added);
   if (!(limit > 0) || kind != RayKind::bounce || !(most > limit)) return 1;
   const Real part = limit / most, removed = luminanceOf(added) * (1 - part);
-  if (removed < 1e9) tracer.statistics().lightRemoved += static_cast<std::uint64_t>(removed * Statistics::kLightParts);
+  if (removed < 1e9)
+    tracer.statistics().lightRemoved += static_cast<std::uint64_t>(removed * Statistics::kLightParts);
   return part;
 }
 

@@ -46,7 +46,8 @@ struct AshikhminShirleyBsdf : LocalBsdf<AshikhminShirleyBsdf, AshikhminShirley> 
 
   AshikhminShirleyBsdf() = default;
   explicit AshikhminShirleyBsdf(const AshikhminShirley& model) : LocalBsdf(model) {
-    nu = max(0, model.shininess), nv = max(0, model.shininessAcross);
+    nu = max(0, model.shininess);
+    nv = max(0, model.shininessAcross);
   }
 
   bool scatters() const { return !isBlack(said.diffuse) || !isBlack(said.specular); }

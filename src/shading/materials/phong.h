@@ -179,8 +179,12 @@ inline PhongBsdf mix(const PhongBsdf& a, const PhongBsdf& b, const PhongBsdf& c,
 inline Phong phongLike(const SurfaceFields& surface, const Color& diffuse, const Color& specular = {},
                        Real shininess = 0) {
   Phong phong;
-  phong.emissive = surface.emissive, phong.ambient = surface.ambient, phong.shadow = surface.shadow;
-  phong.diffuse = diffuse, phong.specular = specular, phong.shininess = shininess;
+  phong.emissive = surface.emissive;
+  phong.ambient = surface.ambient;
+  phong.shadow = surface.shadow;
+  phong.diffuse = diffuse;
+  phong.specular = specular;
+  phong.shininess = shininess;
   return phong;
 }
 

@@ -73,7 +73,8 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
                 Color(mirroredAlongNormal(model.index))),
         metal(plastic.lobe.facets, model.color),
         fibres(Sheen::of(model.sheenRoughness)) {
-    said.metallic = max(0, min(1, model.metallic)), said.clearcoat = max(0, min(1, model.clearcoat));
+    said.metallic = max(0, min(1, model.metallic));
+    said.clearcoat = max(0, min(1, model.clearcoat));
     if (said.clearcoat > 0)
       clear = {Distribution::ggx, max(kLeastRoughness, model.clearcoatRoughness), 0,
                Color(mirroredAlongNormal(1.5))};

@@ -43,7 +43,9 @@ struct RoughGlass : SurfaceFields, Interior {
 
   Phong asPhong() const {
     Phong phong = phongLike(*this, Color(0), Color(0.5), 200);
-    phong.reflective = Color(mirroredAlongNormal(index)), phong.transmissive = color, phong.index = index;
+    phong.reflective = Color(mirroredAlongNormal(index));
+    phong.transmissive = color;
+    phong.index = index;
     static_cast<Interior&>(phong) = *this;
     return phong;
   }
@@ -57,7 +59,8 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
 
   RoughGlassBsdf() = default;
   explicit RoughGlassBsdf(const RoughGlass& model) : LocalBsdf(model) {
-    index = model.index, transmissive = model.color;
+    index = model.index;
+    transmissive = model.color;
     fill(model, model.index);
     passage = Passage::byFresnel;
     if (scatters()) {
@@ -115,7 +118,11 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
     Real eta;
     Turned(const RoughGlassBsdf& bsdf, const Vec3& toEye, const Vec3& toLight)
         : eye(toEye), light(toLight), eta(bsdf.said.index) {
-      if (eye.z < 0) eye.z = -eye.z, light.z = -light.z, eta = 1 / eta;
+      if (eye.z < 0) {
+        eye.z = -eye.z;
+        light.z = -light.z;
+        eta = 1 / eta;
+      }
     }
   };
   /// The facet that refracts light to the eye.
@@ -128,7 +135,8 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
       const Vec3 sum = (toEye + toLight * eta) * (eta > 1 ? -1 : 1);
       const Real l = length(sum);
       if (!(l > 0)) return;
-      half = sum / l, eye = dot(toEye, half);
+      half = sum / l;
+      eye = dot(toEye, half);
       const Real light = dot(toLight, half), below = eye + eta * light;
       possible = eye > 0 && light < 0 && half.z > 0 && below != 0;
       if (possible) density = eta * eta * -light / (below * below);

@@ -47,7 +47,8 @@ struct SchlickBsdf : LocalBsdf<SchlickBsdf, SchlickModel> {
 
   SchlickBsdf() = default;
   explicit SchlickBsdf(const SchlickModel& model) : LocalBsdf(model) {
-    r = max(0.002, min(1, model.roughness)), p = max(0.002, min(1, model.isotropy));
+    r = max(0.002, min(1, model.roughness));
+    p = max(0.002, min(1, model.isotropy));
   }
 
   bool scatters() const { return !isBlack(said.color); }

@@ -66,7 +66,8 @@ struct ThinGlass : SurfaceFields {
   Phong asPhong() const {
     const Shares along = shares(1);
     Phong phong = phongLike(*this, Color(0), Color(0.5), 200);
-    phong.reflective = along.mirrored, phong.transmissive = along.passed;
+    phong.reflective = along.mirrored;
+    phong.transmissive = along.passed;
     return phong;
   }
   ThinGlassBsdf at(const Rules& rules) const;
@@ -76,7 +77,8 @@ struct ThinGlassBsdf : LocalBsdf<ThinGlassBsdf, ThinGlass> {
   ThinGlassBsdf() = default;
   explicit ThinGlassBsdf(const ThinGlass& model) : LocalBsdf(model) {
     const ThinGlass::Shares along = model.shares(1);
-    reflective = along.mirrored, transmissive = along.passed;
+    reflective = along.mirrored;
+    transmissive = along.passed;
     passage = Passage::straight;
   }
 

@@ -47,7 +47,8 @@ struct WardBsdf : LocalBsdf<WardBsdf, Ward> {
   WardBsdf() = default;
   explicit WardBsdf(const Ward& model) : LocalBsdf(model) {
     constexpr Real kLeast = 0.003;
-    ax = max(kLeast, model.roughness), ay = max(kLeast, model.roughnessAcross);
+    ax = max(kLeast, model.roughness);
+    ay = max(kLeast, model.roughnessAcross);
     const Real even = maxComponent(model.diffuse), lobe = maxComponent(model.specular);
     if (lobe > 0) share = lobe / (lobe + even);
   }

@@ -37,7 +37,8 @@ inline CellDistances cellDistances(const Vec3& p, int axes, Real jitter, std::ui
   Real rest[3] = {}, slab[3][7] = {};
   for (int axis = 0; axis < axes; ++axis) {
     const Lattice at(p[axis]);
-    whole[axis] = at.whole, rest[axis] = at.rest;
+    whole[axis] = at.whole;
+    rest[axis] = at.rest;
     for (int i = 0; i < 7; ++i) {
       const auto low = static_cast<Real>(kAway[i]);
       const Real gap = max(max(low - rest[axis], rest[axis] - (low + 1)), 0);
@@ -60,14 +61,16 @@ inline CellDistances cellDistances(const Vec3& p, int axes, Real jitter, std::ui
         }
         if (squared < found.first) {
           found.second = found.first;
-          found.first = squared, found.bits = cellBits(cell, axes, seed);
+          found.first = squared;
+          found.bits = cellBits(cell, axes, seed);
         } else if (squared < found.second) {
           found.second = squared;
         }
       }
     }
   }
-  found.first = std::sqrt(found.first), found.second = std::sqrt(found.second);
+  found.first = std::sqrt(found.first);
+  found.second = std::sqrt(found.second);
   return found;
 }
 

@@ -12,7 +12,10 @@ struct Clouds : PatternColors, FractalSum {
 
   Real cover = 0.5, softness = 0.5, time = 0;
 
-  Clouds() { a = {0.25, 0.45, 0.85}, b = Color(1); }
+  Clouds() {
+    a = {0.25, 0.45, 0.85};
+    b = Color(1);
+  }
 
   static constexpr auto fields() {
     return std::tuple_cat(

@@ -13,8 +13,10 @@ struct Granite : PatternColors, FractalSum {
   Real frequency = 4, contrast = 2;
 
   Granite() {
-    a = {0.17, 0.15, 0.16}, b = {0.89, 0.82, 0.79};
-    sum = SumKind::turbulence, gain = 0.7;
+    a = {0.17, 0.15, 0.16};
+    b = {0.89, 0.82, 0.79};
+    sum = SumKind::turbulence;
+    gain = 0.7;
   }
 
   static constexpr auto fields() {

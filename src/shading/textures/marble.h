@@ -15,7 +15,8 @@ struct Marble : PatternColors, FractalSum {
   WaveForm wave = WaveForm::smooth;
 
   Marble() {
-    a = {0.95, 0.94, 0.92}, b = {0.22, 0.22, 0.27};
+    a = {0.95, 0.94, 0.92};
+    b = {0.22, 0.22, 0.27};
     sum = SumKind::turbulence;
   }
 

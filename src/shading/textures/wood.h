@@ -15,7 +15,8 @@ struct Wood : PatternColors, FractalSum {
   WaveForm wave = WaveForm::saw;
 
   Wood() {
-    a = {0.72, 0.47, 0.24}, b = {0.34, 0.17, 0.07};
+    a = {0.72, 0.47, 0.24};
+    b = {0.34, 0.17, 0.07};
     octaves = 2;
   }
 
@@ -43,7 +44,8 @@ struct Wood : PatternColors, FractalSum {
     if (fibres > 0) {
       const Real fine = frequency * kFibresPerRing;
       FractalSum single = *this;
-      single.sum = SumKind::fractal, single.octaves = 1;
+      single.sum = SumKind::fractal;
+      single.octaves = 1;
       fibre = single.at<3>({p.x * fine, p.y * fine, p.z * fine * kSlender},
                            max(max(width.x, width.y), width.z * kSlender) * std::abs(fine));
     }
