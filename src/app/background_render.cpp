@@ -52,11 +52,11 @@ BackgroundRender::~BackgroundRender() {
   thread_.join();
 }
 
-void BackgroundRender::start(std::shared_ptr<const Scene> scene, const Settings& settings) {
+void BackgroundRender::start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt) {
   stop();
   {
     const std::lock_guard lock(mutex_);
-    request_ = Request{std::move(scene), settings, state_.number + 1};
+    request_ = Request{std::move(scene), settings, std::move(sceneAt), state_.number + 1};
     state_ = {Phase::building, 0, 0, {}, request_->number};
     begin_ = std::chrono::steady_clock::now();
     remaining_ = {};
@@ -152,7 +152,7 @@ void BackgroundRender::work() {
 void BackgroundRender::run(const Request& request) {
   const auto session = std::make_shared<Session>();
   session->job().patience = {};  // who stops it wants to see something else
-  session->open(*request.scene, request.settings);
+  session->open(*request.scene, request.settings, request.sceneAt);
   session->build(built_.get());
   built_ = session;
   const auto isCurrent = [&] { return state_.number == request.number && state_.working(); };
@@ -198,8 +198,7 @@ void BackgroundRender::coarsePasses(Session& session) {
     Film film = makeFilm(settings, settings.width, settings.height);
     coarseJob_.done = 0;
     coarseJob_.total = 0;
-    if (trace::render(session.world(), session.integrator(), settings, film, coarseJob_).end != End::finished)
-      return;
+    if (trace::render(session.moments(), settings, film, coarseJob_).end != End::finished) return;
     Picture picture = enlarged(film.picture(), size);
     const std::lock_guard lock(mutex_);
     coarse_ = std::move(picture);

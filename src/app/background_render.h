@@ -39,7 +39,7 @@ class BackgroundRender {
   BackgroundRender(const BackgroundRender&) = delete;
   BackgroundRender& operator=(const BackgroundRender&) = delete;
 
-  void start(std::shared_ptr<const Scene> scene, const Settings& settings);
+  void start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt = {});
   /// What is done stays.
   void stop();
 
@@ -60,6 +60,7 @@ class BackgroundRender {
   struct Request {
     std::shared_ptr<const Scene> scene;
     Settings settings;
+    SceneAt sceneAt;
     std::uint64_t number = 0;
   };
 

@@ -185,6 +185,17 @@ bool Document::chosenHere(const std::string& option) const {
                      [&](const Choice& choice) { return choice.option == option; });
 }
 
+SceneAt Document::sceneAt() const {
+  if (!changesWithTime_) return nullptr;
+  const Edition& now = editions_[current_];
+  return [text = now.text, scene = now.scene, edited = std::string()](Real time) mutable {
+    Messages known;  // they were told when the scene was read
+    if (edited.empty() && !(*scene == *text->scene))
+      edited = writeEdited(*text, *scene, text->file, known).front().bytes;
+    return readScene(text->file, edited.empty() ? *text->bytes : edited, known, time);
+  };
+}
+
 void Document::undo() {
   if (!canUndo()) return;
   --current_;

@@ -78,6 +78,8 @@ class Document {
   void reload();
   /// The file has values that change with time.
   bool changesWithTime() const { return changesWithTime_; }
+  /// Reads the scene as it is at another time, with its edits; null if it does not change.
+  SceneAt sceneAt() const;
   /// Writes the scene, with the options that differ from the file's, as a .ray file, which is the document's
   /// file from now on: the text that was read, if that was a .ray file, with the edits
   /// (formats/ray/ray_patch.h). Returns warnings of what was lost. Throws Error, also if the file could not

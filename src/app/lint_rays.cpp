@@ -44,6 +44,9 @@ std::vector<Found> allCrossings(const World& world, const Ray& ray, Real tMost) 
 Settings sparse(const Settings& settings) {
   Settings result = settings;
   result.outlines = 0;  // lines that wide would cover small things
+  result.ambientOcclusion = 0;
+  result.caustics = 0;
+  result.fog = 0;
   result.width = kWidth;
   result.height = kHeight;
   result.spp = 1;

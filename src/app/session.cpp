@@ -6,6 +6,7 @@
 
 #include "base/budget.h"
 #include "base/file.h"
+#include "formats/ray/ray_format.h"
 #include "render/passes.h"
 #include "scene/picture_size.h"
 
@@ -91,17 +92,24 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   scene_ = readSceneAtItsMoment(file, bytes, choices, messages_, time);
   settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
+  sceneAt_ = nullptr;
+  if (changesWithTime(file, bytes))
+    sceneAt_ = [file, bytes](Real moment) {
+      Messages known;  // they were told of the scene
+      return readScene(file, bytes, known, moment);
+    };
   fingerprint_ = scene_.inputs.fingerprint();
   messages_.throwIfFailed(strict_);
   if (budgetOfThread.budget) budgetOfThread.budget->limitTime(settings_.timeLimit);  // also the file's own
   phases_ = {watch.stop("read")};
 }
 
-void Session::open(Scene scene, const Settings& settings) {
+void Session::open(Scene scene, const Settings& settings, SceneAt sceneAt) {
   strict_ = false;
   messages_ = {};
   phases_ = {};
   scene_ = std::move(scene);
+  sceneAt_ = std::move(sceneAt);
   settings_ = settings;
   fingerprint_.clear();
 }
@@ -118,16 +126,51 @@ void Session::build(const Session* before) {
   } else {
     world_.emplace(compile(scene_, settings_, messages_));
   }
+  buildMoments();
   messages_.throwIfFailed(strict_);
-  integrator_ = makeIntegrator(*world_, settings_, job_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
+}
+
+void Session::buildMoments() {
+  moments_.clear();
+  worlds_.clear();
+  integrators_.clear();
+  const auto add = [&](const World& world) {
+    integrators_.push_back(makeIntegrator(world, settings_, job_));
+    moments_.push_back({&world, integrators_.back().get()});
+  };
+  if (settings_.shutter > 0 && !sceneAt_)
+    messages_.warn(Place{.file = scene_.file},
+                   "nothing in the scene changes with time: --shutter blurs nothing",
+                   "docs/animation.md tells how things move");
+  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_);
+  Work work("building the moments of the shutter", settings_.moments);
+  Scene before = scene_;
+  const World* built = &*world_;
+  for (int moment = 0; moment < settings_.moments; ++moment) {
+    Scene scene = sceneAt_(timeOfMoment(settings_, moment));
+    if (scene.objects.size() != scene_.objects.size() || scene.lights.size() != scene_.lights.size())
+      throw Error(Fault::scene,
+                  "while the shutter is open the scene has " + std::to_string(scene.objects.size()) +
+                      " objects and " + std::to_string(scene.lights.size()) + " lights, before " +
+                      std::to_string(scene_.objects.size()) + " and " + std::to_string(scene_.lights.size()),
+                  "a key(...) changes how many there are; only what is there all the time can be blurred");
+    Messages known;
+    readSurroundings(scene, settings_, pictureLimits(settings_), known, &scene_.surroundings);
+    const Compiled earlier{before, settings_, *built};
+    worlds_.push_back(compile(scene, settings_, known, &earlier));
+    built = &worlds_.back();
+    before = std::move(scene);
+    add(*built);
+    work.reached(moment + 1);
+  }
 }
 
 RenderResult Session::renderPicture() {
   const Stopwatch watch;
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
-  RenderResult result = trace::render(*world_, *integrator_, settings_, *film_, job_);
+  RenderResult result = trace::render(moments_, settings_, *film_, job_);
   phases_.push_back(watch.stop("trace"));
   return result;
 }

@@ -2,6 +2,8 @@
 // No printing, no signals, no windows.
 #pragma once
 
+#include <functional>
+#include <list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +32,9 @@ struct Phase {
 Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
                            Messages& messages, Real& time);
 
+/// Reads the scene once more, as it is at a time.
+using SceneAt = std::function<Scene(Real time)>;
+
 class Session {
  public:
   /// Reads the scene and settles the settings: defaults < file < choices.
@@ -37,7 +42,8 @@ class Session {
   void open(const std::string& file, std::span<const Choice> choices, bool strict = false);
 
   /// Takes a scene that was read before, and settled settings: what the studio renders.
-  void open(Scene scene, const Settings& settings);
+  /// `sceneAt` reads it at other times, if it changes with time.
+  void open(Scene scene, const Settings& settings, SceneAt sceneAt = {});
 
   const Scene& scene() const { return scene_; }
   const Settings& settings() const { return settings_; }
@@ -48,7 +54,12 @@ class Session {
   /// not changed since a session built before is shared with it.
   void build(const Session* before = nullptr);
   const World& world() const { return *world_; }
-  const Integrator& integrator() const { return *integrator_; }
+  /// While the shutter is open; one where it is not. After build().
+  std::span<const Moment> moments() const { return moments_; }
+  /// That of the moment that a tree of rays was traced at.
+  const World& worldOf(const RayTree& tree) const {
+    return tree.moment < 0 ? *world_ : *moments_[static_cast<std::size_t>(tree.moment)].world;
+  }
 
   /// Traces the picture; blocks. Others may watch and stop it through job() and picture().
   RenderResult renderPicture();
@@ -58,7 +69,7 @@ class Session {
   /// The rays of one sample of the pixel (x, y), y = 0 at the top, and the pixel's value. After build(); also
   /// while renderPicture() runs. Throws Error(Fault::usage) outside the picture.
   Explanation explain(int x, int y, int sample, const std::function<bool()>& cancelled = {}) const {
-    return trace::explain(*world_, *integrator_, settings_, size(), x, y, sample, cancelled);
+    return trace::explain(moments_, settings_, size(), x, y, sample, cancelled);
   }
 
   /// What is rendered so far. May be asked from other threads while renderPicture() runs.
@@ -77,13 +88,18 @@ class Session {
   const std::vector<Phase>& phases() const { return phases_; }
 
  private:
+  void buildMoments();
+
   Scene scene_;
+  SceneAt sceneAt_;  // null of a scene that does not change
   Settings settings_;
   std::string fingerprint_;  // "" of a scene that was not read here
   Messages messages_;
   bool strict_ = false;
   std::optional<World> world_;
-  std::unique_ptr<const Integrator> integrator_;
+  std::vector<Moment> moments_;
+  std::list<World> worlds_;  // of the moments, if they are several
+  std::list<std::unique_ptr<const Integrator>> integrators_;
   std::unique_ptr<Film> film_;
   Job job_;
   std::vector<Phase> phases_;

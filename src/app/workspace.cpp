@@ -255,7 +255,7 @@ void Workspace::startRender() {
   if (!document.isOpen()) return;
   rendered_ = document.sharedScene();
   renderedSettings_ = document.settings();
-  render.start(rendered_, renderedSettings_);
+  render.start(rendered_, renderedSettings_, document.sceneAt());
 }
 
 bool Workspace::stale() const {

@@ -103,7 +103,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {
-    return drawRays(session.scene(), session.settings(), session.world(), explanation.tree);
+    return drawRays(session.scene(), session.settings(), session.worldOf(explanation.tree), explanation.tree);
   };
   if (format == "png") {
     writePicture(arguments.output, toPicture(drawing()), Rounding::nearest);

@@ -157,6 +157,7 @@ class Writer {
     if (t.chance)
       json["chance"] = {
           {"density", t.chance->density}, {"other", t.chance->other}, {"share", t.chance->share}};
+    if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
     if (t.light) {
       const LightTerm& l = *t.light;
       const LightSource& source = scene_.lights[l.light];
@@ -236,6 +237,8 @@ std::string explainJson(const PixelFacts& facts) {
   json["x"] = e.tree.x;
   json["y"] = e.tree.y;
   json["sample"] = e.tree.sample;
+  if (e.tree.moment >= 0)
+    json["moment"] = {{"number", e.tree.moment}, {"time", timeOfMoment(facts.settings, e.tree.moment)}};
   json["samples"] = Json::list();
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
   json["sampleWeights"] = Json::list();

@@ -137,6 +137,9 @@ class TreeText {
         if (chance.other > 0)
           words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
       }
+      if (term.photons)
+        words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
+                 text(term.photons->radius);
       line(words);
     }
     if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
@@ -214,7 +217,11 @@ std::string explainText(const PixelFacts& facts, bool color) {
   std::string text = printable(facts.scene.file) + ", pixel " + std::to_string(e.tree.x) + "," +
                      std::to_string(e.tree.y) + " of " + std::to_string(facts.width) + " x " +
                      std::to_string(facts.height) + ", sample " + std::to_string(e.tree.sample) + " of " +
-                     std::to_string(e.samples.size()) + "\n\n";
+                     std::to_string(e.samples.size());
+  if (e.tree.moment >= 0)
+    text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
+            std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);
+  text += "\n\n";
   text += TreeText(facts, color).all() + "\n";
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +

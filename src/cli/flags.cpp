@@ -401,7 +401,11 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"outlines", "2"},
                                                                        {"noise-target", "0.004"},
                                                                        {"integrator", "path"},
-                                                                       {"firefly-limit", "4"}};
+                                                                       {"firefly-limit", "4"},
+                                                                       {"ambient-occlusion", "16"},
+                                                                       {"caustics", "200000"},
+                                                                       {"fog", "0.05"},
+                                                                       {"shutter", "0.04"}};
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};

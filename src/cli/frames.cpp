@@ -147,7 +147,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       break;
     }
     const SavedPicture saved = save(session, files, console);
-    finishCheckpoint(session, arguments, files);
+    settleCheckpoint(session, result, arguments, files);
     if (!reportStatistics(arguments, session, result, saved.path, elapsed() - frameStart, console))
       code = kFailed;
     if (saved.elsewhere) {

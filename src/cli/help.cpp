@@ -60,6 +60,7 @@ std::string placeholder(const Option& option) {
     case Option::Kind::real: return "X";
     case Option::Kind::choice: return joined(option.choices, "|");
     case Option::Kind::choices: return joined(option.choices, ",");
+    case Option::Kind::color: return "R,G,B";
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::file: return "FILE";
   }
@@ -71,6 +72,8 @@ std::string rangeText(const Option& option) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::choice: return joined(option.choices, ", ");
     case Option::Kind::choices: return "none, or some of " + joined(option.choices, ",");
+    case Option::Kind::color:
+      return "a grey, or red,green,blue, from " + toText(option.least) + " to " + toText(option.most);
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::file: return "the name of a file, or none";
     case Option::Kind::integer:

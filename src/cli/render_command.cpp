@@ -100,7 +100,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   }
   const SavedPicture saved = save(session, files, console);
   if (saved.elsewhere) code = kFailed;
-  if (result.end == End::finished) finishCheckpoint(session, arguments, files);
+  const std::string goesOn = settleCheckpoint(session, result, arguments, files);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
   const std::string where = saved.elsewhere        ? " instead of " + output
@@ -108,7 +108,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
                                                    : "";
   console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + where + removedText(files));
+                                  durationText(seconds) + where + removedText(files) + goesOn);
   return code;
 }
 

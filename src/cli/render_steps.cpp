@@ -76,9 +76,13 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
   return result;
 }
 
-void finishCheckpoint(const Session& session, const Arguments& arguments, const PictureFiles& files) {
+std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
+                             const PictureFiles& files) {
   Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+  if (result.end != End::finished)
+    return std::filesystem::exists(checkpoint.path()) ? "; the same command goes on from there" : "";
   if (arguments.resume != Resume::keep) checkpoint.remove();
+  return "";
 }
 
 void reportLosses(const Session& session, const RenderResult& result, const Console& console) {

@@ -26,8 +26,10 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
                                   const Console& console, Progress& progress, PictureFiles& files,
                                   const Part& part);
 
-/// After the whole picture has been written: takes its checkpoint away, unless it is to be kept.
-void finishCheckpoint(const Session& session, const Arguments& arguments, const PictureFiles& files);
+/// After the picture has been written: takes the checkpoint of a whole one away, unless it is to be kept.
+/// Returns how to go on from that of a part, as the end of a line; "" where there is none.
+std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
+                             const PictureFiles& files);
 
 /// Warns of samples that were left out, and tells what the firefly limit took away.
 void reportLosses(const Session& session, const RenderResult& result, const Console& console);

@@ -1,6 +1,7 @@
 #include "render/explain.h"
 
 #include <algorithm>
+#include <array>
 
 #include "image/film.h"
 #include "render/pixel.h"
@@ -15,17 +16,17 @@ void require(bool good, const std::string& what, int most, const std::string& fo
 
 }  // namespace
 
-Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
-                    const Size& size, int x, int y, int sample, const std::function<bool()>& cancelled) {
+Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
+                    int sample, const std::function<bool()>& cancelled) {
   require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
   require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
   Explanation result;
-  PixelTracer plain(world, integrator, settings, size);
+  PixelTracer plain(moments, settings, size);
   require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
   result.tree.x = x;
   result.tree.y = y;
   result.tree.sample = sample;
-  PixelTracer(world, integrator, settings, size, &result.tree).sample(x, y, sample);
+  PixelTracer(moments, settings, size, &result.tree).sample(x, y, sample);
 
   PixelSum sum;
   for (const Wave& wave : wavesOf(plain.samples())) {
@@ -50,6 +51,11 @@ Explanation explain(const World& world, const Integrator& integrator, const Sett
   weigh(result.tree, (shown < result.weights.size() ? result.weights[shown] : 1) /
                          static_cast<Real>(std::max<std::ptrdiff_t>(finite, 1)));
   return result;
+}
+
+Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
+                    const Size& size, int x, int y, int sample) {
+  return explain(std::array{Moment{&world, &integrator}}, settings, size, x, y, sample);
 }
 
 }  // namespace trace

@@ -23,7 +23,10 @@ struct Explanation {
 /// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, such as one after the
 /// pixel settled, Error(Fault::limit) for one with more than kMostRecordedRays rays. `cancelled`, if any, is
 /// asked after every sample; once it is true what has been found so far is returned.
+Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
+                    int sample, const std::function<bool()>& cancelled = {});
+/// The same of one moment.
 Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
-                    const Size& size, int x, int y, int sample, const std::function<bool()>& cancelled = {});
+                    const Size& size, int x, int y, int sample);
 
 }  // namespace trace

@@ -40,10 +40,19 @@ class Gather {
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter, share}});
   }
 
-  /// An outline covers so much of what has been added.
-  void draw(Real ink) {
-    if (ink > 0) add(Term::Kind::outline, Color(ink), sum_ * -1);
+  /// The same of an estimate by photons.
+  void add(Term::Kind kind, const Color& value, const PhotonTerm& photons) {
+    sum_ += value;
+    if (Tracer::recorded(node_))
+      tracer_.record(node_, {kind, Color(1), value, Tracer::kNoNode, {}, {}, photons});
   }
+
+  /// Something covers so much of what has been added.
+  void cover(Term::Kind kind, Real share) {
+    if (share > 0) add(kind, Color(share), sum_ * -1);
+  }
+  /// An outline does.
+  void draw(Real ink) { cover(Term::Kind::outline, ink); }
 
   /// Notes what the place that was hit does with light.
   void note(const Bsdf& bsdf) {

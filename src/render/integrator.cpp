@@ -2,22 +2,29 @@
 
 #include <array>
 
+#include "render/integrators/normals.h"
+#include "render/integrators/occlusion.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
 
 namespace trace {
 namespace {
 
-template <class Kind>
+template <class Kind, auto... kArguments>
 std::unique_ptr<Integrator> make(const Settings&) {
-  return std::make_unique<Kind>();
+  return std::make_unique<Kind>(kArguments...);
 }
 
 constexpr std::array kTable{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
     IntegratorRow{IntegratorKind::path, "path", "paths by chance: light that bounces between surfaces",
-                  make<PathTracer>},
+                  make<PathTracer, true>},
+    IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: lights and lamps straight",
+                  make<PathTracer, false>},
+    IntegratorRow{IntegratorKind::occlusion, "occlusion", "how open every place is, as of white clay",
+                  make<Occlusion>},
+    IntegratorRow{IntegratorKind::normals, "normals", "where surfaces face, as colours", make<Normals>},
 };
 
 }  // namespace

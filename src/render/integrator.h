@@ -36,6 +36,13 @@ class Integrator {
   virtual Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const = 0;
 };
 
+/// What a camera ray looks at: the world at one moment, and the integrator that was prepared for it. A render
+/// has one, or several while the shutter is open.
+struct Moment {
+  const World* world;
+  const Integrator* integrator;
+};
+
 struct IntegratorRow {
   IntegratorKind kind;
   std::string_view name;

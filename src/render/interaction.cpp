@@ -1,6 +1,7 @@
 #include "render/interaction.h"
 
 #include "math/low_discrepancy.h"
+#include "render/fog.h"
 #include "shading/fresnel.h"
 #include "shading/optics.h"
 
@@ -47,10 +48,13 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
 
 void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
+  const Fog fog(tracer.settings());
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const auto light = [&](const Vec2& place, Real share) {
-      const auto arriving = world.illuminate(i, hit.surface.point, place);
+      auto arriving = world.illuminate(i, hit.surface.point, place);
       if (!arriving) return;
+      if (!fog.none())
+        arriving->attenuation *= fog.left({hit.surface.point, arriving->toLight}, arriving->distance);
       Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
       parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;
@@ -70,6 +74,30 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
     const Vec2 first = numbers.next2();
     for (int n = 0; n < rays; ++n)
       light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
+  }
+}
+
+void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays,
+                          const Sampler& sampler) const {
+  constexpr std::uint32_t kOpen = 0x7ffffffeu;  // a branch of the place's numbers
+  const Vec2 first = sampler.branch(kOpen).next2();
+  const Basis basis = Frame{normal}.basis();
+  const Real reach = tracer.settings().occlusionReach;
+  for (int n = 0; n < rays; ++n) {
+    const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
+    const Vec3 direction = basis.toWorld(cosineDirection(u));
+    Interfaces there = inside;
+    const std::optional<Hit> met = tracer.cast(hit.leave(direction), RayKind::bounce, there);
+    Color open;
+    {
+      Gather beyond(tracer, 1);
+      if (!met || (reach > 0 && met->t > reach))
+        beyond.add(Term::Kind::background, Color(1));
+      else
+        beyond.stop(Blocked{met->object, met->part, met->t, sharesOf(met->materials)});
+      open = beyond.radiance();
+    }
+    sum.add(kind, factor * (1.0 / rays), open);
   }
 }
 

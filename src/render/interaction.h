@@ -32,6 +32,11 @@ class Interaction {
   /// from. Lights with a size are asked for Settings::lightSamples of their places.
   void addLights(Gather& sum, const Sampler& sampler) const;
 
+  /// Adds `factor` times the part of the half space above the surface that is open, by so many rays, whose
+  /// directions are spread by the cosine to the normal: what they meet within Settings::occlusionReach closes
+  /// it.
+  void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
+
   // --- rays that go on in one direction ---
 
   /// What is refracted: light of all colours, or a fan of wavelengths where this surface begins to split it;

@@ -67,6 +67,8 @@ class Interfaces {
   bool nested() const { return nested_; }
   /// What the ray runs in.
   const Filling& around() const { return around_; }
+  /// What of light passes along so much of it: Beer's law.
+  Color passed(Real t) const { return around_.passes == Color(1) ? Color(1) : pow(around_.passes, t); }
   /// Of light of one wavelength, in nanometres; 0 for light of all colours.
   Real wavelength = 0;
 

@@ -8,6 +8,8 @@
 #include "geometry/shapes/square.h"
 #include "image/srgb.h"
 #include "math/warp.h"
+#include "render/fog.h"
+#include "render/gather.h"
 
 namespace trace {
 namespace {
@@ -27,7 +29,7 @@ Real uniformScale(const Affine& m) {
 
 }  // namespace
 
-Lamps::Lamps(const World& world) : first_(world.objectCount(), kNone) {
+Lamps::Lamps(const World& world) : sky_(world.outside()), first_(world.objectCount(), kNone) {
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
     const Color emissive = world.termsOf(object).emissive;
     const std::string_view shape = world.shapeOf(object);
@@ -77,6 +79,14 @@ Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
 }
 
 std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Vec2& u) const {
+  const Real skyShare = this->skyShare();
+  if (which < skyShare) {
+    const Vec3 toLight = sky_.choose(u);
+    const Real density = this->density(toLight);
+    if (!(density > 0)) return {};
+    return Place{kNone, 0, toLight, density};
+  }
+  which = (which - skyShare) / (1 - skyShare);
   const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
   const auto number =
       std::min<std::size_t>(static_cast<std::size_t>(found - sums_.begin()), parts_.size() - 1);
@@ -95,7 +105,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     at = part.origin + part.edgeA * v.x + part.edgeB * v.y;
     toLight = normalize(at - from);
   }
-  const Real density = part.share * part.density(from, at);
+  const Real density = (1 - skyShare) * part.share * part.density(from, at);
   if (!(density > 0)) return {};
   return Place{part.object, inObject, toLight, density};
 }
@@ -105,12 +115,39 @@ Real Lamps::density(const Vec3& from, const Hit& hit) const {
   const std::size_t first = first_[hit.object];
   const bool mesh = parts_[first].kind == Part::Kind::triangle;
   const Part& part = parts_[mesh ? first + hit.part : first];
-  return part.share * part.density(from, hit.surface.point);
+  return (1 - skyShare()) * part.share * part.density(from, hit.surface.point);
 }
 
 bool Lamps::met(const Place& place, const Hit& hit) const {
+  if (place.object == kNone) return false;
   const bool mesh = parts_[first_[place.object]].kind == Part::Kind::triangle;
   return hit.object == place.object && (!mesh || hit.part == place.part);
+}
+
+Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside) const {
+  const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside);
+  Gather light(tracer, 1);
+  const Fog fog(tracer.settings());
+  const auto throughFog = [&](Real t) {
+    if (inside.around().object == Filling::kAir)
+      light.cover(Term::Kind::fog, -std::expm1(-fog.depth(ray, t)));
+  };
+  if (!hit) {
+    if (place.object == kNone) {
+      light.add(Term::Kind::background, tracer.world().outside().view(ray, RayKind::lamp).color);
+      throughFog(kInfinity);
+    }
+    return light.radiance();
+  }
+  const PlaceBsdf bsdf = tracer.world().shade(*hit);
+  light.note(*bsdf);
+  if (met(place, *hit)) {
+    light.add(Term::Kind::emissive, whitted(*bsdf).emissive);
+    throughFog(hit->t);
+  } else {
+    light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
+  }
+  return light.radiance(inside.passed(hit->t));
 }
 
 }  // namespace trace

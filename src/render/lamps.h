@@ -1,14 +1,17 @@
-// Objects that give off light, as a path tracer looks for them: it chooses places on them by chance.
+// What gives off light, objects and what is around the scene, as a path tracer looks for it: it chooses
+// places by chance.
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
-// objects are only met by chance. How often one is chosen follows from its area and its colour.
+// objects are only met by chance. How often one is chosen follows from its area and its colour; what is
+// around is chosen half of the time, if it is brighter here than there.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "render/world.h"
+#include "render/sky_table.h"
+#include "render/tracer.h"
 
 namespace trace {
 
@@ -17,22 +20,26 @@ class Lamps {
   Lamps() = default;
   explicit Lamps(const World& world);
 
-  bool empty() const { return parts_.empty(); }
+  bool empty() const { return parts_.empty() && sky_.empty(); }
 
   /// A place that was chosen.
   struct Place {
-    std::uint32_t object;
-    std::uint64_t part;  ///< the triangle of a mesh
-    Vec3 toLight;        ///< unit
-    Real density;        ///< of that direction, per solid angle
+    std::uint32_t object;  ///< kNone: what is around
+    std::uint64_t part;    ///< the triangle of a mesh
+    Vec3 toLight;          ///< unit
+    Real density;          ///< of that direction, per solid angle
   };
   /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
   std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
   /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
   /// it met included; 0 for what is no lamp.
   Real density(const Vec3& from, const Hit& hit) const;
-  /// Whether the ray to the place met it.
-  bool met(const Place& place, const Hit& hit) const;
+  /// The same of a unit direction in which a ray met nothing.
+  Real density(const Vec3& direction) const {
+    return sky_.empty() ? 0 : skyShare() * sky_.density(direction);
+  }
+  /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
+  Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside) const;
 
  private:
   /// A triangle, a parallelogram or a sphere, in world space.
@@ -47,7 +54,12 @@ class Lamps {
     Real density(const Vec3& from, const Vec3& at) const;
   };
   void add(const Part& part, const Color& emissive);
+  /// How often what is around is chosen.
+  Real skyShare() const { return sky_.empty() ? 0 : parts_.empty() ? 1 : 0.5; }
+  /// Whether the ray to the place met it.
+  bool met(const Place& place, const Hit& hit) const;
 
+  SkyTable sky_;
   std::vector<Part> parts_;
   std::vector<Real> sums_;            ///< of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp

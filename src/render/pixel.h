@@ -2,6 +2,11 @@
 // explanation.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
 #include "render/footprint.h"
 #include "render/integrator.h"
 #include "render/outline.h"
@@ -11,10 +16,16 @@ namespace trace {
 /// Takes a picture's samples, one at a time, by one worker.
 class PixelTracer {
  public:
-  /// `tree`, if any, records the rays. The integrator must outlive it.
+  /// `tree`, if any, records the rays. The moments' worlds and integrators must outlive it.
+  PixelTracer(std::span<const Moment> moments, const Settings& settings, const Size& size,
+              RayTree* tree = nullptr)
+      : moments_(moments.begin(), moments.end()), tree_(tree), rules_(settings, size) {
+    tracers_.reserve(moments.size());
+    for (const Moment& moment : moments) tracers_.emplace_back(*moment.world, settings, tree);
+  }
   PixelTracer(const World& world, const Integrator& integrator, const Settings& settings, const Size& size,
               RayTree* tree = nullptr)
-      : tracer_(world, settings, tree), integrator_(integrator), rules_(settings, size) {}
+      : PixelTracer(std::array{Moment{&world, &integrator}}, settings, size, tree) {}
 
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
@@ -27,29 +38,45 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    const World& world = tracer_.world();
+    now_ = momentOf(sampler);
+    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
+    Tracer& tracer = tracers_[now_];
+    const World& world = tracer.world();
     const CameraFrame& frame = world.camera();
     const auto [drawn, weight] = sampler.film();
     const Vec2 place = frame.inEyeOf(rules_.middle(x, y), drawn);
     const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
     const Ray ray = frame.ray(place, lens);
     Footprint differentials;
-    if (world.wantsFootprints()) differentials = differentialsAt(place, lens, ray);
-    Interfaces inside = tracer_.interfacesAt(ray.origin);
-    CameraRay camera{ray, tracer_.cast(ray, RayKind::camera, inside), std::move(inside), weight,
+    if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
+    Interfaces inside = tracer.interfacesAt(ray.origin);
+    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside), std::move(inside), weight,
                      differentials.get()};
-    if (tracer_.settings().outlines > 0) camera.ink = inkAt(tracer_, camera.hit, place, lens, rules_.size());
+    if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
     look(camera);
-    return integrator_.radiance(tracer_, sampler, camera);
+    return moments_[now_].integrator->radiance(tracer, sampler, camera);
   }
 
-  Tracer& tracer() { return tracer_; }
-  Statistics& statistics() { return tracer_.statistics(); }
+  /// Of the moment of the last sample.
+  Tracer& tracer() { return tracers_[now_]; }
+  /// Of all samples.
+  Statistics statistics() const {
+    Statistics sum;
+    for (const Tracer& tracer : tracers_) sum += tracer.statistics();
+    return sum;
+  }
 
  private:
+  /// The moment that a sample sees.
+  std::size_t momentOf(const Sampler& sampler) const {
+    if (moments_.size() == 1) return 0;
+    const Real chosen = sampler.branch(Sampler::kTime).next() * static_cast<Real>(moments_.size());
+    return std::min(static_cast<std::size_t>(chosen), moments_.size() - 1);
+  }
+
   /// To the rays of the samples beside this one, whatever the camera is.
-  [[gnu::noinline]] Footprint differentialsAt(const Vec2& film, const Vec2& lens, const Ray& ray) const {
-    const CameraFrame& camera = tracer_.world().camera();
+  [[gnu::noinline]] Footprint differentialsAt(const CameraFrame& camera, const Vec2& film, const Vec2& lens,
+                                              const Ray& ray) const {
     const Vec2 step = rules_.spacing();
     const Ray x = camera.ray({film.x + step.x, film.y}, lens),
               y = camera.ray({film.x, film.y + step.y}, lens);
@@ -58,8 +85,10 @@ class PixelTracer {
                                                                y.direction - ray.direction});
   }
 
-  Tracer tracer_;
-  const Integrator& integrator_;
+  std::vector<Moment> moments_;
+  std::vector<Tracer> tracers_;  ///< one for each
+  RayTree* tree_;
+  std::size_t now_ = 0;
   SampleRules rules_;
 };
 

@@ -32,7 +32,7 @@ std::string kindName(RayKind kind) { return std::string(name(kind)); }
 std::string sentOn(const RayNode& node) {
   std::string text;
   for (const Term& term : node.terms)
-    if (term.ray >= 0 && term.kind != Term::Kind::light)
+    if (term.goesOn())
       text += (text.empty() ? "" : " and ") + std::string(Term::kNames[static_cast<std::size_t>(term.kind)]);
   return text;
 }

@@ -114,16 +114,40 @@ struct ChanceTerm {
   Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 9.2.4)
 };
 
+/// Photons that were counted, and the radius of the disk in which they lie.
+struct PhotonTerm {
+  std::size_t count = 0;
+  Real radius = 0;
+};
+
 /// factor * value, a summand of a ray's radiance.
 struct Term {
-  enum class Kind { emissive, ambient, light, reflection, refraction, bounce, lamp, background, outline };
-  static constexpr std::array<std::string_view, 9> kNames{
-      "emissive", "ambient", "light", "reflection", "refraction", "bounce", "lamp", "background", "outline"};
+  enum class Kind {
+    emissive,
+    ambient,
+    light,
+    caustic,
+    reflection,
+    refraction,
+    bounce,
+    lamp,
+    background,
+    fog,
+    outline
+  };
+  static constexpr std::array<std::string_view, 11> kNames{"emissive",   "ambient",    "light",  "caustic",
+                                                           "reflection", "refraction", "bounce", "lamp",
+                                                           "background", "fog",        "outline"};
+  /// The ray of the term is one on which the path goes on, not one that asks for light.
+  bool goesOn() const {
+    return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce);
+  }
   Kind kind;
   Color factor, value;
   int ray = -1;  ///< the node whose radiance is the value; of a light: its shadow ray; -1: no ray was sent
   std::optional<LightTerm> light{};
   std::optional<ChanceTerm> chance{};
+  std::optional<PhotonTerm> photons{};
 };
 
 /// A surface at which nothing changes for light, by the rule of nested glass: the ray went on.
@@ -174,6 +198,7 @@ inline constexpr std::size_t kMostRecordedRays = 200000;
 /// nodes[0] is the camera ray; parents come before their children, in the order of tracing.
 struct RayTree {
   int x = 0, y = 0, sample = 0;
+  int moment = -1;  ///< of those while the shutter is open; -1: there is but one
   std::vector<RayNode> nodes;
 };
 

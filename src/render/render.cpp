@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -20,10 +21,10 @@ namespace {
 class TileRenderer {
  public:
   /// `interrupt` may throw GivenUp.
-  TileRenderer(const World& world, const Integrator& integrator, const Settings& settings, const Film& film,
+  TileRenderer(std::span<const Moment> moments, const Settings& settings, const Film& film,
                std::function<void()> interrupt)
       : budget_(std::move(interrupt)),
-        tracer_(world, integrator, settings, {film.width(), film.height()}),
+        tracer_(moments, settings, {film.width(), film.height()}),
         region_(settings.region),
         passes_(passesOf(settings)),
         film_(film) {
@@ -58,7 +59,11 @@ class TileRenderer {
     return samples;
   }
 
-  Statistics& statistics() { return tracer_.statistics(); }
+  Statistics statistics() const {
+    Statistics sum = tracer_.statistics();
+    sum.badSamples = badCount_;
+    return sum;
+  }
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
@@ -72,7 +77,7 @@ class TileRenderer {
   }
 
   void noteBad(const BadSample& sample) {
-    ++tracer_.statistics().badSamples;
+    ++badCount_;
     if (bad_.size() < kMostBadSamples) bad_.push_back(sample);
   }
 
@@ -81,7 +86,8 @@ class TileRenderer {
   const Region region_;
   std::vector<const PassRow*> passes_;
   const Film& film_;
-  std::vector<BadSample> bad_;
+  std::vector<BadSample> bad_;  ///< the first
+  std::uint64_t badCount_ = 0;
 };
 
 }  // namespace
@@ -101,11 +107,11 @@ Size pictureSize(const Settings& settings, const Camera& camera) {
 }
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
-  return render(world, *makeIntegrator(world, settings, job), settings, film, job);
+  const auto integrator = makeIntegrator(world, settings, job);
+  return render(std::array{Moment{&world, integrator.get()}}, settings, film, job);
 }
 
-RenderResult render(const World& world, const Integrator& integrator, const Settings& settings, Film& film,
-                    Job& job) {
+RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job) {
   using Clock = std::chrono::steady_clock;
   Budget clock(budgetOfThread.budget);
   if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
@@ -131,7 +137,7 @@ RenderResult render(const World& world, const Integrator& integrator, const Sett
     const std::size_t wave = waveOf(chunk);
     if (film.has(tile, wave)) return;  // since before
     auto& renderer = workers[static_cast<std::size_t>(worker)];
-    if (!renderer) renderer = std::make_unique<TileRenderer>(world, integrator, settings, film, interrupt);
+    if (!renderer) renderer = std::make_unique<TileRenderer>(moments, settings, film, interrupt);
     film.add(tile, wave, renderer->take(film.tile(tile), waves[wave]));
   };
   const ChunkSizes samples{film.tiles() * waves.back().end,

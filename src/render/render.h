@@ -1,6 +1,7 @@
 // World -> Film: all camera rays, by any number of threads, in fixed tiles and waves of samples.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct RenderResult {
 inline constexpr std::size_t kMostBadSamples = 1000;
 
 class Integrator;
+struct Moment;
 
 struct Size {
   int width = 0, height = 0;
@@ -40,15 +42,15 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 /// How many samples a pixel has: spp, or the next square number, as the generator has it.
 int samplesOf(const Settings& settings);
 
-/// Renders into `film`, which must be of pictureSize() and samplesOf() (makeFilm() in passes.h). Passes are
-/// made where the film has a layer for each; in any other film, such as one without layers, none is. What the
-/// film has already is not rendered again (Film::restore). The job counts samples of tiles. Returns early
-/// when job.cancel is set or the time is over: that of the thread's Budget, or without one the settings'
-/// limit from now on. Waves of tiles that were begun are finished, unless they take longer than the job's
-/// patience. What is finished survives a failure too. The same bits for any number of threads.
-RenderResult render(const World& world, const Integrator& integrator, const Settings& settings, Film& film,
-                    Job& job);
-/// The same with the integrator of the settings, made for it.
+/// Renders what is seen at the moments, each sample one of them, into `film`, which must be of pictureSize()
+/// and samplesOf() (makeFilm() in passes.h). Passes are made where the film has a layer for each; in any
+/// other film, such as one without layers, none is. What the film has already is not rendered again
+/// (Film::restore). The job counts samples of tiles. Returns early when job.cancel is set or the time is
+/// over: that of the thread's Budget, or without one the settings' limit from now on. Waves of tiles that
+/// were begun are finished, unless they take longer than the job's patience. What is finished survives a
+/// failure too. The same bits for any number of threads.
+RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job);
+/// The same of one moment, with the integrator of the settings, made for it.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

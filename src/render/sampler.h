@@ -107,7 +107,7 @@ class Sampler {
   }
 
   /// Branches of a camera ray that are no rays.
-  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u;
+  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u, kTime = 0xf0000002u;
 
  private:
   const SampleRules* rules_;

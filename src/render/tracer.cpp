@@ -100,12 +100,17 @@ bool Tracer::tooNear(const Ray& ray) const {
 
 Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
                       bool litThrough) {
-  count(RayKind::shadow);
   Ray ray = from.leave(toLight);
   if (litThrough) ray.leaves = from.object;
-  if (records()) begin(ray, RayKind::shadow, distance, inside.wavelength);
-  const Color color =
-      inside.nested() ? passedNested(from, ray, distance, inside) : passed(ray, distance, nullptr);
+  if (!inside.nested()) return visibleAlong(ray, distance, nullptr, inside.wavelength);
+  Interfaces start = startOn(from, ray, inside);
+  return visibleAlong(ray, distance, &start, inside.wavelength);
+}
+
+Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength) {
+  count(RayKind::shadow);
+  if (records()) begin(ray, RayKind::shadow, distance, wavelength);
+  const Color color = passed(ray, distance, inside);
   if (records()) {
     RayNode& node = finish();
     node.radiance = color;
@@ -116,15 +121,20 @@ Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const
   return color;
 }
 
-/// passed() of a ray from a surface, on whose side that a ray came from it is `inside`.
-Color Tracer::passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside) {
+Color Tracer::visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside) {
+  Interfaces start = inside;
+  return visibleAlong({from, toLight}, distance, inside.nested() ? &start : nullptr, inside.wavelength);
+}
+
+/// What a ray from a surface starts in, on whose side that a ray came from it is `inside`.
+Interfaces Tracer::startOn(const Hit& from, const Ray& ray, const Interfaces& inside) {
   Interfaces start = inside;
   if (from.leaving == (dot(ray.direction, from.surface.normal) > 0)) {  // on through the surface
     const PlaceBsdf bsdf = world_.shade(from);
     if (whitted(*bsdf).transmits())
       start.pass(from.leaving, filling(from, whitted(*bsdf)), whitted(*bsdf).encloses(from.solid));
   }
-  return passed(ray, distance, &start);
+  return start;
 }
 
 /// The crossings in order along the ray, each once, into crossed_.
@@ -174,7 +184,7 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
   for (const Found& found : crossed_) {
     const PlaceBsdf bsdf = world_.bsdfAt(ray, found);
     const WhittedTerms& terms = whitted(*bsdf);
-    if (!terms.transmits()) return Color(0);
+    if (!terms.transmits() || gathers(terms)) return Color(0);
     const bool perCrossing = settings_.glass == Glass::perCrossing;
     Color factor = perCrossing || terms.passage != Passage::asSaid ? terms.transmissive : Color(1);
     if (terms.passage == Passage::straight) {
@@ -225,7 +235,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
     const bool opaque = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black ||
-                        isBlack(world_.filter(ray, found));
+                        isBlack(world_.filter(ray, found)) || gathers(whitted(*world_.bsdfAt(ray, found)));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });
@@ -282,9 +292,8 @@ void Tracer::record(int index, const Color& through, const Color& radiance) {
   RayNode& node = tree_->nodes[static_cast<std::size_t>(index)];
   node.through = through;
   node.radiance = radiance;
-  const bool sentOn = std::any_of(node.terms.begin(), node.terms.end(), [&](const Term& term) {
-    return term.ray != kNoNode && tree_->nodes[static_cast<std::size_t>(term.ray)].kind != RayKind::shadow;
-  });
+  const bool sentOn =
+      std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) { return term.goesOn(); });
   if (node.ends.empty() && !sentOn) node.ends.push_back(Opaque{});
 }
 

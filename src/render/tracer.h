@@ -28,6 +28,8 @@ class Tracer {
   /// the ray that hit it is in. `litThrough`: the object that was hit is not in its own way.
   Color visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
                 bool litThrough = false);
+  /// The same from a point in the open, in what is `inside`.
+  Color visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside);
   /// What a ray would meet first; counted as of that kind, and not recorded.
   std::optional<Found> look(const Ray& ray, RayKind kind) {
     count(kind);
@@ -52,6 +54,7 @@ class Tracer {
   const World& world() const { return world_; }
   const Settings& settings() const { return settings_; }
   Statistics& statistics() { return statistics_; }
+  const Statistics& statistics() const { return statistics_; }
 
  private:
   friend class Gather;
@@ -91,7 +94,12 @@ class Tracer {
   void sortCrossed();
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside);
-  Color passedNested(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
+  Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
+  Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
+  /// Photons bring the light that the glass lets through, from elsewhere.
+  bool gathers(const WhittedTerms& terms) const {
+    return settings_.caustics > 0 && terms.passage != Passage::straight;
+  }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);
   std::optional<Blocked> nearestBlocker(const Ray& ray, Real distance) const;

@@ -141,6 +141,8 @@ class World {
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
+  /// In world space; empty of one that is left out.
+  const Box3& boundsOf(std::uint32_t object) const { return objects_[object].bounds; }
   /// The object's shape, "" of one that is left out.
   std::string_view shapeOf(std::uint32_t object) const {
     const Instance& o = objects_[object];

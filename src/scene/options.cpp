@@ -25,7 +25,8 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 2> kNames<IntegratorKind>{"whitted", "path"};
+constexpr std::array<std::string_view, 5> kNames<IntegratorKind>{"whitted", "path", "direct", "occlusion",
+                                                                 "normals"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -165,6 +166,14 @@ void parse(const Option& option, std::string_view text, Region& value) {
   value = region;
 }
 
+void parse(const Option& option, std::string_view text, Color& value) {
+  const std::optional<Color> color = colorOf(text);
+  const auto within = [&](double x) { return x >= option.least && x <= option.most; };
+  if (!color || !within(color->r) || !within(color->g) || !within(color->b))
+    refuse(option, "a colour such as 0.2,0.5,1, or a grey, of numbers " + range(option), text);
+  value = *color;
+}
+
 void parse(const Option& option, std::string_view text, FilePath& value) {
   if (text.empty()) refuse(option, "the name of a file, or none", text);
   value.path = text == kNone ? "" : text;
@@ -212,6 +221,7 @@ void parse(const Option& option, std::string_view text, EnumSet<Enum>& value) {
 std::string format(double value) { return toText(value); }
 std::string format(int value) { return std::to_string(value); }
 std::string format(bool value) { return value ? "on" : "off"; }
+std::string format(const Color& value) { return colorText(value); }
 std::string format(const FilePath& value) { return value.path.empty() ? std::string(kNone) : value.path; }
 std::string format(const Region& r) {
   return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
@@ -258,6 +268,8 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::integer;
   else if constexpr (std::is_same_v<T, double>)
     return Option::Kind::real;
+  else if constexpr (std::is_same_v<T, Color>)
+    return Option::Kind::color;
   else if constexpr (std::is_same_v<T, Region>)
     return Option::Kind::region;
   else if constexpr (std::is_same_v<T, FilePath>)
@@ -354,6 +366,26 @@ const std::array kTable{
                           .least = -1e9,
                           .most = 1e9,
                           .unit = "seconds"}),
+    row<&Settings::shutter>(
+        {.name = "shutter",
+         .group = "Picture",
+         .help =
+             "seconds for which the shutter is open, from time on: what moves meanwhile is blurred; needs "
+             "many samples a pixel",
+         .source = "Cook, Porter and Carpenter 1984; docs/motion.md",
+         .least = 0,
+         .most = 1e9,
+         .unit = "seconds",
+         .extra = true}),
+    row<&Settings::moments>({.name = "moments",
+                             .group = "Picture",
+                             .help =
+                                 "moments at which the scene is seen while the shutter is open; more make "
+                                 "fast things smoother",
+                             .source = "docs/motion.md",
+                             .least = 2,
+                             .most = 4096,
+                             .unit = "moments"}),
     row<&Settings::sampling>({.name = "sampling",
                               .group = "Sampling",
                               .help = "how the samples of a pixel are spread over pixel, lens and lights",
@@ -389,7 +421,8 @@ const std::array kTable{
         {.name = "integrator",
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
-                 "light by chance however often it bounces, and needs many samples",
+                 "light by chance however often it bounces, and needs many samples; direct is path "
+                 "without bounces; occlusion shows how open places are, normals where surfaces face",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
     row<&Settings::depth>({.name = "depth",
@@ -417,6 +450,46 @@ const std::array kTable{
                                   .most = 1e9,
                                   .integrators = "path",
                                   .extra = true}),
+    row<&Settings::ambientOcclusion>(
+        {.name = "ambient-occlusion",
+         .group = "Tracing",
+         .help = "rays by which every place asks how much of the ambient light reaches it: corners and "
+                 "creases darken; 0 lights all places alike",
+         .source = "Zhukov, Iones and Kronin 1998; docs/occlusion.md",
+         .least = 0,
+         .most = 4096,
+         .unit = "rays",
+         .integrators = "whitted",
+         .extra = true}),
+    row<&Settings::occlusionReach>({.name = "occlusion-reach",
+                                    .group = "Tracing",
+                                    .help = "how far what stands in the way of ambient light may be; 0: "
+                                            "however far",
+                                    .source = "",
+                                    .least = 0,
+                                    .most = 1e9,
+                                    .unit = "units",
+                                    .integrators = "whitted, occlusion"}),
+    row<&Settings::caustics>(
+        {.name = "caustics",
+         .group = "Tracing",
+         .help = "photons from the lights that show where mirrors and glass gather light; glass that "
+                 "refracts then has a black shadow, since the photons bring its light; 0 shows none",
+         .source = "Jensen 2001; docs/caustics.md",
+         .least = 0,
+         .most = 50e6,
+         .unit = "photons",
+         .integrators = "whitted",
+         .extra = true}),
+    row<&Settings::causticRadius>(
+        {.name = "caustic-radius",
+         .group = "Tracing",
+         .help = "photons farther away do not count; 0 is a fiftieth of the scene's size",
+         .source = "",
+         .least = 0,
+         .most = 1e9,
+         .unit = "units",
+         .integrators = "whitted"}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
          .group = "Tracing",
@@ -631,6 +704,51 @@ const std::array kTable{
          .least = 0,
          .most = 90,
          .unit = "degrees"}),
+    row<&Settings::fog>({.name = "fog",
+                         .group = "Fog",
+                         .help = "how much of its light a ray loses to fog along a unit of length, and how "
+                                 "much the fog shows of lights in it; 0: clear air",
+                         .source = "docs/fog.md",
+                         .least = 0,
+                         .most = 1e6,
+                         .unit = "per unit",
+                         .integrators = "whitted, path",
+                         .extra = true}),
+    row<&Settings::fogColor>(
+        {.name = "fog-color",
+         .group = "Fog",
+         .help = "what of light the fog scatters; the rest it swallows: 0 is black smoke",
+         .source = "",
+         .least = 0,
+         .most = 1,
+         .integrators = "whitted, path"}),
+    row<&Settings::fogHeight>({.name = "fog-height",
+                               .group = "Fog",
+                               .help =
+                                   "fog lies on the ground: so far up, along y from 0, it is thinner by e "
+                                   "= 2.718; 0: it is the same everywhere",
+                               .source = "",
+                               .least = 0,
+                               .most = 1e9,
+                               .unit = "units",
+                               .integrators = "whitted, path"}),
+    row<&Settings::fogForward>({.name = "fog-forward",
+                                .group = "Fog",
+                                .help =
+                                    "how much more light goes on than back: from -1, all back, over 0, as "
+                                    "much everywhere, to 1; mist has 0.8, dust 0.4",
+                                .source = "Henyey and Greenstein 1941",
+                                .least = -1,
+                                .most = 1,
+                                .integrators = "whitted, path"}),
+    row<&Settings::fogSamples>({.name = "fog-samples",
+                                .group = "Fog",
+                                .help = "places on every ray that ask for the lights",
+                                .source = "",
+                                .least = 1,
+                                .most = 10000,
+                                .unit = "places",
+                                .integrators = "whitted, path"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",
@@ -876,6 +994,27 @@ void apply(Settings& settings, const Choice& choice) {
 }
 
 }  // namespace
+
+std::optional<Color> colorOf(std::string_view text) {
+  double numbers[3] = {};
+  int count = 0;
+  for (std::string_view rest = text; count < 3;) {
+    const auto number = parseNumber(rest);
+    if (!number || !std::isfinite(number->value)) return {};
+    numbers[count++] = number->value;
+    rest.remove_prefix(number->length);
+    if (rest.empty()) break;
+    if (rest[0] != ',' || count == 3) return {};
+    rest.remove_prefix(1);
+  }
+  if (count == 1) return Color(numbers[0]);
+  return count == 3 ? std::optional(Color{numbers[0], numbers[1], numbers[2]}) : std::nullopt;
+}
+
+std::string colorText(const Color& c) {
+  if (c == Color(c.r)) return toText(c.r);
+  return toText(c.r) + "," + toText(c.g) + "," + toText(c.b);
+}
 
 std::span<const Option> options() { return kTable; }
 

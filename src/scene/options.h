@@ -1,6 +1,7 @@
 // THE options table: one row for each field of Settings.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@ namespace trace {
 enum class Repeats { nothing, tone, picture, world, scene };
 
 struct Option {
-  enum class Kind { boolean, integer, real, choice, choices, region, file };
+  enum class Kind { boolean, integer, real, color, choice, choices, region, file };
 
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
@@ -60,6 +61,10 @@ struct Chosen {
   bool byLike = false;             ///< the choice is one of `like`
 };
 Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers);
+
+/// A colour as options have it: "0.2,0.5,1", or one number for a grey; nothing for any other text.
+std::optional<Color> colorOf(std::string_view text);
+std::string colorText(const Color& color);
 
 /// Is it one of those that `like` sets?
 bool isConvention(const Option& option);

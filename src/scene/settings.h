@@ -16,7 +16,7 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class IntegratorKind { whitted, path };
+enum class IntegratorKind { whitted, path, direct, occlusion, normals };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -69,6 +69,8 @@ struct Settings {
   int spp = 1;
   Real noiseTarget = 0;
   Real time = 0;
+  Real shutter = 0;
+  int moments = 16;
   // Sampling
   SampleKind sampling = SampleKind::grid;
   int seed = 0;
@@ -95,6 +97,10 @@ struct Settings {
   int depth = 5;
   Real threshold = 0;
   Real fireflyLimit = 0;
+  int ambientOcclusion = 0;
+  Real occlusionReach = 0;
+  int caustics = 0;
+  Real causticRadius = 0;
   NestedGlass nestedGlass = NestedGlass::byPriority;
   int wavelengths = 1;
   bool varnish = false;
@@ -110,6 +116,12 @@ struct Settings {
   Real environmentRotation = 0;
   Real environmentBrightness = 1;
   Real environmentBlur = 0;
+  // Fog
+  Real fog = 0;
+  Color fogColor{1};
+  Real fogHeight = 0;
+  Real fogForward = 0;
+  int fogSamples = 8;
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;
@@ -150,6 +162,11 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
+
+/// When the moment of that number is, in seconds: while the shutter is open they lie evenly.
+inline Real timeOfMoment(const Settings& s, int moment) {
+  return s.time + s.shutter * (moment + 0.5) / s.moments;
+}
 
 inline Optics opticsOf(const Settings& s) {
   constexpr Real kDegree = kPi / 180;

@@ -11,6 +11,7 @@
 #include "scene/conventions.h"
 #include "scene/option_words.h"
 #include "studio/actions.h"
+#include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/panels.h"
@@ -36,6 +37,7 @@ std::string rangeText(const Option& option) {
         text += (text.size() == begin ? "" : ", ") + std::string(choice);
       return text;
     }
+    case Option::Kind::color:
     case Option::Kind::integer:
     case Option::Kind::real: break;
   }
@@ -120,6 +122,12 @@ std::optional<std::string> editRegion(const std::string& value) {
   return typedRegion(text);
 }
 
+std::optional<std::string> editColor(const Option& option, const std::string& value) {
+  Color color = *colorOf(value);
+  if (!editValue({option.unit, option.least, option.most, option.name}, color)) return {};
+  return colorText(color);
+}
+
 /// The name, to be typed, and a button that opens the dialog.
 std::optional<std::string> editFile(Studio& studio, const Option& option, const std::string& value) {
   const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -145,6 +153,7 @@ std::optional<std::string> edit(Studio& studio, const Option& option, const std:
     case Option::Kind::real: return editReal(option, value);
     case Option::Kind::choice: return editChoice(option, value);
     case Option::Kind::choices: return editChoices(option, value);
+    case Option::Kind::color: return editColor(option, value);
     case Option::Kind::region: return editRegion(value);
     case Option::Kind::file: return editFile(studio, option, value);
   }

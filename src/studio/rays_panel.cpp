@@ -277,7 +277,8 @@ void showBoxes(Studio& studio) {
   const TracedPixel* pixel = shownPixel(studio);
   if (!pixel || view.selected < 0) return;
   const Session& session = *pixel->session;
-  view.boxes = visitedBoxes(session.world(), session.settings(), nodeAt(pixel->tree(), view.selected));
+  view.boxes =
+      visitedBoxes(session.worldOf(pixel->tree()), session.settings(), nodeAt(pixel->tree(), view.selected));
   view.boxesOf = view.selected;
   view.box = static_cast<int>(view.boxes.size());
 }

@@ -73,6 +73,7 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::real: return {std::to_string(std::clamp(0.25, option.least, option.most))};
     case Option::Kind::choices:
       return {std::string(option.choices.front()), std::string(option.choices.back())};
+    case Option::Kind::color: return {"0.5,0.25,1"};
     case Option::Kind::region: return {};
     case Option::Kind::file: return {test::sourceFolder() + "/scenes/pictures/dusk.png"};
   }
@@ -156,10 +157,11 @@ TEST(Explain, TheDrawingShowsEveryColourOfItsRays) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
-// The views of a drawing are small renders of their own, with the settings of the picture.
+// The views of a drawing are small renders of their own, with the settings of the picture: those that change
+// what rays bring.
 TEST(Explain, EveryOptionHasADrawing) {
   for (const Option& option : options()) {
-    if (option.name == "width" || option.name == "height" || option.name == "time-limit") continue;
+    if (option.name == "width" || option.name == "height" || option.repeats < Repeats::picture) continue;
     for (const std::string& value : valuesOf(option)) {
       SCOPED_TRACE(std::string(option.name) + " = " + value);
       const std::vector<Choice> choices{{"width", "40", {}}, {std::string(option.name), value, {}}};

@@ -47,17 +47,17 @@ TEST(Render, ScaleLeavesThePictureAlike) {
   for (double scale : {1e-4, 1e-2, 1e3, 1e6}) {
     Random a(3), b(3);
     const Scene unit = randomScene(a, 20), scaled = randomScene(b, 20, scale);
-    const Settings settings{.width = 120, .depth = 4};
+    const Settings settings{.width = 60, .depth = 4};
     const Picture x = picture(unit, settings), y = picture(scaled, settings);
     const Levels levels = compareLevels(x, y);
     // Rounding may decide a silhouette differently; powers of ten are not exact in binary.
-    EXPECT_LE(levels.beyondOne, 30) << scale;
+    EXPECT_LE(levels.beyondOne, 10) << scale;
   }
   Random a(4), b(4);  // powers of two are: the same bits
-  Settings settings{.width = 120, .depth = 4};
+  Settings settings{.width = 60, .depth = 4};
   EXPECT_LE(compareLevels(picture(randomScene(a, 20), settings), picture(randomScene(b, 20, 1024), settings))
                 .beyondOne,
-            3);
+            1);
 }
 
 TEST(Render, BoxFilteredDisk) {

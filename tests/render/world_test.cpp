@@ -347,8 +347,8 @@ TEST(World, AChangedSolidKeepsTheTreesOfItsMeshes) {
 
 TEST(World, OptionsThatConcernHierarchiesMakeThemAnew) {
   const Scene scene = sceneToEdit();
-  const World world = build(scene, {.width = 60});
-  const Settings settings{.width = 60};
+  const World world = build(scene, {.width = 30});
+  const Settings settings{.width = 30};
   Messages messages;
   const Compiled before{scene, settings, world};
   const auto under = [&](const Settings& changed) {
@@ -356,17 +356,17 @@ TEST(World, OptionsThatConcernHierarchiesMakeThemAnew) {
     EXPECT_EQ(picture(now, changed, scene.camera), picture(scene, changed));
     return now;
   };
-  const World slow = under({.width = 60, .accel = Accel::none});
+  const World slow = under({.width = 30, .accel = Accel::none});
   EXPECT_NE(slow.meshTree(kBall), world.meshTree(kBall));
   EXPECT_NE(&slow.hierarchy(), &world.hierarchy());
 
-  const World normals = under({.width = 60, .vertexNormals = VertexNormals::mean});
+  const World normals = under({.width = 30, .vertexNormals = VertexNormals::mean});
   EXPECT_NE(normals.meshTree(kGenerated), world.meshTree(kGenerated));
   EXPECT_EQ(normals.meshTree(kBall), world.meshTree(kBall));
 
   EnumSet<ShapeKind> meshes;
   meshes.add(static_cast<ShapeKind>(Shape(Mesh{}).type().index));
-  const World fewer = under({.width = 60, .omit = meshes});
+  const World fewer = under({.width = 30, .omit = meshes});
   EXPECT_EQ(fewer.meshTree(kBall), nullptr);
 }
 

@@ -19,6 +19,7 @@ std::vector<std::string> someValues(const Option& option) {
       const std::string first(option.choices.front()), last(option.choices.back());
       return {last, first + "," + last, "none"};
     }
+    case Option::Kind::color: return {"0.25", "0.5,0.25,1", "0"};
     case Option::Kind::region: return {"1,2,30,40", "0,0,0,0"};
     case Option::Kind::file: return {"pictures/a b.png", "/x.hdr", "none", "../y"};
     default: return {option.get({}), std::to_string(static_cast<int>(option.least) + 1)};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "image/srgb.h"
+#include "render/fog.h"
 #include "render/footprint.h"
 #include "render/interaction.h"
 #include "shading/optics.h"
@@ -22,7 +23,8 @@ struct PathTracer::Path {
 namespace {
 
 /// Branches of a place's numbers: its lights by their number, and these.
-constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u;
+constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
+                        kFog = 0x80000004u;
 /// Paths of fewer bounces are not ended by chance.
 constexpr int kSurely = 3;
 
@@ -40,14 +42,12 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
   return part;
 }
 
-Color afterMedium(const Gather& sum, const Interfaces& inside, Real t) {
-  const Color& medium = inside.around().passes;
-  return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, t));  // Beer's law
-}
-
 }  // namespace
 
-void PathTracer::prepare(const World& world, const Settings&, Job&) { lamps_ = Lamps(world); }
+void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
+  lamps_ = Lamps(world);
+  depth_ = bounces_ ? settings.depth : 0;
+}
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
@@ -62,8 +62,13 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
-    if (world.outside().isSeenBy(path.kind))
-      sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
+    if (world.outside().isSeenBy(path.kind)) {
+      const Real other = path.density > 0 ? lamps_.density(ray.direction) : 0;
+      const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
+      sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
+              chance);
+    }
+    addFog(sum, tracer, ray, kInfinity, inside, Color(0), &lamps_, sampler.branch(kFog));
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -78,10 +83,14 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const Real other = path.density > 0 ? lamps_.density(ray.origin, *hit) : 0;
   const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
   sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
-  const int depth = tracer.settings().depth;
-  if (path.depth > depth) {  // it was sent for what shines only
-    sum.stop(DepthLimit{RayKind::bounce, depth});
-    return afterMedium(sum, inside, hit->t);
+  const auto throughFog = [&] {
+    addFog(sum, tracer, ray, hit->t, inside, Color(0), &lamps_, sampler.branch(kFog));
+    sum.draw(path.ink);
+    return sum.radiance(inside.passed(hit->t));
+  };
+  if (path.depth > depth_) {  // it was sent for what shines only
+    sum.stop(DepthLimit{RayKind::bounce, depth_});
+    return throughFog();
   }
   at.addLights(sum, sampler);
 
@@ -99,14 +108,14 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const Real scattered = scatters(at.bsdf()) ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
   const Real all = scattered + mirrors + passes;
   const Real toLobe = all > 0 ? scattered / all : 0, toMirror = all > 0 ? mirrors / all : 0;
-  if (toLobe > 0) addLamp(sum, at, path.depth, toLobe, sampler);
+  if (toLobe > 0) addLamp(sum, at, toLobe, sampler);
 
   /// Whether a ray of that weight goes on, and for how many it then stands.
   const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
     const Real most = maxComponent(path.weight * weight);
     Real goes = 1;
-    if (path.depth >= depth && kind != RayKind::bounce)
-      sum.stop(DepthLimit{kind, depth});
+    if (path.depth >= depth_ && kind != RayKind::bounce)
+      sum.stop(DepthLimit{kind, depth_});
     else if (!(most > 0))
       sum.stop(BelowThreshold{kind, 0, 0});
     else if (goes = path.depth < kSurely ? 1 : std::min(1.0, most); numbers.next() >= goes)
@@ -152,14 +161,12 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       sum.stop(TotalInternalReflection{});
     }
   }
-  sum.draw(path.ink);
-  return afterMedium(sum, inside, hit->t);
+  return throughFog();
 }
 
 /// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is
 /// followed.
-void PathTracer::addLamp(Gather& sum, const Interaction& at, int depth, Real shareOfLobe,
-                         const Sampler& sampler) const {
+void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const {
   if (lamps_.empty()) return;
   Sampler numbers = sampler.branch(kLamp);
   const Real which = numbers.next();
@@ -174,22 +181,8 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, int depth, Real sha
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
   const ChanceTerm chance{place->density, other, powerHeuristic(place->density, other)};
 
-  const Ray ray = at.hit.leave(place->toLight);
-  Interfaces there = inward && at.transmits ? at.behind() : at.inside;
-  const std::optional<Hit> hit = at.tracer.cast(ray, RayKind::lamp, there);
-  Color seen;
-  {
-    Gather light(at.tracer, depth + 1);
-    if (hit && lamps_.met(*place, *hit)) {
-      const PlaceBsdf bsdf = at.tracer.world().shade(*hit);
-      light.note(*bsdf);
-      light.add(Term::Kind::emissive, whitted(*bsdf).emissive);
-    } else if (hit) {
-      light.note(*at.tracer.world().shade(*hit));
-      light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
-    }
-    seen = hit ? afterMedium(light, there, hit->t) : light.radiance();
-  }
+  const Color seen = lamps_.look(at.tracer, at.hit.leave(place->toLight), *place,
+                                 inward && at.transmits ? at.behind() : at.inside);
   sum.add(Term::Kind::lamp, scattered * (chance.share / place->density), seen, chance);
 }
 

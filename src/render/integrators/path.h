@@ -19,6 +19,8 @@ class Interaction;
 
 class PathTracer : public Integrator {
  public:
+  /// Without bounces only what comes from lights and lamps straight is shown.
+  explicit PathTracer(bool bounces) : bounces_(bounces) {}
   void prepare(const World& world, const Settings& settings, Job& job) override;
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
 
@@ -26,8 +28,10 @@ class PathTracer : public Integrator {
   struct Path;
   Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
               const Interfaces& inside, const Sampler& sampler) const;
-  void addLamp(Gather& sum, const Interaction& at, int depth, Real shareOfLobe, const Sampler& sampler) const;
+  void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
 
+  bool bounces_;
+  int depth_ = 0;  ///< the most bounces
   Lamps lamps_;
 };
 

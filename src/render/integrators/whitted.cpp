@@ -1,9 +1,12 @@
 #include "render/integrators/whitted.h"
 
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "render/caustics.h"
+#include "render/fog.h"
 #include "render/footprint.h"
 #include "render/gather.h"
 #include "render/interaction.h"
@@ -11,9 +14,8 @@
 #include "shading/optics.h"
 
 namespace trace {
-namespace {
 
-struct Path {
+struct Whitted::Path {
   RayKind kind = RayKind::camera;
   int depth = 0;
   Color weight{1};    ///< the largest share of the pixel that this ray can still make
@@ -22,14 +24,13 @@ struct Path {
   Real ink = 0;                                  ///< how much of it an outline covers
 };
 
+namespace {
+
 /// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
 /// rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
-/// The numbers by which a direction into a lobe is chosen.
-constexpr std::uint32_t kLobe = 0x7fffffffu;
-
-/// The radiance along a ray that starts in `inside`.
-Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside, const Sampler& sampler);
+/// The numbers by which a direction into a lobe is chosen, and those of the fog.
+constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu;
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
@@ -40,14 +41,21 @@ Real spreadOf(int k) {
   return spread;
 }
 
+}  // namespace
+
+void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
+  caustics_ = causticMap(world, settings, job);
+}
+
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
-Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
-                    const Interfaces& inside, const Sampler& sampler) {
+Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                     const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
+    addFog(sum, tracer, ray, kInfinity, inside, world.ambient(), nullptr, sampler.branch(kFog));
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -59,8 +67,13 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
   const WhittedTerms& material = at.material;
 
   sum.add(Term::Kind::emissive, material.emissive);
-  sum.add(Term::Kind::ambient, material.ambient * (1 - at.coat), world.ambient());
+  const Color ambient = material.ambient * (1 - at.coat);
+  if (settings.ambientOcclusion > 0 && !isBlack(ambient * world.ambient()))
+    at.addOpen(sum, Term::Kind::ambient, ambient * world.ambient(), settings.ambientOcclusion, sampler);
+  else
+    sum.add(Term::Kind::ambient, ambient, world.ambient());
   at.addLights(sum, sampler);
+  if (!caustics_.empty()) addCaustics(sum, at);
 
   const auto worthwhile = [&](const Path& next) {
     if (next.depth > settings.depth)
@@ -123,24 +136,43 @@ Color radianceAlong(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hi
       sum.stop(TotalInternalReflection{});
     }
   }
+  addFog(sum, tracer, ray, hit->t, inside, world.ambient(), nullptr, sampler.branch(kFog));
   sum.draw(path.ink);
-  const Color& medium = inside.around().passes;
-  return sum.radiance(medium == Color(1) ? Color(1) : pow(medium, hit->t));  // Beer's law
+  return sum.radiance(inside.passed(hit->t));
 }
 
-Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside, const Sampler& sampler) {
+/// The radiance along a ray that starts in `inside`.
+Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
+                      const Sampler& sampler) const {
   const std::optional<Hit> hit = tracer.cast(ray, path.kind, inside);
-  return radianceAlong(tracer, ray, hit, path, inside, sampler);
+  return along(tracer, ray, hit, path, inside, sampler);
 }
 
-}  // namespace
+/// What photons brought that were mirrored or refracted, as the surface scatters it evenly.
+void Whitted::addCaustics(Gather& sum, const Interaction& at) const {
+  if (!scatters(at.bsdf())) return;
+  const Vec3& normal = at.hit.surface.normal;
+  const PhotonMap::Near near = caustics_.near(at.hit.surface.point, at.facing() > 0 ? normal : -normal);
+  Color light;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < near.count; ++i) {
+    const Vec3 toLight = -near.photons[i]->direction;
+    const Real cosine = dot(toLight, at.normal);
+    if (!(cosine > 0)) continue;
+    const Color diffuse = scatter(at.bsdf(), at.frame, toLight, -at.ray.direction).diffuse;
+    light += near.photons[i]->power * diffuse * (near.perArea(i) / (kPi * cosine));
+    ++count;
+  }
+  if (count > 0)
+    sum.add(Term::Kind::caustic, light * (1 - at.coat), PhotonTerm{count, std::sqrt(near.radius2)});
+}
 
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
   path.spread = spreadOf(sampler.sample());
   path.differentials = camera.differentials;
   path.ink = camera.ink;
-  return radianceAlong(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
+  return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
 }  // namespace trace

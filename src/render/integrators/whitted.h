@@ -5,16 +5,32 @@
 //
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
 // place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
-// is asked for.
+// is asked for. Extras: rough surfaces send a ray by chance, photons show caustics, ambient light is asked
+// for, and fog covers what is far.
 #pragma once
 
+#include "render/gather.h"
 #include "render/integrator.h"
+#include "render/photon_map.h"
 
 namespace trace {
 
+class Interaction;
+
 class Whitted : public Integrator {
  public:
+  void prepare(const World& world, const Settings& settings, Job& job) override;
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
+
+ private:
+  struct Path;
+  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+              const Interfaces& inside, const Sampler& sampler) const;
+  Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
+               const Sampler& sampler) const;
+  void addCaustics(Gather& sum, const Interaction& at) const;
+
+  PhotonMap caustics_;
 };
 
 }  // namespace trace

@@ -1,0 +1,80 @@
+#include "render/fog.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trace {
+
+Real Fog::densityAt(const Vec3& point) const {
+  constexpr Real kMost = 50;  // of the exponent, far below
+  return height_ > 0 ? density_ * std::exp(std::min(-point.y / height_, kMost)) : density_;
+}
+
+Real Fog::depth(const Ray& ray, Real t) const {
+  if (none()) return 0;
+  const Real here = densityAt(ray.origin);
+  const Real thinner = height_ > 0 ? ray.direction.y / height_ : 0;  // the rate along the ray
+  // The integral of exp(-thinner s), which is t where it is level.
+  const Real length = thinner == 0 ? t : -std::expm1(-thinner * t) / thinner;
+  return here == 0 ? 0 : here * length;
+}
+
+Real Fog::distance(const Ray& ray, Real depth) const {
+  const Real here = densityAt(ray.origin);
+  const Real thinner = height_ > 0 ? ray.direction.y / height_ : 0;
+  const Real length = depth / here;
+  if (thinner == 0) return length;
+  return thinner * length < 1 ? -std::log1p(-thinner * length) / thinner : kInfinity;
+}
+
+Real Fog::phase(const Vec3& direction, const Vec3& toLight) const {
+  const Real g = forward_, cosine = dot(direction, toLight);
+  const Real base = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (4 * kPi * base * std::sqrt(base));
+}
+
+void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+            const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
+  const Settings& settings = tracer.settings();
+  const Fog fog(settings);
+  if (fog.none() || inside.around().object != Filling::kAir) return;
+  const World& world = tracer.world();
+  const Real stays = -std::expm1(-fog.depth(ray, t));  // of what comes along the ray
+  if (!(stays > 0)) return;
+  sum.cover(Term::Kind::fog, stays);
+  const Color scatters = settings.fogColor * stays;
+  if (!isBlack(ambient)) sum.add(Term::Kind::fog, scatters, ambient);
+
+  constexpr std::uint32_t kLamp = 0x80000000u;  // the branch beside those of the lights
+  const int places = settings.fogSamples;
+  const Color share = scatters * (1.0 / places);
+  for (int k = 0; k < places; ++k) {
+    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(k));
+    // Places are the denser the more light comes from there.
+    const Real depth = -std::log1p(-stays * ((k + numbers.next()) / places));
+    const Vec3 point = ray.at(fog.distance(ray, depth));
+    if (!isFinite(point)) continue;
+    for (std::size_t i = 0; i < world.lights().size(); ++i) {
+      const Vec2 place =
+          world.lightHasSize(i) ? numbers.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
+      const auto arriving = world.illuminate(i, point, place);
+      if (!arriving) continue;
+      const Real left = fog.left({point, arriving->toLight}, arriving->distance);
+      // A light of colour 1 is one of irradiance pi.
+      const Color factor =
+          share * arriving->intensity() * (kPi * fog.phase(ray.direction, arriving->toLight) * left);
+      if (!isBlack(factor))
+        sum.add(Term::Kind::fog, factor,
+                tracer.visible(point, arriving->toLight, arriving->distance, inside));
+    }
+    if (!lamps || lamps->empty()) continue;
+    Sampler chances = numbers.branch(kLamp);
+    const Real which = chances.next();
+    if (const auto lamp = lamps->choose(point, which, chances.next2())) {
+      const Color seen = lamps->look(tracer, {point, lamp->toLight}, *lamp, inside);
+      sum.add(Term::Kind::fog, share * (fog.phase(ray.direction, lamp->toLight) / lamp->density), seen);
+    }
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,52 @@
+// Fog: air that scatters light, around all bodies. It covers what is behind it and shows the light of lamps
+// in it, which it scatters once (single scattering; Pharr, Jakob and Humphreys 2016, chapter 11).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gather.h"
+#include "render/lamps.h"
+#include "render/sampler.h"
+
+namespace trace {
+
+class Fog {
+ public:
+  explicit Fog(const Settings& settings)
+      : density_(settings.fog),
+        height_(settings.fogHeight),
+        forward_(std::clamp(settings.fogForward, -kMostForward, kMostForward)) {}
+
+  bool none() const { return !(density_ > 0); }
+  /// How much of it lies along so much of the ray: what passes is exp(-depth). With a height, it thins out
+  /// upward, along y.
+  Real depth(const Ray& ray, Real t) const;
+  Real passes(const Ray& ray, Real t) const { return std::exp(-depth(ray, t)); }
+  /// What is left of a light that far away along the ray. Light from infinity is what arrives, and loses
+  /// none.
+  Real left(const Ray& toLight, Real distance) const {
+    return distance < kInfinity ? passes(toLight, distance) : 1;
+  }
+  /// The distance along the ray at which that depth is reached; may be infinite.
+  Real distance(const Ray& ray, Real depth) const;
+  /// How much of what is scattered goes where a ray comes from that runs along `direction`, from a light in
+  /// the direction `toLight`: per solid angle, in all 1 (Henyey and Greenstein 1941).
+  Real phase(const Vec3& direction, const Vec3& toLight) const;
+
+ private:
+  static constexpr Real kMostForward = 0.999;  ///< beyond it nothing is seen from aside
+  Real densityAt(const Vec3& point) const;
+
+  Real density_;  ///< scattered along a unit of length, at y = 0
+  Real height_;   ///< above which it is thinner by e; 0: it is the same everywhere
+  Real forward_;  ///< the mean cosine of what is scattered
+};
+
+/// Covers what has been summed with the fog before it, and adds the light of the scene's lights in that fog:
+/// of the ray that ran on to t, which may be infinite, in `inside`. `ambient` is light from everywhere;
+/// `lamps`, if any, are objects that shine.
+void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+            const Color& ambient, const Lamps* lamps, const Sampler& sampler);
+
+}  // namespace trace

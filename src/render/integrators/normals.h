@@ -1,0 +1,23 @@
+// The normals of what the camera sees, as colours: -1 to 1 along x, y and z become 0 to 1 of red, green and
+// blue. The smallest integrator.
+#pragma once
+
+#include "render/gather.h"
+#include "render/integrator.h"
+
+namespace trace {
+
+class Normals : public Integrator {
+ public:
+  Color radiance(Tracer& tracer, Sampler, const CameraRay& camera) const override {
+    Gather sum(tracer, 0);
+    if (camera.hit) {
+      const Vec3& n = camera.hit->surface.shading;
+      sum.add(Term::Kind::emissive, Color{n.x + 1, n.y + 1, n.z + 1} * 0.5);
+    }
+    sum.draw(camera.ink);
+    return sum.radiance();
+  }
+};
+
+}  // namespace trace

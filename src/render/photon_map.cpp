@@ -1,0 +1,80 @@
+#include "render/photon_map.h"
+
+#include <algorithm>
+
+#include "math/box.h"
+
+namespace trace {
+
+PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach)
+    : photons_(std::move(photons)), axes_(photons_.size()), reach2_(reach * reach) {
+  build(0, photons_.size());
+}
+
+void PhotonMap::build(std::size_t first, std::size_t end) {
+  if (end - first < 2) return;
+  Box3 box;
+  for (std::size_t i = first; i < end; ++i) box.extend(photons_[i].point);
+  const Vec3 extent = box.high - box.low;
+  int axis = extent.x > extent.y ? 0 : 1;
+  if (extent.z > extent[axis]) axis = 2;
+  const std::size_t middle = first + (end - first) / 2;
+  const auto at = [&](std::size_t i) { return photons_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(first), at(middle), at(end),
+                   [axis](const Photon& a, const Photon& b) { return a.point[axis] < b.point[axis]; });
+  axes_[middle] = static_cast<std::uint8_t>(axis);
+  build(first, middle);
+  build(middle + 1, end);
+}
+
+/// The nearest so far, the farthest of them first: a heap by distance.
+struct PhotonMap::Search {
+  struct Entry {
+    Real distance2;
+    const Photon* photon;
+    bool operator<(const Entry& other) const { return distance2 < other.distance2; }
+  };
+
+  const Vec3& point;
+  const Vec3& normal;
+  Real most2;  ///< what is farther does not count
+  std::array<Entry, kNearest> heap{};
+  std::size_t count = 0;
+
+  void take(const Photon& photon) {
+    const Vec3 way = photon.point - point;
+    const Real distance2 = dot(way, way);
+    constexpr Real kAlike = 0.8;  // of normals on one surface
+    if (!(distance2 < most2) || dot(photon.normal, normal) < kAlike) return;
+    if (count == kNearest) std::pop_heap(heap.begin(), heap.begin() + count--);
+    heap[count++] = {distance2, &photon};
+    std::push_heap(heap.begin(), heap.begin() + count);
+    if (count == kNearest) most2 = heap[0].distance2;
+  }
+};
+
+void PhotonMap::search(std::size_t first, std::size_t end, Search& s) const {
+  if (first == end) return;
+  const std::size_t middle = first + (end - first) / 2;
+  const Photon& photon = photons_[middle];
+  const int axis = axes_[middle];
+  const Real away = s.point[axis] - photon.point[axis];
+  away < 0 ? search(first, middle, s) : search(middle + 1, end, s);
+  s.take(photon);
+  if (away * away < s.most2) away < 0 ? search(middle + 1, end, s) : search(first, middle, s);
+}
+
+PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal) const {
+  Search s{point, normal, reach2_};
+  search(0, photons_.size(), s);
+  Near result;
+  result.count = s.count;
+  result.radius2 = s.most2;
+  for (std::size_t i = 0; i < s.count; ++i) {
+    result.photons[i] = s.heap[i].photon;
+    result.distance2[i] = s.heap[i].distance2;
+  }
+  return result;
+}
+
+}  // namespace trace

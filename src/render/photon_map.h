@@ -1,0 +1,57 @@
+// Photons where they came to rest, and how much light they are: a k-d tree (Bentley 1975) that is asked for
+// the nearest ones (Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, chapter 6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "math/color.h"
+#include "math/vec.h"
+
+namespace trace {
+
+struct Photon {
+  Vec3 point;
+  Vec3 direction;  ///< in which it flew, unit
+  Vec3 normal;     ///< of the surface, on the side where it arrived
+  Color power;     ///< what it brings: divided by an area, pi times the colour of a light
+};
+
+class PhotonMap {
+ public:
+  static constexpr std::size_t kNearest = 64;  ///< photons of an estimate
+
+  PhotonMap() = default;
+  /// Photons farther than `reach` away count nowhere.
+  PhotonMap(std::vector<Photon> photons, Real reach);
+
+  bool empty() const { return photons_.empty(); }
+  std::span<const Photon> photons() const { return photons_; }
+
+  /// The nearest photons to a place, at most kNearest, that arrived on the side of `normal`.
+  struct Near {
+    std::array<const Photon*, kNearest> photons;
+    std::array<Real, kNearest> distance2;
+    std::size_t count = 0;
+    Real radius2 = 0;  ///< of the disk on which they arrived
+    /// The share of an area that photon i counts for: they count less toward the edge of the disk
+    /// (Epanechnikov's kernel, which keeps edges of light sharper than a disk does).
+    Real perArea(std::size_t i) const {
+      return 2 / (kPi * radius2) * std::max(0.0, 1 - distance2[i] / radius2);
+    }
+  };
+  Near near(const Vec3& point, const Vec3& normal) const;
+
+ private:
+  struct Search;
+  void build(std::size_t first, std::size_t end);
+  void search(std::size_t first, std::size_t end, Search& search) const;
+
+  std::vector<Photon> photons_;     ///< a subtree's middle one splits it
+  std::vector<std::uint8_t> axes_;  ///< across which it does
+  Real reach2_ = 0;
+};
+
+}  // namespace trace

@@ -1,0 +1,149 @@
+// Photons of caustics against what mirrors, panes and lenses do with light.
+#include "render/caustics.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/square.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle); }
+
+Phong white() {
+  Phong phong;
+  phong.diffuse = Color(1);
+  return phong;
+}
+
+Phong glass(Real reflective) {
+  Phong phong;
+  phong.transmissive = Color(1);
+  phong.reflective = Color(reflective);
+  phong.index = 1.5;
+  return phong;
+}
+
+Settings causticSettings(int photons) {
+  Settings settings;
+  settings.width = settings.height = 8;
+  settings.caustics = photons;
+  settings.causticRadius = 0.2;
+  settings.airIndex = 1;
+  settings.depth = 20;
+  return settings;
+}
+
+/// The mean over a narrow view from `from` toward `to`.
+Real seen(Scene scene, const Vec3& from, const Vec3& to, Settings settings) {
+  scene.camera.position = from;
+  scene.camera.viewdir = to - from;
+  scene.camera.updir = {0, 0, 1};
+  scene.camera.fov = 15;  // over many places, for 64 photons differ by some per cent
+  settings.width = settings.height = 24;
+  Real sum = 0;
+  const Picture all = picture(scene, settings);
+  for (const Color& c : all.pixels) sum += c.g;
+  return sum / static_cast<Real>(all.pixels.size());
+}
+
+TEST(Caustics, AMirrorThrowsASunOnAWall) {
+  Scene scene;
+  Phong mirror;
+  mirror.reflective = Color(0.8);
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({2, 2, 1}), mirror);
+  addObject(scene, Square{},
+            Affine::translation({3, 3, 0}) * turned({0, 1, 0}, -kPi / 2) * Affine::scaling({9, 9, 1}),
+            white());
+  scene.lights.push_back({DirectionalLight{.direction = {1, -1, 0}, .color = Color(1)}, {}});
+  // The wall is lit by the sun and by its image, both aslant.
+  const Real expected = std::sqrt(0.5) * (1 + 0.8);
+  EXPECT_NEAR(seen(scene, {-2, 3, 0}, {3, 3, 0}, causticSettings(200000)) / expected, 1, 0.02);
+  Settings none = causticSettings(0);
+  EXPECT_NEAR(seen(scene, {-2, 3, 0}, {3, 3, 0}, none) / std::sqrt(0.5), 1, 1e-6);
+}
+
+TEST(Caustics, AMirrorThrowsALampAsItsImageWould) {
+  Scene scene;
+  Phong mirror;
+  mirror.reflective = Color(1);
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({4, 4, 1}), mirror);
+  addObject(scene, Square{},
+            Affine::translation({0, 3, 0}) * turned({1, 0, 0}, kPi / 2) * Affine::scaling({9, 9, 1}),
+            white());
+  // A lamp that shines down only, so that the ceiling has nothing but the image, 2 + 3 below it.
+  scene.lights.push_back(
+      {SpotLight{
+           .position = {0, 2, 0}, .direction = {0, -1, 0}, .color = Color(30), .constant = 0, .quadratic = 1},
+       {}});
+  EXPECT_NEAR(seen(scene, {0, 1, 0}, {0, 3, 0}, causticSettings(400000)) / (30.0 / 25), 1, 0.03);
+}
+
+TEST(Caustics, APaneLetsThroughWhatFresnelSays) {
+  Scene scene;
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({9, 9, 1}), white());
+  addObject(scene, Cube{}, Affine::translation({0, 1, 0}) * Affine::scaling({3, 0.2, 3}), glass(1));
+  scene.lights.push_back({DirectionalLight{.direction = {0, -1, 0}, .color = Color(1)}, {}});
+  Settings settings = causticSettings(200000);
+  settings.fresnel = Fresnel::exact;
+  EXPECT_NEAR(seen(scene, {0.5, 0.8, 0}, {0, 0, 0}, settings) / (12.0 / 13), 1, 0.02);
+}
+
+TEST(Caustics, AllThatEntersALensArrives) {
+  Scene scene;
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({50, 50, 1}), white());
+  addObject(scene, Sphere{}, Affine::translation({0, 3, 0}), glass(0));
+  scene.lights.push_back({DirectionalLight{.direction = {0, -1, 0}, .color = Color(1)}, {}});
+  const Settings settings = causticSettings(50000);
+  Messages messages;
+  const World world = compile(scene, settings, messages);
+  Job job;
+  Real power = 0;
+  const PhotonMap map = causticMap(world, settings, job);
+  for (const Photon& photon : map.photons()) power += photon.power.g;
+  EXPECT_NEAR(power / kPi, kPi, 0.01 * kPi) << "the light of its cross-section";
+}
+
+TEST(Caustics, HaveTheSameBitsForAnyNumberOfThreads) {
+  Scene scene;
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({9, 9, 1}), white());
+  addObject(scene, Sphere{}, Affine::translation({0, 2, 0}), glass(0.3));
+  scene.lights.push_back({PointLight{.position = {1, 5, 0}, .color = Color(9), .radius = 0.2}, {}});
+  scene.lights.push_back({DirectionalLight{.direction = {0.2, -1, 0}, .color = Color(1), .size = 2}, {}});
+  scene.camera.position = {0, 4, 8};
+  scene.camera.viewdir = {0, -4, -8};
+  Settings settings = causticSettings(20000);
+  settings.width = settings.height = 32;
+  settings.threads = 1;
+  const Picture one = picture(scene, settings);
+  settings.threads = 7;
+  EXPECT_EQ(one, picture(scene, settings));
+}
+
+TEST(Caustics, NearFindsTheNearestPhotons) {
+  std::vector<Photon> photons;
+  std::uint64_t bits = 1;
+  const auto next = [&] { return unitFromBits(bits = mixBits(bits)); };
+  for (int i = 0; i < 3000; ++i)
+    photons.push_back({{next(), next(), next()}, {0, -1, 0}, {0, next() < 0.5 ? 1.0 : -1.0, 0}, Color(1)});
+  const PhotonMap map(photons, 0.3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 point{next(), next(), next()};
+    std::vector<Real> expected;
+    for (const Photon& photon : photons) {
+      const Vec3 way = photon.point - point;
+      if (photon.normal.y > 0 && dot(way, way) < 0.09) expected.push_back(dot(way, way));
+    }
+    std::sort(expected.begin(), expected.end());
+    const PhotonMap::Near near = map.near(point, {0, 1, 0});
+    ASSERT_EQ(near.count, std::min(expected.size(), PhotonMap::kNearest));
+    std::vector<Real> found(near.distance2.begin(), near.distance2.begin() + near.count);
+    std::sort(found.begin(), found.end());
+    for (std::size_t k = 0; k < near.count; ++k) EXPECT_EQ(found[k], expected[k]);
+  }
+}
+
+}  // namespace
+}  // namespace trace::test
