@@ -32,6 +32,7 @@ enum class Verb {
   texture,
   stereogram,
   features,
+  selftest,
   help
 };
 using Verbs = EnumSet<Verb>;

@@ -204,6 +204,9 @@ std::span<const Command> commands() {
               stereogramCommand},
       Command{Verb::features, "features", "", "extras, picture and scene formats, integrators", false,
               featuresCommand},
+      Command{Verb::selftest, "selftest", "",
+              "whether this build finds what is known from formulas; a certificate with -o FILE", false,
+              selftestCommand},
       Command{Verb::help, "help", "[COMMAND] [all]", "print help, of one command, or all of it", false,
               helpCommand},
   };

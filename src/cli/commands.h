@@ -66,6 +66,7 @@ int convertCommand(const Arguments& arguments, const Console& console);
 int textureCommand(const Arguments& arguments, const Console& console);
 int stereogramCommand(const Arguments& arguments, const Console& console);
 int featuresCommand(const Arguments& arguments, const Console& console);
+int selftestCommand(const Arguments& arguments, const Console& console);
 int guiCommand(const Arguments& arguments, const Console& console);
 
 }  // namespace trace::cli

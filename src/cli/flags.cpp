@@ -19,12 +19,12 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
             Verb::lint,   Verb::grade, Verb::convert, Verb::stereogram},
     kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
              Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::stereogram},
-    kWithOutput{Verb::render, Verb::explain, Verb::lint,       Verb::diff,
-                Verb::grade,  Verb::texture, Verb::stereogram, Verb::features},
+    kWithOutput{Verb::render,  Verb::explain,    Verb::lint,     Verb::diff,    Verb::grade,
+                Verb::texture, Verb::stereogram, Verb::features, Verb::selftest},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render,     Verb::gui,      Verb::info,  Verb::bench,   Verb::explain,
-                Verb::lint,       Verb::diff,     Verb::grade, Verb::convert, Verb::texture,
-                Verb::stereogram, Verb::features, Verb::help};
+    kEverywhere{Verb::render,     Verb::gui,      Verb::info,     Verb::bench,   Verb::explain,
+                Verb::lint,       Verb::diff,     Verb::grade,    Verb::convert, Verb::texture,
+                Verb::stereogram, Verb::features, Verb::selftest, Verb::help};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -176,7 +176,7 @@ std::span<const Flag> flags() {
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
            "file to write; of a render, by default the scene's name with .png, in this folder; of diff a "
            "picture of "
-           "the difference, of grade an HTML page",
+           "the difference, of grade an HTML page, of selftest a certificate",
            setOutput},
       Flag{"frames", 0, Takes::value, "A-B", "", kRender, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
