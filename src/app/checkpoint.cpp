@@ -80,7 +80,7 @@ std::string nameOf(const std::string& picture, int number) {
 /// Throws std::runtime_error if the file does not fit.
 void fill(Film& film, const std::string& path, const std::string& identity) {
   const std::optional<Head> head = headOf(path);
-  if (!head) throw std::runtime_error("it is no checkpoint of this version of Trace");
+  if (!head) throw std::runtime_error("it is no checkpoint that this version of Trace wrote");
   if (head->identity != identity) throw std::runtime_error("it is of another picture, scene or setting");
   const std::string bytes = readFile(path);
   const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
@@ -124,11 +124,19 @@ void Checkpoint::save(const Film& film) {
                        "\nHash: " + hashOf(state) + "\n" + state);
 }
 
-void Checkpoint::remove() {
+bool Checkpoint::exists() const {
+  std::error_code ignored;
+  for (int number = 1; fs::exists(nameOf(picture_, number), ignored); ++number)
+    if (const auto head = headOf(nameOf(picture_, number)); head && head->identity == identity_) return true;
+  return false;
+}
+
+void Checkpoint::remove(const Film& film) {
   std::error_code ignored;
   for (int number = 1; fs::exists(nameOf(picture_, number), ignored); ++number) {
     const std::optional<Head> head = headOf(nameOf(picture_, number));
-    if (head && head->identity == identity_) fs::remove(nameOf(picture_, number), ignored);
+    if (head && head->identity == identity_ && head->done <= film.samplesDone())
+      fs::remove(nameOf(picture_, number), ignored);
   }
 }
 

@@ -30,8 +30,10 @@ class Checkpoint {
   const std::string& path() const { return path_; }
   /// Writes what is there of the film, unless the file holds as much. Throws Error(Fault::io).
   void save(const Film& film);
-  /// Removes those of this picture.
-  void remove();
+  /// Whether a file of this picture lies there.
+  bool exists() const;
+  /// Removes those of this picture that hold no more than the film.
+  void remove(const Film& film);
 
  private:
   std::string picture_, identity_;

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "app/idle_options.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "formats/ray/ray_format.h"
@@ -127,6 +128,7 @@ void Session::build(const Session* before) {
     world_.emplace(compile(scene_, settings_, messages_));
   }
   buildMoments();
+  warnOfIdleOptions(scene_, settings_, *world_, messages_);
   messages_.throwIfFailed(strict_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));

@@ -125,7 +125,13 @@ class TreeText {
         continue;
       }
       const Color value = term.factor * term.value;
+      const bool covers =
+          term.kind == Term::Kind::fog && term.ray < 0 && term.value.g <= 0 && !isBlack(term.value);
       std::string words = "+ " + kind + " " + text(value);
+      if (covers) {
+        line(words + ": it covers " + text(term.factor.r) + " of what lies behind");
+        continue;
+      }
       const std::string product = text(term.factor) + " * " + text(term.value);
       if (term.ray >= 0)
         words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);

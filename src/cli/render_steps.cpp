@@ -1,7 +1,6 @@
 #include "cli/render_steps.h"
 
 #include <cstdio>
-#include <filesystem>
 
 #include "base/file.h"
 #include "cli/commands.h"
@@ -79,9 +78,8 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files) {
   Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
-  if (result.end != End::finished)
-    return std::filesystem::exists(checkpoint.path()) ? "; the same command goes on from there" : "";
-  if (arguments.resume != Resume::keep) checkpoint.remove();
+  if (result.end != End::finished) return checkpoint.exists() ? "; the same command goes on from there" : "";
+  if (arguments.resume != Resume::keep) checkpoint.remove(session.film());
   return "";
 }
 

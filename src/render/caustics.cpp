@@ -7,6 +7,7 @@
 #include "image/srgb.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
+#include "render/fog.h"
 #include "render/interaction.h"
 #include "shading/optics.h"
 
@@ -118,7 +119,11 @@ std::optional<Vec3> placeOn(const Light& light, const Vec2& u) {
 class Emitter {
  public:
   Emitter(const World& world, const Settings& settings, std::vector<Target> targets)
-      : world_(world), settings_(settings), targets_(std::move(targets)), tracer_(world, settings) {}
+      : world_(world),
+        settings_(settings),
+        targets_(std::move(targets)),
+        fog_(settings),
+        tracer_(world, settings) {}
 
   /// Photon n of the light's `count`.
   void send(std::size_t light, std::uint32_t n, std::int64_t count, std::vector<Photon>& landed) {
@@ -146,7 +151,9 @@ class Emitter {
     const Real away2 = point ? hit->t * hit->t : 1;
     Color power = arriving->intensity() * (kPi * away2 * start->share / static_cast<Real>(count));
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
-      if (const Color& medium = inside.around().passes; !(medium == Color(1))) power *= pow(medium, hit->t);
+      const bool fromInfinity = bounces == 0 && !point;  // which loses nothing
+      power *= inside.passed(hit->t);
+      if (!fromInfinity && isInOpenAir(inside, world_)) power *= Color(fog_.passes(ray, hit->t));
       const Interaction at(tracer_, ray, *hit, nullptr, inside, next());
       const Vec3& normal = hit->surface.normal;
       if (bounces > 0 && scatters(at.bsdf()))
@@ -186,6 +193,7 @@ class Emitter {
   const World& world_;
   const Settings& settings_;
   std::vector<Target> targets_;
+  Fog fog_;
   Tracer tracer_;
 };
 
@@ -217,7 +225,7 @@ std::vector<std::int64_t> shares(const World& world, const std::vector<Target>& 
 PhotonMap causticMap(const World& world, const Settings& settings, Job& job) {
   std::vector<Target> targets = targetsOf(world);
   if (settings.caustics == 0 || targets.empty() || world.lights().empty()) return {};
-  const Work work("photons of caustics");
+  const Work work("sending photons");
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     std::size_t light;

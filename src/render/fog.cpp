@@ -33,12 +33,18 @@ Real Fog::phase(const Vec3& direction, const Vec3& toLight) const {
   return (1 - g * g) / (4 * kPi * base * std::sqrt(base));
 }
 
+void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside) {
+  const Fog fog(tracer.settings());
+  if (!fog.none() && isInOpenAir(inside, tracer.world()))
+    sum.cover(Term::Kind::fog, -std::expm1(-fog.depth(ray, t)));
+}
+
 void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
             const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
   const Settings& settings = tracer.settings();
   const Fog fog(settings);
-  if (fog.none() || inside.around().object != Filling::kAir) return;
   const World& world = tracer.world();
+  if (fog.none() || !isInOpenAir(inside, world)) return;
   const Real stays = -std::expm1(-fog.depth(ray, t));  // of what comes along the ray
   if (!(stays > 0)) return;
   sum.cover(Term::Kind::fog, stays);
@@ -58,7 +64,8 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
       const Vec2 place =
           world.lightHasSize(i) ? numbers.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
       const auto arriving = world.illuminate(i, point, place);
-      if (!arriving) continue;
+      // From beyond all numbers nothing comes.
+      if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) continue;
       const Real left = fog.left({point, arriving->toLight}, arriving->distance);
       // A light of colour 1 is one of irradiance pi.
       const Color factor =

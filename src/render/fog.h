@@ -43,6 +43,15 @@ class Fog {
   Real forward_;  ///< the mean cosine of what is scattered
 };
 
+/// A ray in there runs through air: it is in no body. An open sheet encloses nothing.
+inline bool isInOpenAir(const Interfaces& inside, const World& world) {
+  const std::uint32_t object = inside.around().object;
+  return object == Filling::kAir || !world.solid(object);
+}
+
+/// Covers what has been summed with the fog before it: what passes along the ray up to t, which may be
+/// infinite.
+void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside);
 /// Covers what has been summed with the fog before it, and adds the light of the scene's lights in that fog:
 /// of the ray that ran on to t, which may be infinite, in `inside`. `ambient` is light from everywhere;
 /// `lamps`, if any, are objects that shine.

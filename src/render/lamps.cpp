@@ -127,23 +127,21 @@ bool Lamps::met(const Place& place, const Hit& hit) const {
 Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside) const {
   const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside);
   Gather light(tracer, 1);
-  const Fog fog(tracer.settings());
-  const auto throughFog = [&](Real t) {
-    if (inside.around().object == Filling::kAir)
-      light.cover(Term::Kind::fog, -std::expm1(-fog.depth(ray, t)));
-  };
   if (!hit) {
     if (place.object == kNone) {
       light.add(Term::Kind::background, tracer.world().outside().view(ray, RayKind::lamp).color);
-      throughFog(kInfinity);
+      coverWithFog(light, tracer, ray, kInfinity, inside);
     }
     return light.radiance();
   }
   const PlaceBsdf bsdf = tracer.world().shade(*hit);
   light.note(*bsdf);
+  if (tracer.records())
+    light.note(Indices(inside.at(hit->leaving, tracer.filling(*hit, whitted(*bsdf)), hit->solid),
+                       inside.wavelength, inside.nested()));
   if (met(place, *hit)) {
     light.add(Term::Kind::emissive, whitted(*bsdf).emissive);
-    throughFog(hit->t);
+    coverWithFog(light, tracer, ray, hit->t, inside);
   } else {
     light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
   }

@@ -98,7 +98,8 @@ class Tracer {
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
   /// Photons bring the light that the glass lets through, from elsewhere.
   bool gathers(const WhittedTerms& terms) const {
-    return settings_.caustics > 0 && terms.passage != Passage::straight;
+    return settings_.caustics > 0 && settings_.integrator == IntegratorKind::whitted &&
+           terms.passage != Passage::straight;
   }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);

@@ -170,7 +170,7 @@ void parse(const Option& option, std::string_view text, Color& value) {
   const std::optional<Color> color = colorOf(text);
   const auto within = [&](double x) { return x >= option.least && x <= option.most; };
   if (!color || !within(color->r) || !within(color->g) || !within(color->b))
-    refuse(option, "a colour such as 0.2,0.5,1, or a grey, of numbers " + range(option), text);
+    refuse(option, "a colour such as (0.2, 0.5, 1), or a grey, of numbers " + range(option), text);
   value = *color;
 }
 
@@ -998,7 +998,11 @@ void apply(Settings& settings, const Choice& choice) {
 std::optional<Color> colorOf(std::string_view text) {
   double numbers[3] = {};
   int count = 0;
-  for (std::string_view rest = text; count < 3;) {
+  std::string plain;  // as in a scene: (0.2, 0.5, 1)
+  for (const char c : text)
+    if (c != ' ') plain += c;
+  if (plain.starts_with('(') && plain.ends_with(')')) plain = plain.substr(1, plain.size() - 2);
+  for (std::string_view rest = plain; count < 3;) {
     const auto number = parseNumber(rest);
     if (!number || !std::isfinite(number->value)) return {};
     numbers[count++] = number->value;

@@ -41,8 +41,12 @@ TEST_F(Checkpoints, GiveBackWhatWasThere) {
   EXPECT_EQ(back.picture(), film(2).picture());
   EXPECT_TRUE(back.has(1, 0));
   EXPECT_FALSE(back.has(2, 0));
-  checkpoint().remove();
+  EXPECT_TRUE(checkpoint().exists());
+  checkpoint().remove(film(1));
+  EXPECT_TRUE(exists("out.png.checkpoint")) << "it holds more";
+  checkpoint().remove(film(2));
   EXPECT_FALSE(exists("out.png.checkpoint"));
+  EXPECT_FALSE(checkpoint().exists());
 }
 
 TEST_F(Checkpoints, OfAnotherPictureAreLeftAlone) {
@@ -56,7 +60,7 @@ TEST_F(Checkpoints, OfAnotherPictureAreLeftAlone) {
   other.save(film(3));
   EXPECT_EQ(readFile(folder_ / "out.png.checkpoint"), before);
   EXPECT_TRUE(exists("out.png.checkpoint-2"));
-  checkpoint("two").remove();
+  checkpoint("two").remove(film(3));
   EXPECT_TRUE(exists("out.png.checkpoint"));
   EXPECT_FALSE(exists("out.png.checkpoint-2"));
 }

@@ -79,6 +79,11 @@ TEST(Caustics, AMirrorThrowsALampAsItsImageWould) {
            .position = {0, 2, 0}, .direction = {0, -1, 0}, .color = Color(30), .constant = 0, .quadratic = 1},
        {}});
   EXPECT_NEAR(seen(scene, {0, 1, 0}, {0, 3, 0}, causticSettings(400000)) / (30.0 / 25), 1, 0.03);
+  // Fog that scatters nothing takes its part of the way to the mirror, to the ceiling and to the eye.
+  Settings foggy = causticSettings(400000);
+  foggy.fog = 0.1;
+  foggy.fogColor = Color(0);
+  EXPECT_NEAR(seen(scene, {0, 1, 0}, {0, 3, 0}, foggy) / (30.0 / 25 * std::exp(-0.7)), 1, 0.03);
 }
 
 TEST(Caustics, APaneLetsThroughWhatFresnelSays) {

@@ -129,6 +129,43 @@ TEST(Fog, IsLitByObjectsThatShine) {
   EXPECT_NEAR(middle(scene, settings).g / expected, 1, 0.02);
 }
 
+TEST(Fog, GoesOnBehindAnOpenSheetOfGlass) {
+  Phong shining, pane;
+  shining.emissive = Color(1);
+  pane.transmissive = Color(1);
+  for (const IntegratorKind integrator : {IntegratorKind::whitted, IntegratorKind::path}) {
+    Scene scene = looking();
+    addObject(scene, Square{}, Affine::translation({0, 0, -5}), shining);
+    addObject(scene, Square{}, Affine::translation({0, 0, -2}), pane);
+    Settings settings = fogSettings(0.3, Color(0));
+    settings.integrator = integrator;
+    EXPECT_NEAR(middle(scene, settings).g, std::exp(-1.5), 1e-9);
+  }
+}
+
+TEST(Fog, IsNotMetByTheLastBounceOfDirectLight) {
+  Scene scene = looking();
+  Phong white;
+  white.diffuse = Color(1);
+  addObject(scene, Square{}, Affine::translation({0, 0, -5}) * Affine::scaling({9, 9, 1}), white);
+  scene.lights.push_back(
+      {PointLight{.position = {0, 0, -2}, .color = Color(1), .constant = 1, .quadratic = 0}, {}});
+  Settings settings = fogSettings(0.3, Color(0.8));
+  settings.spp = 1024;
+  settings.sampling = SampleKind::sobol;
+  const Real whitted = middle(scene, settings).g;
+  settings.integrator = IntegratorKind::direct;
+  EXPECT_NEAR(middle(scene, settings).g / whitted, 1, 0.01);
+}
+
+TEST(Fog, ThatIsNextToNothingIsNothing) {
+  Scene scene = looking();
+  scene.lights.push_back(
+      {PointLight{.position = {0, 2, -2}, .color = Color(1), .constant = 1, .quadratic = 0}, {}});
+  for (const Real density : {1e-100, 1e-160, 1e-290, 1e-310})
+    EXPECT_TRUE(isFinite(middle(scene, fogSettings(density))));
+}
+
 TEST(Fog, HasTheSameBitsForAnyNumberOfThreads) {
   Scene scene = looking();
   scene.camera.fov = 40;

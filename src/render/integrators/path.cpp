@@ -68,7 +68,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
-    addFog(sum, tracer, ray, kInfinity, inside, Color(0), &lamps_, sampler.branch(kFog));
+    if (path.depth > depth_)
+      coverWithFog(sum, tracer, ray, kInfinity, inside);
+    else
+      addFog(sum, tracer, ray, kInfinity, inside, Color(0), &lamps_, sampler.branch(kFog));
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -84,7 +87,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
   sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
   const auto throughFog = [&] {
-    addFog(sum, tracer, ray, hit->t, inside, Color(0), &lamps_, sampler.branch(kFog));
+    if (path.depth > depth_)
+      coverWithFog(sum, tracer, ray, hit->t, inside);
+    else
+      addFog(sum, tracer, ray, hit->t, inside, Color(0), &lamps_, sampler.branch(kFog));
     sum.draw(path.ink);
     return sum.radiance(inside.passed(hit->t));
   };

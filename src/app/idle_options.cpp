@@ -1,0 +1,61 @@
+#include "app/idle_options.h"
+
+#include <algorithm>
+#include <string>
+
+#include "render/render.h"
+#include "scene/options.h"
+
+namespace trace {
+namespace {
+
+template <class Is>
+bool anyObject(const World& world, Is&& is) {
+  for (std::uint32_t object = 0; object < world.objectCount(); ++object)
+    if (!world.shapeOf(object).empty() && is(world.termsOf(object))) return true;
+  return false;
+}
+
+}  // namespace
+
+void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
+  const auto warn = [&](const std::string& what, const std::string& hint = {}) {
+    messages.warn(Place{.file = scene.file}, what, hint);
+  };
+  const std::string integrator = findOption("integrator").get(s);
+  for (const Option& option : options()) {
+    const bool concerned =
+        option.integrators == "all" || option.integrators.find(integrator) != option.integrators.npos;
+    if (option.extra && !concerned && option.get(s) != option.get({}))
+      warn("--" + std::string(option.name) + " changes nothing: it concerns " +
+           std::string(option.integrators) + ", and --integrator is " + integrator);
+  }
+
+  constexpr int kLeastJudged = 16;  // PixelSum::settles
+  if (s.noiseTarget > 0 && samplesOf(s) <= kLeastJudged)
+    warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(kLeastJudged) +
+             " samples on, and --spp gives " + std::to_string(samplesOf(s)),
+         "choose a larger --spp, such as 256");
+
+  const bool whitted = s.integrator == IntegratorKind::whitted;
+  if (whitted && s.caustics > 0) {
+    if (world.lights().empty())
+      warn("--caustics changes nothing: the scene has no light that sends photons",
+           "objects that shine send none; --integrator path follows their light");
+    else if (!anyObject(world,
+                        [](const WhittedTerms& terms) { return terms.mirrors() || terms.transmits(); }))
+      warn("--caustics changes nothing: nothing in the scene mirrors or refracts");
+  }
+  if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
+    warn("--ambient-occlusion changes nothing: the scene has no ambient light");
+
+  const bool paths = s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct;
+  if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
+      !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
+    warn("--integrator " + integrator +
+             " finds no light in the scene: ambient light stands for light that bounces, "
+             "and is left out",
+         "add a light, an object with emissive, or a background with a gradient");
+}
+
+}  // namespace trace

@@ -1,0 +1,13 @@
+// Options that were chosen and change nothing in a scene: a warning for each, since nobody chooses them for
+// that.
+#pragma once
+
+#include "base/error.h"
+#include "render/world.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+void warnOfIdleOptions(const Scene& scene, const Settings& settings, const World& world, Messages& messages);
+
+}  // namespace trace

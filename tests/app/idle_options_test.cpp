@@ -1,0 +1,60 @@
+// Warnings of options that change nothing.
+#include <gtest/gtest.h>
+
+#include "app/session.h"
+#include "support/scene_files.h"
+
+namespace trace::test {
+namespace {
+
+/// The warnings about the scene with the options, one a line.
+std::string warnings(const std::string& text, const std::vector<Choice>& choices) {
+  const Folder folder;
+  const std::string file = folder / "scene.ray";
+  writeFile(file, "SBT-raytracer 1.0\n" + text);
+  Session session;
+  session.open(file, choices);
+  session.build();
+  std::string all;
+  for (const Message& message : session.messages().all())
+    if (message.what.find("changes nothing") != std::string::npos ||
+        message.what.find("finds no light") != std::string::npos)
+      all += message.what + "\n";
+  return all;
+}
+
+constexpr const char* kLit = R"(
+ambient_light { color = (0.2, 0.2, 0.2); }
+point_light { position = (0, 5, 5); color = (1, 1, 1); }
+sphere { material = { diffuse = (1, 1, 1); reflective = (0.5, 0.5, 0.5); } }
+)";
+
+TEST(IdleOptions, AreToldWithTheirReason) {
+  const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {
+    const std::string found = warnings(text, choices);
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << "\n" << found;
+  };
+  about(kLit, {{"caustics", "1000", {}}, {"integrator", "path", {}}},
+        "--caustics changes nothing: it concerns whitted");
+  about(kLit, {{"noise-target", "0.01", {}}}, "--spp gives 1");
+  about("sphere { material = { emissive = (1, 1, 1); reflective = (1, 1, 1); } }", {{"caustics", "1000", {}}},
+        "no light that sends photons");
+  about(
+      "point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { material = { diffuse = (1, 1, 1); "
+      "specular = (0, 0, 0); reflective = (0, 0, 0); } }",
+      {{"caustics", "1000", {}}}, "nothing in the scene mirrors");
+  about("point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { }",
+        {{"ambient-occlusion", "4", {}}}, "no ambient light");
+  about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
+}
+
+TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
+  EXPECT_EQ(warnings(kLit, {}), "");
+  EXPECT_EQ(warnings(kLit, {{"caustics", "1000", {}}, {"ambient-occlusion", "4", {}}, {"fog", "0.1", {}}}),
+            "");
+  EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
+            "");
+}
+
+}  // namespace
+}  // namespace trace::test
