@@ -3,6 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+#include <ostream>
+
+namespace trace {
+
+/// How the checks are called among the tests.
+void PrintTo(const SelfCheck& check, std::ostream* out) {
+  for (const char c : check.name) *out << (std::isalnum(static_cast<unsigned char>(c)) ? c : '_');
+}
+
+}  // namespace trace
+
 namespace trace::test {
 namespace {
 
