@@ -1,8 +1,12 @@
 #include "app/checkpoint.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "app/output.h"
@@ -77,11 +81,43 @@ std::string nameOf(const std::string& picture, int number) {
   return picture + ".checkpoint" + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
+/// The lines of an identity by what stands before their colons, and the words of its settings by their names.
+std::map<std::string, std::string> partsOf(const std::string& identity) {
+  std::map<std::string, std::string> parts;
+  std::istringstream lines(identity);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = std::min(line.find(':'), line.size());
+    const std::string key = line.substr(0, colon);
+    if (key != "Settings") {
+      parts[key] = line;
+      continue;
+    }
+    std::istringstream words(line.substr(std::min(colon + 1, line.size())));
+    for (std::string word; words >> word;) parts["--" + word.substr(0, word.find('='))] = word;
+  }
+  return parts;
+}
+
+/// What they differ in, for a person.
+std::string difference(const std::string& a, const std::string& b) {
+  auto one = partsOf(a), other = partsOf(b);
+  if (one["Software"] != other["Software"]) return "another version of Trace wrote it";
+  if (one["Scene"] != other["Scene"]) return "the scene has changed";
+  std::set<std::string> names;
+  for (const auto& parts : {one, other})
+    for (const auto& [name, value] : parts)
+      if (one[name] != other[name]) names.insert(name);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list + (names.size() == 1 ? " is" : " are") + " another";
+}
+
 /// Throws std::runtime_error if the file does not fit.
 void fill(Film& film, const std::string& path, const std::string& identity) {
   const std::optional<Head> head = headOf(path);
   if (!head) throw std::runtime_error("it is no checkpoint that this version of Trace wrote");
-  if (head->identity != identity) throw std::runtime_error("it is of another picture, scene or setting");
+  if (head->identity != identity)
+    throw std::runtime_error("it is of another picture: " + difference(head->identity, identity));
   const std::string bytes = readFile(path);
   const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
   if (hashOf(state) != head->hash) throw std::runtime_error("it is damaged");

@@ -48,13 +48,14 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
 
 void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
-  const Fog fog(tracer.settings());
+  const bool foggy = tracer.settings().fog > 0;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const auto light = [&](const Vec2& place, Real share) {
       auto arriving = world.illuminate(i, hit.surface.point, place);
       if (!arriving) return;
-      if (!fog.none())
-        arriving->attenuation *= fog.left({hit.surface.point, arriving->toLight}, arriving->distance);
+      if (foggy)
+        arriving->attenuation *=
+            Fog(tracer.settings()).left({hit.surface.point, arriving->toLight}, arriving->distance);
       Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
       parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;

@@ -98,16 +98,8 @@ bool Tracer::tooNear(const Ray& ray) const {
   return found && found->t < near;
 }
 
-Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
-                      bool litThrough) {
-  Ray ray = from.leave(toLight);
-  if (litThrough) ray.leaves = from.object;
-  if (!inside.nested()) return visibleAlong(ray, distance, nullptr, inside.wavelength);
-  Interfaces start = startOn(from, ray, inside);
-  return visibleAlong(ray, distance, &start, inside.wavelength);
-}
-
-Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength) {
+[[gnu::always_inline]] inline Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside,
+                                                         Real wavelength) {
   count(RayKind::shadow);
   if (records()) begin(ray, RayKind::shadow, distance, wavelength);
   const Color color = passed(ray, distance, inside);
@@ -119,6 +111,19 @@ Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Re
     node.ends.push_back(blocked ? RayEnd(*blocked) : ReachedLight{});
   }
   return color;
+}
+
+Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
+                      bool litThrough) {
+  Ray ray = from.leave(toLight);
+  if (litThrough) ray.leaves = from.object;
+  // Apart, so that the usual way stays short.
+  const auto throughNested = [&]() __attribute__((noinline)) {
+    Interfaces start = startOn(from, ray, inside);
+    return visibleAlong(ray, distance, &start, inside.wavelength);
+  };
+  if (inside.nested()) return throughNested();
+  return visibleAlong(ray, distance, nullptr, inside.wavelength);
 }
 
 Color Tracer::visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside) {

@@ -55,7 +55,14 @@ TEST_F(Checkpoints, OfAnotherPictureAreLeftAlone) {
   Checkpoint other = checkpoint("two");
   Film back = blank();
   EXPECT_FALSE(other.load(back));
-  EXPECT_NE(other.whyNot().find("another picture"), std::string::npos) << other.whyNot();
+  EXPECT_NE(other.whyNot().find("another picture: the scene has changed"), std::string::npos)
+      << other.whyNot();
+  settings_.depth = 9;
+  settings_.fog = 0.1;
+  Checkpoint deeper = checkpoint("one");
+  EXPECT_FALSE(deeper.load(back));
+  EXPECT_NE(deeper.whyNot().find("--depth, --fog are another"), std::string::npos) << deeper.whyNot();
+  settings_ = {};
   EXPECT_EQ(back.picture(), blank().picture());
   other.save(film(3));
   EXPECT_EQ(readFile(folder_ / "out.png.checkpoint"), before);

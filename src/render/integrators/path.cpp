@@ -61,6 +61,13 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  const auto seeFog = [&](Real t) {
+    if (!(tracer.settings().fog > 0)) return;
+    if (path.depth > depth_)  // it was sent for what shines only
+      coverWithFog(sum, tracer, ray, t, inside);
+    else
+      addFog(sum, tracer, ray, t, inside, Color(0), &lamps_, sampler.branch(kFog));
+  };
   if (!hit) {
     if (world.outside().isSeenBy(path.kind)) {
       const Real other = path.density > 0 ? lamps_.density(ray.direction) : 0;
@@ -68,10 +75,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
-    if (path.depth > depth_)
-      coverWithFog(sum, tracer, ray, kInfinity, inside);
-    else
-      addFog(sum, tracer, ray, kInfinity, inside, Color(0), &lamps_, sampler.branch(kFog));
+    seeFog(kInfinity);
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -87,10 +91,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
   sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
   const auto throughFog = [&] {
-    if (path.depth > depth_)
-      coverWithFog(sum, tracer, ray, hit->t, inside);
-    else
-      addFog(sum, tracer, ray, hit->t, inside, Color(0), &lamps_, sampler.branch(kFog));
+    seeFog(hit->t);
     sum.draw(path.ink);
     return sum.radiance(inside.passed(hit->t));
   };

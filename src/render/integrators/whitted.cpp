@@ -55,7 +55,8 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
-    addFog(sum, tracer, ray, kInfinity, inside, world.ambient(), nullptr, sampler.branch(kFog));
+    if (tracer.settings().fog > 0)
+      addFog(sum, tracer, ray, kInfinity, inside, world.ambient(), nullptr, sampler.branch(kFog));
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -136,7 +137,8 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
       sum.stop(TotalInternalReflection{});
     }
   }
-  addFog(sum, tracer, ray, hit->t, inside, world.ambient(), nullptr, sampler.branch(kFog));
+  if (settings.fog > 0)
+    addFog(sum, tracer, ray, hit->t, inside, world.ambient(), nullptr, sampler.branch(kFog));
   sum.draw(path.ink);
   return sum.radiance(inside.passed(hit->t));
 }
