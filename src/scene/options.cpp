@@ -448,7 +448,7 @@ const std::array kTable{
                                   .source = "docs/path-tracing.md",
                                   .least = 0,
                                   .most = 1e9,
-                                  .integrators = "path",
+                                  .integrators = "path, direct",
                                   .extra = true}),
     row<&Settings::ambientOcclusion>(
         {.name = "ambient-occlusion",
@@ -712,7 +712,7 @@ const std::array kTable{
                          .least = 0,
                          .most = 1e6,
                          .unit = "per unit",
-                         .integrators = "whitted, path",
+                         .integrators = "whitted, path, direct",
                          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -721,7 +721,7 @@ const std::array kTable{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path"}),
+         .integrators = "whitted, path, direct"}),
     row<&Settings::fogHeight>({.name = "fog-height",
                                .group = "Fog",
                                .help =
@@ -731,7 +731,7 @@ const std::array kTable{
                                .least = 0,
                                .most = 1e9,
                                .unit = "units",
-                               .integrators = "whitted, path"}),
+                               .integrators = "whitted, path, direct"}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help =
@@ -740,7 +740,7 @@ const std::array kTable{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path"}),
+                                .integrators = "whitted, path, direct"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "places on every ray that ask for the lights",
@@ -748,7 +748,7 @@ const std::array kTable{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted, path"}),
+                                .integrators = "whitted, path, direct"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",

@@ -122,10 +122,23 @@ std::optional<std::string> editRegion(const std::string& value) {
   return typedRegion(text);
 }
 
+/// A square that opens a picker, and the numbers as text.
 std::optional<std::string> editColor(const Option& option, const std::string& value) {
-  Color color = *colorOf(value);
-  if (!editValue({option.unit, option.least, option.most, option.name}, color)) return {};
-  return colorText(color);
+  std::optional<Color> color = colorOf(value);
+  const float square = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float width = ImGui::CalcItemWidth() - square - gap;
+  const bool picked = editSwatch(*color);
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(width);
+  std::string text = value;
+  const bool typed = editText("##value", text, "red,green,blue");
+  if (typed) color = colorOf(text);
+  if (!color || !(picked || typed)) return {};
+  const auto within = [&](double x) {
+    if (picked) x = std::round(x * 1000) / 1000;
+    return std::clamp(x, option.least, option.most);
+  };
+  return colorText({within(color->r), within(color->g), within(color->b)});
 }
 
 /// The name, to be typed, and a button that opens the dialog.

@@ -42,7 +42,7 @@ bool editValue(const FieldFacts& facts, Vec3& value) {
   return true;
 }
 
-bool editValue(const FieldFacts& facts, Color& value) {
+bool editSwatch(Color& value) {
   constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
   float picked[3] = {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b)};
   const float side = ImGui::GetFrameHeight();
@@ -53,8 +53,13 @@ bool editValue(const FieldFacts& facts, Color& value) {
     changed = ImGui::ColorPicker3("##picker", picked, kFlags | ImGuiColorEditFlags_NoInputs);
     ImGui::EndPopup();
   }
+  if (changed) value = {picked[0], picked[1], picked[2]};
+  return changed;
+}
+
+bool editValue(const FieldFacts& facts, Color& value) {
+  bool changed = editSwatch(value);
   double numbers[3] = {value.r, value.g, value.b};
-  if (changed) std::copy(std::begin(picked), std::end(picked), std::begin(numbers));
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   changed =
       editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3f", 0.005f, false, true, facts.name}) ||

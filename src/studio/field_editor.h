@@ -32,6 +32,8 @@ bool editValue(const FieldFacts& facts, int& value);
 bool editValue(const FieldFacts& facts, bool& value);
 bool editValue(const FieldFacts& facts, Vec3& value);
 bool editValue(const FieldFacts& facts, Color& value);
+/// A square of the colour, which opens a picker.
+bool editSwatch(Color& value);
 bool editValue(const FieldFacts& facts, std::string& value);
 /// Shows the name of the picture: it is read with the scene.
 bool editValue(const FieldFacts& facts, Heights& value);
