@@ -31,9 +31,8 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
 
-  constexpr int kLeastJudged = 16;  // PixelSum::settles
-  if (s.noiseTarget > 0 && samplesOf(s) <= kLeastJudged)
-    warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(kLeastJudged) +
+  if (s.noiseTarget > 0 && samplesOf(s) <= PixelSum::kFewest)
+    warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(PixelSum::kFewest) +
              " samples on, and --spp gives " + std::to_string(samplesOf(s)),
          "choose a larger --spp, such as 256");
 

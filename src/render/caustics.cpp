@@ -1,6 +1,7 @@
 #include "render/caustics.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "base/budget.h"
@@ -47,6 +48,21 @@ struct Start {
   Real share;
 };
 
+/// One of the targets, by how much each covers, and what all cover.
+struct Choice {
+  const Target& target;
+  Real all;
+};
+template <class Covers>
+Choice choose(const std::vector<Target>& targets, Real which, const Covers& covers) {
+  Real all = 0;
+  for (const Target& t : targets) all += covers(t);
+  Real rest = which * all;
+  for (const Target& t : targets)
+    if ((rest -= covers(t)) < 0) return {t, all};
+  return {targets.back(), all};
+}
+
 /// Where photons of a light start that is at a place: toward one of the targets, evenly over the solid angle
 /// that they cover.
 std::optional<Start> startFrom(const Vec3& place, const std::vector<Target>& targets, Real which,
@@ -56,41 +72,25 @@ std::optional<Start> startFrom(const Vec3& place, const std::vector<Target>& tar
     const Real sine2 = t.radius * t.radius / dot(way, way);
     return sine2 < 1 ? std::sqrt(1 - sine2) : -1;  // from inside it is all around
   };
-  Real sum = 0;
-  for (const Target& t : targets) sum += 1 - cosineOf(t);
-  Real rest = which * sum;
-  const Target* chosen = &targets.back();
-  for (const Target& t : targets)
-    if ((rest -= 1 - cosineOf(t)) < 0) {
-      chosen = &t;
-      break;
-    }
-  const Vec3 way = chosen->center - place;
-  const Vec3 direction = toCone(u, length(way) > 0 ? normalize(way) : Vec3{0, 0, 1}, cosineOf(*chosen));
+  const auto [chosen, all] = choose(targets, which, [&](const Target& t) { return 1 - cosineOf(t); });
+  const Vec3 way = chosen.center - place;
+  const Vec3 direction = toCone(u, length(way) > 0 ? normalize(way) : Vec3{0, 0, 1}, cosineOf(chosen));
   const auto covers = [&](const Target& t) {
     const Vec3 to = t.center - place;
     return dot(to, direction) >= cosineOf(t) * length(to);
   };
   const auto over = std::count_if(targets.begin(), targets.end(), covers);
   if (over == 0) return {};  // rounding at its rim
-  return Start{{place, direction}, 2 * kPi * sum / static_cast<Real>(over)};
+  return Start{{place, direction}, 2 * kPi * all / static_cast<Real>(over)};
 }
 
 /// The same of parallel light: evenly over the disks that the targets cover.
 std::optional<Start> startAlong(const Vec3& direction, const std::vector<Target>& targets, const Box3& scene,
                                 Real which, const Vec2& u) {
-  Real sum = 0;
-  for (const Target& t : targets) sum += t.radius * t.radius;
-  Real rest = which * sum;
-  const Target* chosen = &targets.back();
-  for (const Target& t : targets)
-    if ((rest -= t.radius * t.radius) < 0) {
-      chosen = &t;
-      break;
-    }
+  const auto [chosen, all] = choose(targets, which, [](const Target& t) { return t.radius * t.radius; });
   const Vec3 x = perpendicularTo(direction), y = cross(direction, x);
   const Vec2 disk = toDisk(u);
-  const Vec3 place = chosen->center + (x * disk.x + y * disk.y) * chosen->radius;
+  const Vec3 place = chosen.center + (x * disk.x + y * disk.y) * chosen.radius;
   const auto covers = [&](const Target& t) {
     const Vec3 off = cross(place - t.center, direction);
     return dot(off, off) <= t.radius * t.radius;
@@ -98,7 +98,7 @@ std::optional<Start> startAlong(const Vec3& direction, const std::vector<Target>
   const auto over = std::count_if(targets.begin(), targets.end(), covers);
   if (over == 0) return {};
   const Real before = 2 * length(scene.size());
-  return Start{{place - direction * before, direction}, kPi * sum / static_cast<Real>(over)};
+  return Start{{place - direction * before, direction}, kPi * all / static_cast<Real>(over)};
 }
 
 /// The place of a light that two numbers choose, as its illuminate() does; nothing of parallel light.
@@ -225,7 +225,6 @@ std::vector<std::int64_t> shares(const World& world, const std::vector<Target>& 
 PhotonMap causticMap(const World& world, const Settings& settings, Job& job) {
   std::vector<Target> targets = targetsOf(world);
   if (settings.caustics == 0 || targets.empty() || world.lights().empty()) return {};
-  const Work work("sending photons");
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     std::size_t light;
@@ -237,11 +236,14 @@ PhotonMap causticMap(const World& world, const Settings& settings, Job& job) {
   for (std::size_t light = 0; light < counts.size(); ++light)
     for (std::int64_t n = 0; n < counts[light]; n += kChunk)
       chunks.push_back({light, n, std::min(n + kChunk, counts[light]), counts[light]});
+  Work work("sending photons", std::ssize(chunks));
+  std::atomic<std::int64_t> sent{0};
   parallelChunks(std::ssize(chunks), settings.threads, job, [&](std::int64_t i, int) {
     Chunk& chunk = chunks[static_cast<std::size_t>(i)];
     Emitter emitter(world, settings, targets);
     for (std::int64_t n = chunk.first; n < chunk.end; ++n)
       emitter.send(chunk.light, static_cast<std::uint32_t>(n), chunk.count, chunk.landed);
+    work.reached(++sent);
   });
   job.done = 0;  // what comes next counts anew
   if (job.cancel) return {};

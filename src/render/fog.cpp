@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace trace {
+namespace {
+
+/// So many heights down the density where the ray starts counts for nothing, and may be 0 by rounding.
+constexpr Real kFarDown = 30;
+
+}  // namespace
 
 Real Fog::densityAt(const Vec3& point) const {
   constexpr Real kMost = 50;  // of the exponent, far below
@@ -14,17 +20,20 @@ Real Fog::depth(const Ray& ray, Real t) const {
   if (none()) return 0;
   const Real here = densityAt(ray.origin);
   const Real thinner = height_ > 0 ? ray.direction.y / height_ : 0;  // the rate along the ray
-  // The integral of exp(-thinner s), which is t where it is level.
-  const Real length = thinner == 0 ? t : -std::expm1(-thinner * t) / thinner;
-  return here == 0 ? 0 : here * length;
+  if (thinner == 0) return here == 0 ? 0 : here * t;
+  if (-thinner * t > kFarDown) return t < kInfinity ? (here - densityAt(ray.at(t))) / thinner : kInfinity;
+  return here * (-std::expm1(-thinner * t) / thinner);  // the integral of exp(-thinner s)
 }
 
 Real Fog::distance(const Ray& ray, Real depth) const {
   const Real here = densityAt(ray.origin);
   const Real thinner = height_ > 0 ? ray.direction.y / height_ : 0;
-  const Real length = depth / here;
-  if (thinner == 0) return length;
-  return thinner * length < 1 ? -std::log1p(-thinner * length) / thinner : kInfinity;
+  if (thinner == 0) return depth / here;
+  const Real change = thinner * depth;
+  if (!(here > change)) return kInfinity;
+  if (-change > here * std::exp(kFarDown))  // by the height at which it is so dense
+    return (-height_ * std::log((here - change) / density_) - ray.origin.y) / ray.direction.y;
+  return -std::log1p(-change / here) / thinner;
 }
 
 Real Fog::phase(const Vec3& direction, const Vec3& toLight) const {

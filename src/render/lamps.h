@@ -18,7 +18,7 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  explicit Lamps(const World& world);
+  Lamps(const World& world, int threads);
 
   bool empty() const { return parts_.empty() && sky_.empty(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "math/box.h"
 
 namespace trace {
@@ -13,6 +14,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach)
 
 void PhotonMap::build(std::size_t first, std::size_t end) {
   if (end - first < 2) return;
+  checkBudget();
   Box3 box;
   for (std::size_t i = first; i < end; ++i) box.extend(photons_[i].point);
   const Vec3 extent = box.high - box.low;

@@ -16,14 +16,14 @@ Vec3 directionAt(Real across, Real height) {
 
 }  // namespace
 
-SkyTable::SkyTable(const Outside& outside) {
+SkyTable::SkyTable(const Outside& outside, int threads) {
   if (!outside.isSeenBy(RayKind::bounce)) return;
   constexpr int kSide = 2;  // places of a cell that are looked at, along each side
   sums_.resize(std::size_t{kColumns} * kRows);
   std::vector<Real> most(kRows);
   rowSums_.resize(kRows);
   Job job;
-  parallelChunks(kRows, 0, job, [&](std::int64_t number, int) {
+  parallelChunks(kRows, threads, job, [&](std::int64_t number, int) {
     const int row = static_cast<int>(number);
     Real sum = 0;
     for (int column = 0; column < kColumns; ++column) {

@@ -13,7 +13,7 @@ class SkyTable {
   SkyTable() = default;
   /// Of what bounced rays see. Empty where they see nothing, or nearly the same everywhere: then there is
   /// nothing to be gained by a choice.
-  explicit SkyTable(const Outside& outside);
+  SkyTable(const Outside& outside, int threads);
 
   bool empty() const { return rowSums_.empty(); }
   /// A unit direction, chosen by two numbers from 0 up to 1.

@@ -92,6 +92,18 @@ TEST(Fog, ThinsOutUpwardAsTheIntegralSays) {
   EXPECT_EQ(fog.depth({{0, 0, 0}, {0, -1, 0}}, kInfinity), kInfinity);
 }
 
+TEST(Fog, LiesOnTheGroundForAnEyeFarAboveToo) {
+  Settings settings = fogSettings(0.5);
+  settings.fogHeight = 1;
+  const Fog fog(settings);
+  for (const Real height : {5.0, 29.0, 31.0, 100.0, 2000.0}) {
+    const Ray down{{0, height, 0}, {0, -1, 0}};
+    EXPECT_NEAR(fog.depth(down, height), 0.5 * (1 - std::exp(-height)), 1e-9) << height;
+    EXPECT_NEAR(fog.distance(down, 0.5 * (std::exp(-1.0) - std::exp(-height))), height - 1, 1e-9 * height)
+        << height;
+  }
+}
+
 TEST(Fog, ScattersAllLightSomewhere) {
   for (const Real forward : {-0.9, 0.0, 0.6}) {
     Settings settings = fogSettings(1);

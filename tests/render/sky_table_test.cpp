@@ -19,16 +19,16 @@ Scene banded() {
 }
 
 TEST(SkyTable, IsEmptyWhereThereIsNothingToGain) {
-  EXPECT_TRUE(SkyTable(build(Scene{}).outside()).empty());
+  EXPECT_TRUE(SkyTable(build(Scene{}).outside(), 0).empty());
   Scene even;
   even.background.gradient = {Color(1)};
-  EXPECT_TRUE(SkyTable(build(even).outside()).empty());
-  EXPECT_FALSE(SkyTable(build(banded()).outside()).empty());
+  EXPECT_TRUE(SkyTable(build(even).outside(), 0).empty());
+  EXPECT_FALSE(SkyTable(build(banded()).outside(), 0).empty());
 }
 
 TEST(SkyTable, ChoosesWithTheDensityItSays) {
   const World world = build(banded());
-  const SkyTable table(world.outside());
+  const SkyTable table(world.outside(), 0);
   Real sum = 0, light = 0;
   constexpr int kSide = 400;
   for (int i = 0; i < kSide; ++i)

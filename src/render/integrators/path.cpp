@@ -28,8 +28,10 @@ constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80
 /// Paths of fewer bounces are not ended by chance.
 constexpr int kSurely = 3;
 
-Real powerHeuristic(Real density, Real other) {
-  return density * density / (density * density + other * other);
+/// A direction of that density, which another way of choosing gives with the density `other`: the two are
+/// weighed by the power heuristic.
+ChanceTerm weighed(Real density, Real other) {
+  return {density, other, other > 0 ? density * density / (density * density + other * other) : 1};
 }
 
 /// The part of what a ray adds to the sample that the firefly limit allows.
@@ -45,7 +47,7 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
 }  // namespace
 
 void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
-  lamps_ = Lamps(world);
+  lamps_ = Lamps(world, settings.threads);
   depth_ = bounces_ ? settings.depth : 0;
 }
 
@@ -70,8 +72,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   };
   if (!hit) {
     if (world.outside().isSeenBy(path.kind)) {
-      const Real other = path.density > 0 ? lamps_.density(ray.direction) : 0;
-      const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
+      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
@@ -87,8 +88,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   sum.note(at.bsdf());
   sum.note(at.indices);
 
-  const Real other = path.density > 0 ? lamps_.density(ray.origin, *hit) : 0;
-  const ChanceTerm chance{path.density, other, other > 0 ? powerHeuristic(path.density, other) : 1};
+  const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.origin, *hit) : 0);
   sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
   const auto throughFog = [&] {
     seeFog(hit->t);
@@ -186,7 +186,7 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   const bool inward = dot(place->toLight, at.normal) < 0;
   if (isBlack(scattered) || (!inward && dot(place->toLight, at.hit.surface.normal) * at.facing() < 0)) return;
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
-  const ChanceTerm chance{place->density, other, powerHeuristic(place->density, other)};
+  const ChanceTerm chance = weighed(place->density, other);
 
   const Color seen = lamps_.look(at.tracer, at.hit.leave(place->toLight), *place,
                                  inward && at.transmits ? at.behind() : at.inside);
