@@ -262,6 +262,8 @@ Document::Saved Document::write(Saving what) {
   if (keepsText(writableFormatFor(own.file).name))
     saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
   for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
+  if (parts.size() > 1 && !saved.fingerprint.empty())  // what lies beside it can be read now
+    saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
   saved.written = timeOf(saved.what.file);
   saved.changesWithTime = trace::changesWithTime(own.file, own.bytes);
   return saved;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "render/integrator.h"
 #include "render/render.h"
 #include "scene/options.h"
 
@@ -31,7 +32,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
 
-  if (s.noiseTarget > 0 && samplesOf(s) <= PixelSum::kFewest)
+  if (s.noiseTarget > 0 && rowOf(s).byChains)
+    warn("--noise-target changes nothing: chains of mlt do not know the error of a pixel");
+  else if (s.noiseTarget > 0 && samplesOf(s) <= PixelSum::kFewest)
     warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(PixelSum::kFewest) +
              " samples on, and --spp gives " + std::to_string(samplesOf(s)),
          "choose a larger --spp, such as 256");
@@ -45,10 +48,22 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                         [](const WhittedTerms& terms) { return terms.mirrors() || terms.transmits(); }))
       warn("--caustics changes nothing: nothing in the scene mirrors or refracts");
   }
+  const auto hasNormals = [&](std::uint32_t object) {
+    const MeshTree* mesh = world.meshTree(object);
+    return mesh && !mesh->data().normals.empty();
+  };
+  if (s.smoothTerminator && s.integrator != IntegratorKind::normals) {
+    bool any = false;
+    for (std::uint32_t i = 0; i < world.objectCount() && !any; ++i) any = hasNormals(i);
+    if (!any)
+      warn("--smooth-terminator changes nothing: no mesh of the scene has normals at its points",
+           "gennormals or crease in a mesh makes them");
+  }
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 
-  const bool paths = s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct;
+  const bool paths = s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
+                     s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +

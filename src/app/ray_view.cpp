@@ -128,6 +128,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     if (object.place.line > 0) row("defined at", shortPlace(object.place));
     row("shape, part", std::string(object.shape.keyword()) + ", " + std::to_string(hit.part));
     row("material", materialNames(scene, node.materials));
+    if (hit.opacity < 1) row("opacity", text(hit.opacity));
     row("distance", text(hit.t));
     row("point", text(hit.surface.point));
     row("normal", text(hit.surface.normal));

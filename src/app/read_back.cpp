@@ -31,10 +31,8 @@ Scene withoutNames(Scene scene) {
     object.name.clear();
     forgetNames(object.shape);
   }
-  for (Material& material : scene.materials) {
-    material.name.clear();
-    changePixels(material, [](Pixels& pixels) { pixels.file.clear(); });
-  }
+  for (Material& material : scene.materials) material.name.clear();
+  changePixels(scene, [](Pixels& pixels) { pixels.file.clear(); });
   return scene;
 }
 

@@ -34,7 +34,8 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings) {
-  return Film::bytesPerPixel(passesOf(settings).size()) + 2 * sizeof(Color) + 16;
+  const std::uint64_t splats = rowOf(settings).byChains ? SplatPlane::bytesPerPixel() : 0;
+  return Film::bytesPerPixel(passesOf(settings).size()) + splats + 2 * sizeof(Color) + 16;
 }
 
 PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowedMemory(settings)}; }

@@ -48,6 +48,7 @@ struct Conversion {
   std::vector<std::string> lights;  ///< whole nodes of a .ray file; empty to keep the scene's
   int digits = 0;                   ///< 0 for as many as are needed
   int steps = 64;                   ///< of --revolve
+  std::string picture;              ///< on what --revolve makes; empty for none
   bool ascii = false, revolve = false;
 };
 

@@ -23,11 +23,14 @@
 namespace trace::cli {
 namespace {
 
-/// "y.obj and y.mtl".
+/// "y.obj and y.mtl", "car.ray, car-wheel.png, car-roof.jpg and 7 more".
 std::string namesText(const std::vector<NamedBytes>& files) {
+  constexpr std::size_t kMost = 8;
+  const std::size_t named = files.size() <= kMost + 1 ? files.size() : kMost;
   std::string names;
-  for (const NamedBytes& file : files) names += (names.empty() ? "" : " and ") + file.file;
-  return names;
+  for (std::size_t i = 0; i < named; ++i)
+    names += (i == 0 ? "" : i + 1 == files.size() ? " and " : ", ") + files[i].file;
+  return names + (named < files.size() ? " and " + std::to_string(files.size() - named) + " more" : "");
 }
 
 /// "2 objects, 12 triangles" of what was written.
@@ -39,14 +42,10 @@ std::string contentsText(const NamedBytes& written, const Scene& scene) {
 
 /// What is said of files that have the usual name of one that was written, and belong to something else.
 std::string sparedText(const std::vector<NamedBytes>& files) {
-  namespace fs = std::filesystem;
   std::string text;
-  for (const NamedBytes& file : files) {
-    const std::string usual =
-        fs::path(files.front().file).replace_extension(fs::path(file.file).extension()).string();
-    if (&file != &files.front() && file.file != usual)
-      text += "; " + keptText(usual) + ", for " + files.front().file + " did not name it";
-  }
+  for (const NamedBytes& file : files)
+    if (!file.spared.empty())
+      text += "; " + keptText(file.spared) + ", for " + files.front().file + " did not name it";
   return text;
 }
 
@@ -94,7 +93,7 @@ void change(Scene& scene, const Conversion& conversion, const Console& console) 
 Scene sceneToConvert(const std::string& in, const Conversion& conversion, Messages& messages) {
   const Work work("reading the scene");
   const std::string bytes = readFile(in);
-  if (conversion.revolve) return revolvedScene(in, bytes, conversion.steps, messages);
+  if (conversion.revolve) return revolvedScene(in, bytes, conversion.steps, conversion.picture, messages);
   Real time = 0;
   Scene scene = readSceneAtItsMoment(in, bytes, {}, messages, time);
   if (changesWithTime(in, bytes))
@@ -109,6 +108,10 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   const auto start = std::chrono::steady_clock::now();
   const Conversion& conversion = arguments.conversion;
   const SceneFormat& format = writableFormatFor(out);
+  if (!conversion.picture.empty() && !conversion.revolve)
+    throw Error(
+        Fault::usage, "--picture: expected --revolve, whose surface wears it",
+        "--material 'diffuse = map(\"" + conversion.picture + "\")' gives one to the objects of a scene");
   checkDistinct(in, out);
   checkWritable(out);
   Messages messages;

@@ -84,11 +84,20 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   checkDistinct(arguments.files[0], arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
 
-  Session session;
+  std::optional<Session> opened(std::in_place);
   std::vector<Choice> choices = arguments.choices;
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
-  session.open(arguments.files[0], choices, arguments.strict);
+  opened->open(arguments.files[0], choices, arguments.strict);
+  if (rowOf(opened->settings()).byChains) {
+    console.line(
+        LogLevel::info,
+        "note: chains make this picture, in no order of pixels; shown are paths of --integrator path, "
+        "to whose mean they tend");
+    choices.push_back({"integrator", "path", {}});
+    opened.emplace().open(arguments.files[0], choices, arguments.strict);
+  }
+  Session& session = *opened;
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   console.warnings(session.messages().all());

@@ -79,6 +79,7 @@ class Writer {
                              {"part", i.part},
                              {"distance", i.t},
                              {"leaving", i.leaving},
+                             {"opacity", i.opacity},
                              {"priority", i.body.priority},
                              {"around", body(i.around.object)},
                              {"aroundPriority", i.around.priority},
@@ -141,6 +142,8 @@ class Writer {
               {"indexBefore", node.indices.before},
               {"indexBehind", node.indices.behind},
               {"material", material(*node.bsdf)}};
+    if (h.opacity < 1) json["opacity"] = h.opacity;
+    if (node.raised) json["raised"] = toJson(*node.raised);
     if (node.indices.nested) {
       json["bodyBefore"] = body(node.indices.objectBefore);
       json["bodyBehind"] = body(node.indices.objectBehind);

@@ -111,10 +111,14 @@ class TreeText {
     else if (whitted(*node.bsdf).transmits())
       side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
               index(indices.behind, indices.objectBehind, indices.priorityBehind);
+    if (hit.opacity < 1) side += "; opacity " + text(hit.opacity);
     const Vec2 uv = s.uv;
     line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
     line("point " + text(s.point) + ", normal " + text(s.normal));
     if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
+    if (node.raised)
+      line("its rays to light start at " + text(*node.raised) + ", " + text(length(*node.raised - s.point)) +
+           " off the facet: on the smooth surface of the corners' normals");
   }
 
   void terms(const RayNode& node) {
@@ -125,11 +129,13 @@ class TreeText {
         continue;
       }
       const Color value = term.factor * term.value;
-      const bool covers =
-          term.kind == Term::Kind::fog && term.ray < 0 && term.value.g <= 0 && !isBlack(term.value);
+      const bool isHole = term.kind == Term::Kind::hole;
+      const bool covers = (term.kind == Term::Kind::fog || isHole) && term.ray < 0 && term.value.g <= 0 &&
+                          !isBlack(term.value);
       std::string words = "+ " + kind + " " + text(value);
       if (covers) {
-        line(words + ": it covers " + text(term.factor.r) + " of what lies behind");
+        line(words + (isHole ? ": so much of the surface is not there: " + text(term.factor.r)
+                             : ": it covers " + text(term.factor.r) + " of what lies behind"));
         continue;
       }
       const std::string product = text(term.factor) + " * " + text(term.value);

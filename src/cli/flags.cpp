@@ -249,6 +249,9 @@ std::span<const Flag> flags() {
            [](Arguments& a, std::string_view value) {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
+      Flag{"picture", 0, Takes::value, "FILE", "", kConvert, false,
+           "a picture on what --revolve makes: once around, and once along the profile",
+           [](Arguments& a, std::string_view value) { a.conversion.picture = value; }},
       Flag{"size", 0, Takes::value, "WxH", "", kTexture, true, "of the picture; default 256x256", setSize},
       Flag{"across", 0, Takes::value, "X", "", kTexture, true,
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "

@@ -78,6 +78,11 @@ std::string statisticsTable(const Run& run) {
   text += row("hierarchy", "nodes", "", "per ray");
   text +=
       row("visited", std::to_string(s.nodes.count), "", orDash("%.2f", ratio(s.nodes.count, s.allRays())));
+  if (s.moves > 0) {
+    text += row("chains", "moves", "kept", "kept/move");
+    text += row("", std::to_string(s.moves), std::to_string(s.movesKept),
+                orDash("%.3f", ratio(s.movesKept, s.moves)));
+  }
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
     text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
@@ -112,6 +117,7 @@ std::string statisticsJson(const Run& run) {
   });
   json["nodes"] = s.nodes.count;
   json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
+  if (s.moves > 0) json["chains"] = {{"moves", s.moves}, {"kept", s.movesKept}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

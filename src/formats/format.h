@@ -23,7 +23,8 @@ struct NamedBytes {
 
   std::string file, bytes;
   std::optional<Contents>
-      holds{};  ///< where that is not what the scene holds, as when shapes become triangles
+      holds{};           ///< where that is not what the scene holds, as when shapes become triangles
+  std::string spared{};  ///< the file of the usual name, which belongs to something else and stays
 };
 
 struct WriteOptions {
@@ -52,8 +53,8 @@ struct SceneFormat {
   /// The same at a moment, in seconds, if the format knows time.
   Scene (*readAt)(const std::string& file, std::string_view bytes, Messages& messages, Real time) = nullptr;
   Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
-  /// The scene as `file`, and what belongs beside it. Warns of what the format cannot hold; throws
-  /// Error(Fault::scene) if nothing is left.
+  /// The scene as `file`, and what belongs beside it, as pictures. Warns of what the format cannot hold;
+  /// throws Error(Fault::scene) if nothing is left.
   std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
                                    Messages& messages) = nullptr;
   /// The scene, which was read as `read` of this format and edited, with as little of the text changed as

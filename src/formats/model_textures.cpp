@@ -86,10 +86,11 @@ PictureKind kindOfPicture(const std::string& from, const std::string& name) {
   return kindOfPicture(headOf(pictureFile(from, name)));
 }
 
-Pixels InsidePictures::decode(std::string name, std::string_view bytes, const Place& place) {
-  Pixels pixels{std::move(name), nullptr, place};
+Pixels InsidePictures::decode(std::string file, InsideFile picture, const Place& place) {
+  Pixels pixels{std::move(file), nullptr, place};
   try {
-    pixels.map = MipMap::decode(bytes, pixels.file);
+    pixels.map = MipMap::decode(picture.bytes, pixels.file);
+    pixels.inside = std::make_shared<const InsideFile>(std::move(picture));
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     if (unread_.empty()) reason_ = error.messages().front().what;

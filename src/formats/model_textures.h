@@ -29,8 +29,9 @@ PictureKind kindOfPicture(const std::string& from, const std::string& name);
 /// Pictures that stand in the scene's own file. One that is broken is a checker, of which is told once.
 class InsidePictures {
  public:
-  /// `name` tells it from others of the scene. Throws Error(Fault::limit) where memory lacks.
-  Pixels decode(std::string name, std::string_view bytes, const Place& place);
+  /// `file` tells it from others of the scene: "duck.glb#images[0]". Throws Error(Fault::limit) where memory
+  /// lacks.
+  Pixels decode(std::string file, InsideFile picture, const Place& place);
   void report(Messages& messages) const { unread_.reportUnread(messages, reason_); }
 
  private:

@@ -41,29 +41,6 @@ bool isFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool liesInside(std::string_view picture) { return picture.find('#') != picture.npos; }
-
-Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages) {
-  std::error_code error;
-  const std::filesystem::path target =
-      std::filesystem::absolute(file, error).parent_path().lexically_normal();
-  const bool same = std::filesystem::absolute(scene.file, error).parent_path().lexically_normal() == target;
-  Scene moved = scene;
-  std::size_t nameless = 0;
-  for (Material& material : moved.materials)
-    changePixels(material, [&](Pixels& pixels) {
-      nameless += pixels.map && (pixels.file.empty() || liesInside(pixels.file));
-      if (same || pixels.file.empty() || std::filesystem::path(pixels.file).is_absolute()) return;
-      const std::filesystem::path path =
-          std::filesystem::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();
-      if (std::filesystem::exists(path, error)) pixels.file = path.lexically_relative(target).string();
-    });
-  if (nameless > 0)
-    messages.warn({scene.file, 0, 0, {}},
-                  "pictures that lie inside the file are left out: " + std::to_string(nameless));
-  return moved;
-}
-
 std::shared_ptr<const MipMap> missingPicture() {
   static const auto kMissing = [] {
     Picture checker(8, 8);
@@ -96,15 +73,14 @@ std::string pictureFile(const std::string& from, const std::string& name) {
 void loadTextures(Scene& scene, Messages& messages) {
   std::map<std::string, Loaded> byPath;
   std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
-  for (Material& material : scene.materials)
-    changePixels(material, [&](Pixels& pixels) {
-      if (pixels.map || pixels.file.empty()) return;
-      const auto [found, fresh] = byPath.try_emplace(pictureFile(scene.file, pixels.file));
-      if (!fresh) return;
-      found->second.name = pixels.file;
-      found->second.place = pixels.place;
-      files.push_back(&*found);
-    });
+  changePixels(scene, [&](Pixels& pixels) {
+    if (pixels.map || pixels.file.empty()) return;
+    const auto [found, fresh] = byPath.try_emplace(pictureFile(scene.file, pixels.file));
+    if (!fresh) return;
+    found->second.name = pixels.file;
+    found->second.place = pixels.place;
+    files.push_back(&*found);
+  });
   if (files.empty()) return;
   const Work work("reading the textures", std::ssize(files));
   Job job;
@@ -128,11 +104,10 @@ void loadTextures(Scene& scene, Messages& messages) {
     unread.note(loaded.name, loaded.place.file.empty() ? Place{.file = scene.file} : loaded.place);
   }
   unread.reportUnread(messages, reason);
-  for (Material& material : scene.materials)
-    changePixels(material, [&](Pixels& pixels) {
-      if (pixels.map || pixels.file.empty()) return;
-      pixels.map = byPath.at(pictureFile(scene.file, pixels.file)).map;
-    });
+  changePixels(scene, [&](Pixels& pixels) {
+    if (pixels.map || pixels.file.empty()) return;
+    pixels.map = byPath.at(pictureFile(scene.file, pixels.file)).map;
+  });
 }
 
 void UnusedTextures::note(std::string_view name, const Place& place) {

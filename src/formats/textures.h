@@ -16,21 +16,15 @@
 
 namespace trace {
 
-/// Reads the pictures of the scene's textures, each file once, and notes them in Scene::inputs. One that is
-/// missing or broken is a warning, and a checker in its place. Throws Error(Fault::limit) where memory lacks.
+/// Reads the pictures of the scene's textures and background, each file once, and notes them in
+/// Scene::inputs. One that is missing or broken is a warning, and a checker in its place. Throws
+/// Error(Fault::limit) where memory lacks.
 void loadTextures(Scene& scene, Messages& messages);
 
 /// The path of a picture that the scene file `from` names: beside it, or where else findFile() looks. Names
 /// of other systems, with backslashes, and of folders that are not here are looked for by their last part.
 /// The place beside the scene if there is none.
 std::string pictureFile(const std::string& from, const std::string& name);
-
-/// Whether the name is one of a picture inside a scene's own file: "duck.glb#images[0]", "coin.wrl#11:7".
-bool liesInside(std::string_view picture);
-
-/// The scene with the names of its pictures as `file` finds them, which may lie in another folder. Warns of
-/// those that no other file can have.
-Scene withPicturesSeenFrom(const Scene& scene, const std::string& file, Messages& messages);
 
 /// What nobody takes for the surface that was meant: a checker of magenta and black.
 std::shared_ptr<const MipMap> missingPicture();

@@ -197,6 +197,13 @@ std::string encodePicture(const PictureFormat& format, const Picture& picture, R
   }
 }
 
+std::string encodePng(const Raster& raster) {
+  if (raster.count() > 3 * kMostStbPixels)
+    throw Error(Fault::limit, "a picture of " + std::to_string(raster.width) + "x" +
+                                  std::to_string(raster.height) + " pixels does not fit into PNG");
+  return encodePngByStb(raster);
+}
+
 void writePicture(const std::string& path, const Picture& picture, Rounding rounding,
                   const Metadata& metadata) {
   writeFile(path, encodePicture(pictureFormatFor(path), picture, rounding, metadata));

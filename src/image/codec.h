@@ -56,6 +56,10 @@ void checkEncodable(const PictureFormat& format, int width, int height);
 std::string encodePicture(const PictureFormat& format, const Picture& picture,
                           Rounding rounding = Rounding::truncate, const Metadata& metadata = {});
 
+/// The bytes of a PNG file of the raster, with its transparency. Precondition: its samples are bytes. Throws
+/// Error(Fault::limit) for one that is too large.
+std::string encodePng(const Raster& raster);
+
 /// Encodes by the suffix and writes; the file appears whole or not at all. Throws Error.
 void writePicture(const std::string& path, const Picture& picture, Rounding rounding = Rounding::truncate,
                   const Metadata& metadata = {});

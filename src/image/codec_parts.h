@@ -31,6 +31,8 @@ void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileB
                       const PictureLimits& limits);
 
 std::string encodePngByStb(const Bytes& bytes);
+/// Of a raster whose samples are bytes.
+std::string encodePngByStb(const Raster& raster);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);

@@ -206,6 +206,14 @@ std::string encodePngByStb(const Bytes& b) {
   });
 }
 
+std::string encodePngByStb(const Raster& r) {
+  const auto& samples = std::get<std::vector<std::uint8_t>>(r.samples);
+  return written([&](auto to, void* file) {
+    return stbi_write_png_to_func(to, file, r.width, r.height, r.channels, samples.data(),
+                                  r.channels * r.width);
+  });
+}
+
 std::string encodeBmpByStb(const Bytes& b) {
   return written([&](auto to, void* file) {
     return stbi_write_bmp_to_func(to, file, b.width, b.height, 3, b.rgb.data());

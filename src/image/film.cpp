@@ -43,6 +43,7 @@ Tile Film::tile(std::int64_t index) const {
 
 void Film::add(std::int64_t tile, std::size_t wave, TileSamples samples) {
   TileState& state = states_[static_cast<std::size_t>(tile)];
+  const auto splats = lockSplats();
   const std::lock_guard lock(state.mutex);
   if (wave != state.waves) {
     state.early.emplace(wave, std::move(samples));
@@ -55,6 +56,7 @@ void Film::add(std::int64_t tile, std::size_t wave, TileSamples samples) {
 }
 
 void Film::sum(const Wave& wave, const TileSamples& samples) {
+  if (splats_) splats_->add(samples.splats, samples.paths);
   const Tile& area = samples.area;
   const auto count = static_cast<std::size_t>(wave.count());
   std::size_t at = 0;
@@ -122,7 +124,13 @@ Picture Film::picture() const {
 }
 
 void Film::copyDone(Picture& onto) const {
+  const auto splats = lockSplats();
+  const bool anywhere = splats_ && splats_->paths() > 0;
+  if (anywhere) std::fill(onto.pixels.begin(), onto.pixels.end(), Color(0));
   forEachDone([&](const PixelSum& pixel, int x, int y) { onto.at(x, y) = pixel.mean(); });
+  if (!anywhere) return;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) onto.at(x, y) += splats_->mean(x, y);
 }
 
 Picture Film::layer(std::size_t number) const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "image/picture.h"
+#include "image/splat_plane.h"
 #include "image/srgb.h"
 
 namespace trace {
@@ -103,6 +104,8 @@ struct TileSamples {
   std::vector<Color> colors;               ///< those that are not finite do not count
   std::vector<double> weights{};           ///< of these; empty if all are 1
   std::vector<std::vector<Color>> layers;  ///< the same of each layer; one that is missing stays blank
+  std::vector<Splat> splats{};             ///< anywhere in the picture, where the film takes splats
+  std::int64_t paths = 0;                  ///< that brought them
 };
 
 class Film {
@@ -119,6 +122,11 @@ class Film {
   /// For a picture of that many samples a pixel, or of fewer where PixelSum::settles(noise).
   explicit Film(int width, int height, int samples = 1, std::span<const LayerKind> layers = {},
                 double noise = 0, int tileSize = kTileSize);
+
+  /// From now on light may land anywhere: a pixel is the sum of its samples' mean and of what a path brings
+  /// there on the average. Before anything is added.
+  void takeSplats() { splats_ = std::make_unique<SplatPlane>(width_, height_); }
+  bool takesSplats() const { return splats_ != nullptr; }
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -158,7 +166,7 @@ class Film {
   /// Puts what is there so far over a picture of the same size. From any thread.
   void copyDone(Picture& onto) const;
 
-  /// Bytes that a pixel takes here.
+  /// Bytes that a pixel takes here, without splats.
   static std::uint64_t bytesPerPixel(std::size_t layers) { return sizeof(PixelSum) + layers * sizeof(Color); }
 
  private:
@@ -177,6 +185,10 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
   void sum(const Wave& wave, const TileSamples& samples);
+  /// Nobody adds splats while this lives. To be locked before a tile.
+  std::unique_lock<std::mutex> lockSplats() const {
+    return splats_ ? std::unique_lock(splats_->mutex) : std::unique_lock<std::mutex>();
+  }
   /// Calls use(PixelSum, x, y) for those of every tile that has a wave, which no one changes meanwhile.
   template <class Use>
   void forEachDone(const Use& use) const;
@@ -187,6 +199,7 @@ class Film {
   std::vector<PixelSum> pixels_;
   std::vector<Layer> layers_;
   std::unique_ptr<TileState[]> states_;
+  std::unique_ptr<SplatPlane> splats_;  ///< null where none are taken
 };
 
 }  // namespace trace

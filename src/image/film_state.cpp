@@ -77,8 +77,18 @@ class FilmState {
     mean.weightsAbove_ = alike ? mean.weights_ : from.take<double>();
   }
 
+  static void put(Writer& to, const SplatPlane& splats) {
+    to.put(splats.paths_);
+    for (const SplatPlane::Sum& sum : splats.sums_) to.put(sum);
+  }
+  static void take(Reader& from, SplatPlane& splats) {
+    splats.paths_ = from.take<std::int64_t>();
+    for (SplatPlane::Sum& sum : splats.sums_) sum = from.take<SplatPlane::Sum>();
+  }
+
   static std::string saved(const Film& film) {
     Writer to;
+    const auto splats = film.lockSplats();
     to.put(kMark);
     to.put(film.width_);
     to.put(film.height_);
@@ -86,6 +96,8 @@ class FilmState {
     to.put(static_cast<std::uint32_t>(film.layers_.size()));
     to.put(static_cast<std::uint32_t>(film.waves_.size()));
     for (const Wave& wave : film.waves_) to.put(wave.end);
+    to.put(static_cast<std::uint8_t>(film.takesSplats()));
+    if (film.takesSplats()) put(to, *film.splats_);
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       const Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       const std::lock_guard lock(state.mutex);
@@ -122,6 +134,8 @@ class FilmState {
                                std::to_string(asked) + " that are asked for");
     for (const Wave& wave : wavesOf(asked, there)) waves.push_back(wave);
     film.waves_ = std::move(waves);
+    from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
+    if (film.takesSplats()) take(from, *film.splats_);
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       state.waves = from.take<std::uint32_t>();
@@ -143,6 +157,7 @@ class FilmState {
     for (Film::Layer& layer : film.layers_)
       std::fill(layer.sums.pixels.begin(), layer.sums.pixels.end(), Color(0));
     for (std::int64_t i = 0; i < film.tiles(); ++i) film.states_[static_cast<std::size_t>(i)].waves = 0;
+    if (film.takesSplats()) film.takeSplats();
   }
 };
 

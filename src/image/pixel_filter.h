@@ -36,6 +36,9 @@ class PixelFilter {
   /// Every place in the pixel counts the same, and no other.
   bool isPixel() const { return isPixel_; }
 
+  /// The size of all weights: the integral of the filter's absolute value over that of the filter.
+  Real weight() const { return weight_ * weight_; }
+
   /// A place relative to the pixel's centre, in pixels, for two numbers from 0 up to 1. They are as dense as
   /// the filter is far from 0; the weight has its sign, and a mean of 1.
   FilmSample sample(const Vec2& u) const;

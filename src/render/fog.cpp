@@ -87,7 +87,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
     Sampler chances = numbers.branch(kLamp);
     const Real which = chances.next();
     if (const auto lamp = lamps->choose(point, which, chances.next2())) {
-      const Color seen = lamps->look(tracer, {point, lamp->toLight}, *lamp, inside);
+      const Color seen = lamps->look(tracer, {point, lamp->toLight}, *lamp, inside, tracer.chance(chances));
       sum.add(Term::Kind::fog, share * (fog.phase(ray.direction, lamp->toLight) / lamp->density), seen);
     }
   }

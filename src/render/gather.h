@@ -62,6 +62,10 @@ class Gather {
   void note(const Indices& indices) {
     if (Tracer::recorded(node_)) tracer_.record(node_, indices);
   }
+  /// Notes Interaction::raised().
+  void note(const std::optional<Vec3>& raised) {
+    if (Tracer::recorded(node_)) tracer_.record(node_, raised);
+  }
   /// Notes why a ray is not sent on: one of RayEnd.
   template <class Why>
   void stop(const Why& why) {

@@ -29,11 +29,12 @@ struct Hit {
   std::uint32_t object;  ///< index into Scene::objects
   std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle
   SurfacePoint surface;
-  MaterialMix materials;
-  bool leaving;   ///< the ray comes from inside: it runs along the true normal
-  bool twoSided;  ///< the surface is shaded from both sides
-  bool convex;    ///< the object is
-  bool solid;     ///< it encloses space
+  Real opacity = 1;       ///< share of the surface that is there
+  MaterialMix materials;  ///< of that share
+  bool leaving;           ///< the ray comes from inside: it runs along the true normal
+  bool twoSided;          ///< the surface is shaded from both sides
+  bool convex;            ///< the object is
+  bool solid;             ///< it encloses space
 };
 
 /// The Bsdf of a place, which may be made for it. Lives no longer than the World.

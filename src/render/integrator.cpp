@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "render/integrators/cost.h"
 #include "render/integrators/normals.h"
 #include "render/integrators/occlusion.h"
 #include "render/integrators/path.h"
@@ -19,20 +20,31 @@ constexpr std::array kTable{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
     IntegratorRow{IntegratorKind::path, "path", "paths by chance: light that bounces between surfaces",
-                  make<PathTracer, true>},
+                  make<PathTracer, PathTracer::Light::bounced>},
     IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: lights and lamps straight",
-                  make<PathTracer, false>},
+                  make<PathTracer, PathTracer::Light::straight>},
+    IntegratorRow{IntegratorKind::mlt, "mlt", "path, led by chains that look around where light was found",
+                  make<PathTracer, PathTracer::Light::bounced>, true},
+    IntegratorRow{IntegratorKind::photon, "photon",
+                  "path with one bounce, and photons for the light that it meets",
+                  make<PathTracer, PathTracer::Light::photons>},
     IntegratorRow{IntegratorKind::occlusion, "occlusion", "how open every place is, as of white clay",
                   make<Occlusion>},
     IntegratorRow{IntegratorKind::normals, "normals", "where surfaces face, as colours", make<Normals>},
+    IntegratorRow{IntegratorKind::cost, "cost", "how much work whitted has with each place, as colours",
+                  make<Cost>},
 };
 
 }  // namespace
 
 std::span<const IntegratorRow> integrators() { return kTable; }
 
+const IntegratorRow& rowOf(const Settings& settings) {
+  return kTable[static_cast<std::size_t>(settings.integrator)];
+}
+
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {
-  auto integrator = kTable[static_cast<std::size_t>(settings.integrator)].make(settings);
+  auto integrator = rowOf(settings).make(settings);
   integrator->prepare(world, settings, job);
   return integrator;
 }

@@ -32,6 +32,9 @@ class Integrator {
   /// be cancelled.
   virtual void prepare(const World&, const Settings&, Job&) {}
 
+  /// It looks at Hit::opacity; for others chance decides whether a ray meets what is there in part.
+  virtual bool weighsHoles() const { return false; }
+
   /// The radiance that arrives along the camera ray, which is the one cast last.
   virtual Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const = 0;
 };
@@ -48,9 +51,11 @@ struct IntegratorRow {
   std::string_view name;
   std::string_view help;
   std::unique_ptr<Integrator> (*make)(const Settings& settings);
+  bool byChains = false;  ///< Markov chains choose the samples: a pixel has none of its own
 };
 
 std::span<const IntegratorRow> integrators();
+const IntegratorRow& rowOf(const Settings& settings);
 
 /// That of the settings, prepared.
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job);

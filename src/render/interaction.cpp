@@ -37,6 +37,7 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
   fresnel_ = straight                                 ? Fresnel::constant
              : material.passage == Passage::byFresnel ? Fresnel::exact
                                                       : settings.fresnel;
+  if (settings.smoothTerminator && !transmits && !material.litThrough) raise(turned);
   whole_.nanometres = inside.wavelength;
   const auto disperses = [](const Sides& sides) {
     return !sides.before.dispersion.none() || !sides.behind.dispersion.none();
@@ -46,22 +47,37 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
     fan_ = spectralFan(settings.wavelengths, spread);
 }
 
+/// From the hit straight to the raised place nothing may be met: so no light comes through what stands there,
+/// and none into a closed body.
+void Interaction::raise(bool turned) {
+  const std::optional<SurfacePoint> place = tracer.world().raised(hit, turned);
+  if (!place) return;
+  constexpr Real kRounding = 0x1p-20;
+  const Vec3 outward = turned ? -hit.surface.normal : hit.surface.normal;
+  const Vec3 from = offsetPoint(hit.surface, outward), to = offsetPoint(*place, outward);
+  const std::optional<Found> met = tracer.look({from, to - from}, RayKind::shadow);
+  if (!met || met->t > 1 + kRounding) raised_ = to;
+}
+
 void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
+  const Vec3& from = lightPlace();
   const bool foggy = tracer.settings().fog > 0;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
     const auto light = [&](const Vec2& place, Real share) {
-      auto arriving = world.illuminate(i, hit.surface.point, place);
+      auto arriving = world.illuminate(i, from, place);
       if (!arriving) return;
       if (foggy)
-        arriving->attenuation *=
-            Fog(tracer.settings()).left({hit.surface.point, arriving->toLight}, arriving->distance);
+        arriving->attenuation *= Fog(tracer.settings()).left({from, arriving->toLight}, arriving->distance);
       Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
       parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;
-      const Color passed = isBlack(scattered) ? Color(0)
-                                              : tracer.visible(hit, arriving->toLight, arriving->distance,
-                                                               inside, material.litThrough);
+      Color passed;
+      if (!isBlack(scattered)) {
+        Ray ray = leaveToLight(arriving->toLight);
+        if (material.litThrough) ray.leaves = hit.object;  // it is not in its own way
+        passed = tracer.visible(hit, ray, arriving->distance, inside);
+      }
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
       if (material.shadow < 1)
         sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
@@ -80,15 +96,17 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
 
 void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays,
                           const Sampler& sampler) const {
-  constexpr std::uint32_t kOpen = 0x7ffffffeu;  // a branch of the place's numbers
+  constexpr std::uint32_t kOpen = 0x7ffffffeu, kHoles = 0x7ffffffcu;  // branches of the place's numbers
   const Vec2 first = sampler.branch(kOpen).next2();
   const Basis basis = Frame{normal}.basis();
   const Real reach = tracer.settings().occlusionReach;
+  Sampler chances = sampler.branch(kHoles);
   for (int n = 0; n < rays; ++n) {
     const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
     const Vec3 direction = basis.toWorld(cosineDirection(u));
     Interfaces there = inside;
-    const std::optional<Hit> met = tracer.cast(hit.leave(direction), RayKind::bounce, there);
+    const std::optional<Hit> met =
+        tracer.cast(leaveToLight(direction), RayKind::bounce, there, tracer.chance(chances));
     Color open;
     {
       Gather beyond(tracer, 1);
@@ -100,6 +118,23 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
     }
     sum.add(kind, factor * (1.0 / rays), open);
   }
+}
+
+void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const {
+  if (photons.empty() || !scatters(*bsdf_)) return;
+  const Vec3& flat = hit.surface.normal;
+  const PhotonMap::Near near = photons.near(hit.surface.point, facing() > 0 ? flat : -flat);
+  Color light;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < near.count; ++i) {
+    const Vec3 toLight = -near.photons[i]->direction;
+    const Real lit = dot(toLight, normal);
+    if (!(lit > 0)) continue;
+    const Scatter parts = scatter(*bsdf_, frame, toLight, -ray.direction);
+    light += near.photons[i]->power * (all ? parts.sum() : parts.diffuse) * (near.perArea(i) / (kPi * lit));
+    ++count;
+  }
+  if (count > 0) sum.add(kind, light * (1 - coat), PhotonTerm{count, std::sqrt(near.radius2)});
 }
 
 Real Interaction::mirroredShare(const SpectralShare& share) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/gather.h"
+#include "render/photon_map.h"
 #include "render/sampler.h"
 #include "shading/dispersion.h"
 
@@ -28,6 +29,19 @@ class Interaction {
 
   // --- light that arrives from elsewhere ---
 
+  /// Where rays to light start that do not start at the hit: with Settings::smoothTerminator the place on the
+  /// smooth surface that a mesh stands for. Light that arrives is asked for there.
+  const std::optional<Vec3>& raised() const { return raised_; }
+  const Vec3& lightPlace() const { return raised_ ? *raised_ : hit.surface.point; }
+  Ray leaveToLight(const Vec3& direction) const {
+    return raised_ ? Ray{*raised_, direction} : hit.leave(direction);
+  }
+  /// A direction on the side that light is seen on, which the normals between vertices have turned into the
+  /// surface.
+  bool isAstray(const Vec3& direction) const {
+    return !raised_ && dot(direction, hit.surface.normal) * facing() < 0;
+  }
+
   /// Adds what arrives of each light of the scene, by shadow rays, and is scattered to where the ray comes
   /// from. Lights with a size are asked for Settings::lightSamples of their places.
   void addLights(Gather& sum, const Sampler& sampler) const;
@@ -36,6 +50,10 @@ class Interaction {
   /// directions are spread by the cosine to the normal: what they meet within Settings::occlusionReach closes
   /// it.
   void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
+
+  /// Adds the light of the nearest photons of the map that is scattered to where the ray comes from: the
+  /// diffuse part of it, or all.
+  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const;
 
   // --- rays that go on in one direction ---
 
@@ -75,6 +93,7 @@ class Interaction {
 
  private:
   Real mirroredShare(const SpectralShare& share) const;
+  [[gnu::noinline]] void raise(bool turned);
 
   /// What fills the body, and both sides of its surface.
   struct Boundary {
@@ -83,6 +102,7 @@ class Interaction {
   };
   std::optional<Boundary> boundary_;  ///< where somebody asks for it
   Fresnel fresnel_;
+  std::optional<Vec3> raised_;
   SpectralShare whole_{0, Color(1)};
   std::vector<SpectralShare> fan_;
 };

@@ -10,6 +10,7 @@
 #include "math/warp.h"
 #include "render/fog.h"
 #include "render/gather.h"
+#include "shading/scattering.h"
 
 namespace trace {
 namespace {
@@ -63,6 +64,19 @@ void Lamps::add(const Part& part, const Color& emissive) {
   parts_.push_back(part);
   const Real area = part.kind == Part::Kind::sphere ? kSphere * part.size * part.size : part.size;
   parts_.back().share = area * luminanceOf(emissive);
+  const Real sides = part.kind == Part::Kind::sphere ? 1 : 2;
+  power_ += kPi * sides * parts_.back().share;
+}
+
+std::size_t Lamps::partOf(Real which) const {
+  const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
+  return std::min<std::size_t>(static_cast<std::size_t>(found - sums_.begin()), parts_.size() - 1);
+}
+
+Vec3 Lamps::placeOn(const Part& part, const Vec2& u) {
+  Vec2 v = u;
+  if (part.kind == Part::Kind::triangle) v = {1 - std::sqrt(u.x), u.y * std::sqrt(u.x)};
+  return part.origin + part.edgeA * v.x + part.edgeB * v.y;
 }
 
 Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
@@ -88,9 +102,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     return Place{kNone, 0, toLight, density};
   }
   which = (which - skyShare) / (1 - skyShare);
-  const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
-  const auto number =
-      std::min<std::size_t>(static_cast<std::size_t>(found - sums_.begin()), parts_.size() - 1);
+  const std::size_t number = partOf(which);
   const Part& part = parts_[number];
   const std::uint64_t inObject = number - first_[part.object];
   Vec3 toLight;
@@ -101,14 +113,31 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     if (!(away2 > radius2)) return {};  // from inside it is met by chance
     toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
   } else {
-    Vec2 v = u;
-    if (part.kind == Part::Kind::triangle) v = {1 - std::sqrt(u.x), u.y * std::sqrt(u.x)};
-    at = part.origin + part.edgeA * v.x + part.edgeB * v.y;
+    at = placeOn(part, u);
     toLight = normalize(at - from);
   }
   const Real density = (1 - skyShare) * part.share * part.density(from, at);
   if (!(density > 0)) return {};
   return Place{part.object, inObject, toLight, density};
+}
+
+std::optional<Lamps::Start> Lamps::start(Real which, const Vec2& u) const {
+  if (parts_.empty()) return {};
+  const Part& part = parts_[partOf(which)];
+  if (part.kind == Part::Kind::sphere) {
+    const Vec3 normal = sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y);
+    const Real area = kSphere * part.size * part.size;
+    return Start{part.object, part.origin + normal * part.size, normal, false, part.size, part.share / area};
+  }
+  if (!(part.size > 0)) return {};
+  const Vec3 normal = normalize(cross(part.edgeA, part.edgeB));
+  return Start{part.object, placeOn(part, u), normal, true, std::sqrt(part.size), part.share / part.size};
+}
+
+Lamps::SkyStart Lamps::startOfSky(const Vec2& u) const {
+  if (sky_.empty()) return {sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y), 1 / kSphere};
+  const Vec3 toLight = sky_.choose(u);
+  return {toLight, sky_.density(toLight)};
 }
 
 Real Lamps::density(const Vec3& from, const Hit& hit) const {
@@ -125,8 +154,8 @@ bool Lamps::met(const Place& place, const Hit& hit) const {
   return hit.object == place.object && (!mesh || hit.part == place.part);
 }
 
-Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside) const {
-  const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside);
+Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const {
+  const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside, chance);
   Gather light(tracer, 1);
   if (!hit) {
     if (place.object == kNone) {

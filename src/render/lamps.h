@@ -38,8 +38,28 @@ class Lamps {
   Real density(const Vec3& direction) const {
     return sky_.empty() ? 0 : skyShare() * sky_.density(direction);
   }
+  /// Where a photon of an object that shines starts.
+  struct Start {
+    std::uint32_t object;
+    Vec3 point, normal;  ///< unit
+    bool twoSided;       ///< it shines on the other side, too
+    Real size;           ///< of the part: a length
+    Real density;        ///< of the place, per area of one side
+  };
+  /// By three numbers from 0 up to 1. Nothing where no object shines.
+  std::optional<Start> start(Real which, const Vec2& u) const;
+  /// What all of these objects send out: the luminance of their flux.
+  Real power() const { return power_; }
+  /// Where a photon of what is around comes from.
+  struct SkyStart {
+    Vec3 toLight;
+    Real density;  ///< per solid angle
+  };
+  SkyStart startOfSky(const Vec2& u) const;
+
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
-  Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside) const;
+  /// `chance` is Tracer::chance().
+  Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const;
 
  private:
   /// A triangle, a parallelogram or a sphere, in world space.
@@ -54,6 +74,10 @@ class Lamps {
     Real density(const Vec3& from, const Vec3& at) const;
   };
   void add(const Part& part, const Color& emissive);
+  /// That of the number from 0 up to 1.
+  std::size_t partOf(Real which) const;
+  /// Where two numbers from 0 up to 1 lie on a flat part.
+  static Vec3 placeOn(const Part& part, const Vec2& u);
   /// How often what is around is chosen.
   Real skyShare() const { return sky_.empty() ? 0 : parts_.empty() ? 1 : 0.5; }
   /// Whether the ray to the place met it.
@@ -61,6 +85,7 @@ class Lamps {
 
   SkyTable sky_;
   std::vector<Part> parts_;
+  Real power_ = 0;
   std::vector<Real> sums_;            ///< of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp
   static constexpr std::uint32_t kNone = 0xffffffffu;

@@ -16,7 +16,8 @@ Color lookUp(const Picture& p, const Vec2& place) {
   return lerp(y - y0, lerp(x - x0, p.at(x0, y0), p.at(x1, y0)), lerp(x - x0, p.at(x0, y1), p.at(x1, y1)));
 }
 
-Vec2 fromTopLeft(const Vec2& fromBottomLeft) { return {fromBottomLeft.x, 1 - fromBottomLeft.y}; }
+/// From the bottom left, and the other way about.
+Vec2 fromTopLeft(const Vec2& place) { return {place.x, 1 - place.y}; }
 
 Real elevationOf(const Vec3& d) { return std::atan2(d.y, std::hypot(d.x, d.z)) * 180 / kPi; }
 
@@ -33,25 +34,44 @@ Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame
   if (settings.environmentRotation == 0) turn_ = {1, 0};
   if (background_.elevations.size() != background_.gradient.size()) background_.elevations.clear();
   if (background_.turbidity > 0) daylight_.emplace(background_.turbidity, background_.sun);
-  allAround_ = environment_                   ? Source::environment
-               : daylight_                    ? Source::sky
-               : background_.gradient.empty() ? Source::nothing
-                                              : Source::gradient;
+  sky_ = environment_                   ? Source::environment
+         : daylight_                    ? Source::sky
+         : background_.gradient.empty() ? Source::nothing
+                                        : Source::gradient;
+  const auto faces = background_.faces();
+  panorama_ =
+      !environment_ && std::any_of(faces.begin(), faces.end(), [](const Pixels* p) { return p->map; });
+}
+
+Vec3 Outside::turnedBack(const Vec3& d) const {
+  return {turn_.x * d.x - turn_.y * d.z, d.y, turn_.y * d.x + turn_.x * d.z};
 }
 
 Outside::View Outside::view(const Ray& ray, RayKind kind) const {
+  const bool camera = kind == RayKind::camera;
+  if (camera && backdrop_) return seen(Source::backdrop, ray);
+  const Source behind = camera && sky_ == Source::nothing ? Source::bands : sky_;
+  if (!panorama_) return seen(behind, ray);
+
+  const EnvironmentMap::Spot spot = EnvironmentMap::cubeSpot(turnedBack(ray.direction));
+  const Pixels& face = *background_.faces()[static_cast<std::size_t>(spot.face)];
+  const Texel texel =
+      face.map ? face.map->at(fromTopLeft(spot.uv), {.u = Wrap::clamp, .v = Wrap::clamp}) : Texel{.alpha = 0};
+  if (texel.alpha <= 0) return seen(behind, ray);
+  View view{.source = Source::panorama, .place = spot.uv, .face = spot.face, .direction = ray.direction};
+  view.color = texel.color * brightness_;
+  if (texel.alpha < 1) view.color = lerp(texel.alpha, seen(behind, ray).color, view.color);
+  return view;
+}
+
+Outside::View Outside::seen(Source source, const Ray& ray) const {
   const Vec3& direction = ray.direction;
   View view;
+  view.source = source;
   view.direction = direction;
-  const bool camera = kind == RayKind::camera;
-  view.source = camera && backdrop_                       ? Source::backdrop
-                : camera && allAround_ == Source::nothing ? Source::bands
-                                                          : allAround_;
-  const auto turnedBack = [&](const Vec3& d) {  // against the rotation
-    return Vec3{turn_.x * d.x - turn_.y * d.z, d.y, turn_.y * d.x + turn_.x * d.z};
-  };
   switch (view.source) {
-    case Source::nothing: break;
+    case Source::nothing:
+    case Source::panorama: break;
     case Source::backdrop:
       view.place = fromTopLeft(camera_.placeOf(ray));
       view.color = lookUp(*backdrop_, view.place);
@@ -96,7 +116,8 @@ std::string sentence(const Outside::View& view) {
       std::snprintf(text, sizeof text, "%s at %.4g degrees above the horizon", name, view.place.y);
       return text;
     case Outside::Source::backdrop:
-    case Outside::Source::environment: break;
+    case Outside::Source::environment:
+    case Outside::Source::panorama: break;
   }
   const std::string face =
       view.face < 0

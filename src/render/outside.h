@@ -1,7 +1,10 @@
 // What rays see that meet nothing. What lies nearer hides what lies behind it:
 //
-//   camera rays: the backdrop, the environment, the sky by day, the gradient, the bands of colour
-//   other rays:               the environment, the sky by day, the gradient; or nothing, which is black
+//   camera rays: the backdrop, the environment, the panorama, the sky by day, the gradient, the bands
+//   other rays:               the environment, the panorama, the sky by day, the gradient; or nothing: black
+//
+// The panorama is the six pictures of the scene's background; where there is none, and through their
+// transparency, what lies behind is seen.
 #pragma once
 
 #include <array>
@@ -18,8 +21,8 @@ namespace trace {
 
 class Outside {
  public:
-  enum class Source { nothing, backdrop, environment, sky, gradient, bands };
-  static constexpr std::array<std::string_view, 6> kNames{"nothing", "backdrop", "environment",
+  enum class Source { nothing, backdrop, environment, panorama, sky, gradient, bands };
+  static constexpr std::array<std::string_view, 7> kNames{"nothing", "backdrop", "environment", "panorama",
                                                           "sky",     "gradient", "bands"};
   /// What one ray sees.
   struct View {
@@ -37,18 +40,26 @@ class Outside {
   Outside(const Scene& scene, const Settings& settings, const CameraFrame& camera);
 
   /// Rays of the kind see something there, though it may be black.
-  bool isSeenBy(RayKind kind) const { return kind == RayKind::camera || allAround_ != Source::nothing; }
+  bool isSeenBy(RayKind kind) const {
+    return kind == RayKind::camera || panorama_ || sky_ != Source::nothing;
+  }
   /// Its direction has length 1.
   View view(const Ray& ray, RayKind kind) const;
 
  private:
+  /// What the ray sees of that source.
+  View seen(Source source, const Ray& ray) const;
+  /// Against the rotation.
+  Vec3 turnedBack(const Vec3& direction) const;
+
   CameraFrame camera_{};
   Background background_;
   std::shared_ptr<const Picture> backdrop_;
   std::shared_ptr<const EnvironmentMap> environment_;
   std::optional<Daylight> daylight_;
-  Source allAround_ = Source::nothing;
-  Vec2 turn_{1, 0};  ///< cosine and sine of the rotation
+  bool panorama_ = false;         ///< there is one, and no environment before it
+  Source sky_ = Source::nothing;  ///< what else is all around: at most one of the rest
+  Vec2 turn_{1, 0};               ///< cosine and sine of the rotation
   Real brightness_ = 1;
 };
 

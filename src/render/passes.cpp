@@ -8,6 +8,7 @@
 
 #include "image/false_color.h"
 #include "math/box.h"
+#include "render/integrator.h"
 #include "render/render.h"
 
 namespace trace {
@@ -116,7 +117,10 @@ Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Film::LayerKind> layers;
   for (const PassRow* row : passesOf(settings))
     layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
-  return Film(width, height, samplesOf(settings), layers, settings.noiseTarget);
+  const bool chains = rowOf(settings).byChains;
+  Film film(width, height, samplesOf(settings), layers, chains ? 0 : settings.noiseTarget);
+  if (chains) film.takeSplats();
+  return film;
 }
 
 }  // namespace trace

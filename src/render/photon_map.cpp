@@ -7,8 +7,11 @@
 
 namespace trace {
 
-PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach)
-    : photons_(std::move(photons)), axes_(photons_.size()), reach2_(reach * reach) {
+PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness)
+    : photons_(std::move(photons)),
+      axes_(photons_.size()),
+      reach2_(reach * reach),
+      steepness_(flatness * flatness - 1) {
   build(0, photons_.size());
 }
 
@@ -39,13 +42,14 @@ struct PhotonMap::Search {
 
   const Vec3& point;
   const Vec3& normal;
+  Real steepness;
   Real most2;  ///< what is farther does not count
   std::array<Entry, kNearest> heap{};
   std::size_t count = 0;
 
   void take(const Photon& photon) {
     const Vec3 way = photon.point - point;
-    const Real distance2 = dot(way, way);
+    const Real height = dot(way, normal), distance2 = dot(way, way) + steepness * (height * height);
     constexpr Real kAlike = 0.8;  // of normals on one surface
     if (!(distance2 < most2) || dot(photon.normal, normal) < kAlike) return;
     if (count == kNearest) std::pop_heap(heap.begin(), heap.begin() + count--);
@@ -67,7 +71,7 @@ void PhotonMap::search(std::size_t first, std::size_t end, Search& s) const {
 }
 
 PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal) const {
-  Search s{point, normal, reach2_};
+  Search s{point, normal, steepness_, reach2_};
   search(0, photons_.size(), s);
   Near result;
   result.count = s.count;

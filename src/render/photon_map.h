@@ -24,8 +24,9 @@ class PhotonMap {
   static constexpr std::size_t kNearest = 64;  ///< photons of an estimate
 
   PhotonMap() = default;
-  /// Photons farther than `reach` away count nowhere.
-  PhotonMap(std::vector<Photon> photons, Real reach);
+  /// Photons farther than `reach` away count nowhere. Distances along the normal count `flatness` times more:
+  /// what lies above a surface or below it is of another one.
+  PhotonMap(std::vector<Photon> photons, Real reach, Real flatness = 1);
 
   bool empty() const { return photons_.empty(); }
   std::span<const Photon> photons() const { return photons_; }
@@ -52,6 +53,7 @@ class PhotonMap {
   std::vector<Photon> photons_;     ///< a subtree's middle one splits it
   std::vector<std::uint8_t> axes_;  ///< across which it does
   Real reach2_ = 0;
+  Real steepness_ = 0;  ///< flatness^2 - 1
 };
 
 }  // namespace trace

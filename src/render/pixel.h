@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "image/film.h"
 #include "render/footprint.h"
 #include "render/integrator.h"
 #include "render/outline.h"
@@ -38,23 +40,33 @@ class PixelTracer {
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    now_ = momentOf(sampler);
-    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
-    Tracer& tracer = tracers_[now_];
-    const World& world = tracer.world();
-    const CameraFrame& frame = world.camera();
-    const auto [drawn, weight] = sampler.film();
-    const Vec2 place = frame.inEyeOf(rules_.middle(x, y), drawn);
-    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
-    const Ray ray = frame.ray(place, lens);
-    Footprint differentials;
-    if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
-    Interfaces inside = tracer.interfacesAt(ray.origin);
-    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside), std::move(inside), weight,
-                     differentials.get()};
-    if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
-    look(camera);
-    return moments_[now_].integrator->radiance(tracer, sampler, camera);
+    return withCamera(sampler, rules_.middle(x, y), sampler.film(), [&](const CameraRay& camera) {
+      look(camera);
+      return radiance(sampler, camera);
+    });
+  }
+  /// The camera ray alone.
+  template <class Look>
+  void look(int x, int y, int k, Look&& look) {
+    const Sampler sampler(rules_, x, y, k);
+    withCamera(sampler, rules_.middle(x, y), sampler.film(), look);
+  }
+  /// Of a sample with these numbers, which choose its place in the area of the picture, too: what it brings,
+  /// times what it counts, and where.
+  Splat sample(SampleNumbers& numbers, const Tile& area) {
+    const Sampler sampler(rules_, numbers);
+    const auto split = [](Real u, int first, int end) {  // into a pixel and a place in it
+      const Real at = u * (end - first);
+      const int pixel = std::min(static_cast<int>(at), end - first - 1);
+      return std::pair(first + pixel, at - pixel);
+    };
+    const Vec2 u = sampler.branch(Sampler::kFilm).next2();
+    const auto [x, withinX] = split(u.x, area.x0, area.x1);
+    const auto [y, withinY] = split(u.y, area.y0, area.y1);
+    const FilmSample place = rules_.film(x, y, 0, {withinX, withinY});
+    return withCamera(sampler, rules_.middle(x, y), place, [&, x = x, y = y](const CameraRay& camera) {
+      return Splat{x, y, radiance(sampler, camera) * (camera.weight * rules_.filterWeight())};
+    });
   }
 
   /// Of the moment of the last sample.
@@ -67,6 +79,32 @@ class PixelTracer {
   }
 
  private:
+  /// Calls use(CameraRay) for the ray of a place of the picture, which counts for the pixel of that middle.
+  template <class Use>
+  std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,
+                                                                const FilmSample& drawn, const Use& use) {
+    now_ = momentOf(sampler);
+    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
+    Tracer& tracer = tracers_[now_];
+    const World& world = tracer.world();
+    const CameraFrame& frame = world.camera();
+    const Vec2 place = frame.inEyeOf(middle, drawn.place);
+    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
+    const Ray ray = frame.ray(place, lens);
+    Footprint differentials;
+    if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
+    Interfaces inside = tracer.interfacesAt(ray.origin);
+    const bool weighs = moments_[now_].integrator->weighsHoles();
+    const Real chance = weighs ? 0 : tracer.chance(sampler.branch(Sampler::kHole));
+    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
+                     differentials.get()};
+    if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
+    return use(camera);
+  }
+  Color radiance(const Sampler& sampler, const CameraRay& camera) {
+    return moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+  }
+
   /// The moment that a sample sees.
   std::size_t momentOf(const Sampler& sampler) const {
     if (moments_.size() == 1) return 0;

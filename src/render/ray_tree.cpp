@@ -164,6 +164,8 @@ std::string sentence(const Ignored& ignored, const Scene& scene) {
   const Filling &body = ignored.body, &around = ignored.around;
   std::string text = (ignored.leaving ? "leaving " : "entering ") + objectName(scene, ignored.object) +
                      " at distance " + shortText(ignored.t, 6) + ": ";
+  if (ignored.opacity < 1)
+    return text + (ignored.opacity > 0 ? "its opacity there is " + shortText(ignored.opacity, 3) : "a hole");
   if (around.object == ignored.object || around.kind == body.kind)
     return text + "the same material on both sides";
   text += "it is " + fillingName(scene, around.object) + " on both sides, ";

@@ -127,20 +127,23 @@ struct Term {
     ambient,
     light,
     caustic,
+    photons,
     reflection,
     refraction,
     bounce,
     lamp,
     background,
     fog,
+    hole,
     outline
   };
-  static constexpr std::array<std::string_view, 11> kNames{"emissive",   "ambient",    "light",  "caustic",
-                                                           "reflection", "refraction", "bounce", "lamp",
-                                                           "background", "fog",        "outline"};
+  static constexpr std::array<std::string_view, 13> kNames{
+      "emissive", "ambient", "light",      "caustic", "photons", "reflection", "refraction",
+      "bounce",   "lamp",    "background", "fog",     "hole",    "outline"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
-    return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce);
+    return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
+                        kind == Kind::hole);
   }
   Kind kind;
   Color factor, value;
@@ -150,14 +153,16 @@ struct Term {
   std::optional<PhotonTerm> photons{};
 };
 
-/// A surface at which nothing changes for light, by the rule of nested glass: the ray went on.
+/// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of
+/// nested glass.
 struct Ignored {
   std::uint32_t object = 0;
   std::uint64_t part = 0;
   Real t = 0;
   bool leaving = false;
-  Filling body;    ///< whose surface it is
-  Filling around;  ///< what fills the place on both sides
+  Real opacity = 1;  ///< of a hole, or of what is there in part and was not met: less than 1
+  Filling body{};    ///< whose surface it is
+  Filling around{};  ///< what fills the place on both sides
 };
 
 /// A surface that a shadow ray went through.
@@ -179,6 +184,7 @@ struct RayNode {
   std::vector<MaterialShare> materials;  ///< of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there
+  std::optional<Vec3> raised;            ///< where rays from there to light start, if not at the hit
   std::vector<Ignored> ignored;          ///< on the way there, in order
   Real wavelength = 0;                   ///< in nanometres; 0: light of all colours
   std::vector<Term> terms;

@@ -11,34 +11,54 @@
 #include <tuple>
 
 #include "base/budget.h"
+#include "math/noise.h"
+#include "render/metropolis.h"
 #include "render/passes.h"
 #include "render/pixel.h"
 
 namespace trace {
 namespace {
 
+Tile intersection(const Tile& a, const Tile& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
 /// Takes the samples of tiles; what a worker does.
 class TileRenderer {
  public:
-  /// `interrupt` may throw GivenUp.
+  /// `chains`, if any, bring the light. `interrupt` may throw GivenUp.
   TileRenderer(std::span<const Moment> moments, const Settings& settings, const Film& film,
-               std::function<void()> interrupt)
+               const Metropolis* chains, std::function<void()> interrupt)
       : budget_(std::move(interrupt)),
         tracer_(moments, settings, {film.width(), film.height()}),
-        region_(settings.region),
+        area_(areaOf(settings.region, {film.width(), film.height()})),
         passes_(passesOf(settings)),
-        film_(film) {
+        film_(film),
+        chains_(chains) {
     if (film.layers() != passes_.size()) passes_.clear();
+    if (chains_) chainTracer_.emplace(chains_->tracer());
   }
 
-  TileSamples take(const Tile& tile, const Wave& wave) {
+  TileSamples take(std::int64_t tile, const Wave& wave) {
     const BudgetScope scope(&budget_);
-    TileSamples samples{
-        .area = tile, .colors = {}, .layers = std::vector<std::vector<Color>>(passes_.size())};
-    Tile& area = samples.area;
-    if (!region_.whole())
-      area = {std::max(area.x0, region_.x0), std::max(area.y0, region_.y0), std::min(area.x1, region_.x1),
-              std::min(area.y1, region_.y1)};
+    TileSamples samples{.area = intersection(film_.tile(tile), area_),
+                        .colors = {},
+                        .layers = std::vector<std::vector<Color>>(passes_.size())};
+    chains_ ? takeChain(tile, wave, samples) : takePixels(wave, samples);
+    return samples;
+  }
+
+  Statistics statistics() const {
+    Statistics sum = tracer_.statistics();
+    if (chainTracer_) sum += chainTracer_->statistics();
+    sum.badSamples = badCount_;
+    return sum;
+  }
+  std::vector<BadSample>& badSamples() { return bad_; }
+
+ private:
+  void takePixels(const Wave& wave, TileSamples& samples) {
+    const Tile& area = samples.area;
     const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
     samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
     for (int y = area.y0; y < area.y1; ++y)
@@ -56,17 +76,24 @@ class TileRenderer {
           if (!isFinite(color)) noteBad({x, y, k});
         }
       }
-    return samples;
   }
 
-  Statistics statistics() const {
-    Statistics sum = tracer_.statistics();
-    sum.badSamples = badCount_;
-    return sum;
+  /// One chain of as many samples; of the tile's own pixels only the passes are seen.
+  void takeChain(std::int64_t tile, const Wave& wave, TileSamples& samples) {
+    const Tile& area = samples.area;
+    const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
+    samples.paths = std::int64_t{pixels} * wave.count();
+    samples.colors.assign(static_cast<std::size_t>(samples.paths), Color(0));
+    const auto number =
+        mixBits(static_cast<std::uint64_t>(tile) << 32 | static_cast<std::uint32_t>(wave.first));
+    samples.splats = chains_->chain(*chainTracer_, number, samples.paths);
+    if (passes_.empty()) return;
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x)
+        for (int k = wave.first; k < wave.end; ++k)
+          tracer_.look(x, y, k, [&](const CameraRay& camera) { addPasses(camera, samples.layers); });
   }
-  std::vector<BadSample>& badSamples() { return bad_; }
 
- private:
   void addPasses(const CameraRay& camera, std::vector<std::vector<Color>>& layers) {
     const Tracer& tracer = tracer_.tracer();
     const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
@@ -83,9 +110,11 @@ class TileRenderer {
 
   Budget budget_;
   PixelTracer tracer_;
-  const Region region_;
+  const Tile area_;
   std::vector<const PassRow*> passes_;
   const Film& film_;
+  const Metropolis* chains_;
+  std::optional<PixelTracer> chainTracer_;
   std::vector<BadSample> bad_;  ///< the first
   std::uint64_t badCount_ = 0;
 };
@@ -104,6 +133,11 @@ Size pictureSize(const Settings& settings, const Camera& camera) {
                     std::to_string(static_cast<int>(kMost)) + " high",
                 "the camera's aspect ratio (width / height) is very small; --height N sets the height");
   return {width, static_cast<int>(height)};
+}
+
+Tile areaOf(const Region& region, const Size& size) {
+  const Tile whole{0, 0, size.width, size.height};
+  return region.whole() ? whole : intersection(whole, {region.x0, region.y0, region.x1, region.y1});
 }
 
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
@@ -132,21 +166,25 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   const auto waveOf = [&](std::int64_t chunk) {
     return firstWave + static_cast<std::size_t>(chunk / film.tiles());
   };
+  std::optional<Metropolis> chains;
   const auto takeChunk = [&](std::int64_t chunk, int worker) {
     const std::int64_t tile = chunk % film.tiles();
     const std::size_t wave = waveOf(chunk);
     if (film.has(tile, wave)) return;  // since before
     auto& renderer = workers[static_cast<std::size_t>(worker)];
-    if (!renderer) renderer = std::make_unique<TileRenderer>(moments, settings, film, interrupt);
-    film.add(tile, wave, renderer->take(film.tile(tile), waves[wave]));
+    if (!renderer)
+      renderer =
+          std::make_unique<TileRenderer>(moments, settings, film, chains ? &*chains : nullptr, interrupt);
+    film.add(tile, wave, renderer->take(tile, waves[wave]));
   };
   const ChunkSizes samples{film.tiles() * waves.back().end,
                            [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
-  job.before = film.samplesDone();
-
   RenderResult result;
   bool outOfMemory = false;
   try {
+    if (film.takesSplats())
+      chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
+    job.before = film.samplesDone();
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
     for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))
       parallelChunks(film.tiles() * together, threads, job, takeChunk, samples);

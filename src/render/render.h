@@ -39,6 +39,9 @@ struct Size {
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
 
+/// The part of the picture that is rendered.
+Tile areaOf(const Region& region, const Size& size);
+
 /// How many samples a pixel has: spp, or the next square number, as the generator has it.
 int samplesOf(const Settings& settings);
 

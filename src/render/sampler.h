@@ -54,6 +54,8 @@ class SampleRules {
   /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left, and what it
   /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, unless onGrid().
   FilmSample film(int x, int y, int k, const Vec2& u) const;
+  /// What such a sample counts, where it is not a part of a mean: so much more.
+  Real filterWeight() const { return filter_.weight(); }
   /// The middle of the pixel, likewise.
   Vec2 middle(int x, int y) const {
     return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};
@@ -74,11 +76,22 @@ class SampleRules {
   std::vector<Real> places_;  ///< if they do not: of the cells of the grid within a pixel
 };
 
+/// Where a sample's numbers come from, if not from a generator.
+class SampleNumbers {
+ public:
+  virtual ~SampleNumbers() = default;
+  /// The two that are drawn there, from 0 up to 1: `branch` is a hash of the branch and the dimension.
+  virtual Vec2 pair(std::uint64_t branch) = 0;
+};
+
 class Sampler {
  public:
   /// Of sample 0 <= k < rules.samples(); the rules must outlive it.
   Sampler(const SampleRules& rules, int x, int y, int k)
       : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {}
+
+  /// Of a sample whose numbers these are; they must outlive it, too.
+  Sampler(const SampleRules& rules, SampleNumbers& numbers) : Sampler(rules, 0, 0, 0) { numbers_ = &numbers; }
 
   /// Where in the picture the sample lies, and what it counts.
   FilmSample film() const {
@@ -93,6 +106,7 @@ class Sampler {
   Vec2 next2() {
     const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
     const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
+    if (numbers_) return numbers_->pair(branch);
     const std::uint64_t pixel = mixBits(branch ^ mixBits(bits(x_) << 32 | bits(y_)));
     return rules_->generator().pair({*rules_, x_, y_, k_, branch, pixel});
   }
@@ -107,13 +121,15 @@ class Sampler {
   }
 
   /// Branches of a camera ray that are no rays.
-  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u, kTime = 0xf0000002u;
+  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u, kTime = 0xf0000002u,
+                                 kHole = 0xf0000003u;
 
  private:
   const SampleRules* rules_;
   int x_, y_, k_;
   std::uint64_t branch_;
   std::uint32_t dimension_ = 0;
+  SampleNumbers* numbers_ = nullptr;
 };
 
 }  // namespace trace

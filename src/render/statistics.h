@@ -18,6 +18,7 @@ struct Statistics {
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
   NodeCount nodes;                                     ///< of hierarchies, visited
   std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
+  std::uint64_t moves = 0, movesKept = 0;              ///< of Markov chains
   /// What --firefly-limit took from samples: a sum of luminances in parts of kLightParts, which no order
   /// changes.
   std::uint64_t lightRemoved = 0;
@@ -40,6 +41,8 @@ struct Statistics {
     nodes.count += other.nodes.count;
     badSamples += other.badSamples;
     lightRemoved += other.lightRemoved;
+    moves += other.moves;
+    movesKept += other.movesKept;
     return *this;
   }
   bool operator==(const Statistics&) const = default;

@@ -22,14 +22,15 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       twoSided(world.twoSided(object)),
       convex(world.convex(object)),
       solid(world.solid(object)) {
+  world.pierce(*this);
   world.bump(ray, *this);
 }
 
-std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside) {
+std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance) {
   count(kind);
   if (records()) begin(ray, kind, kInfinity, inside.wavelength);
   auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  if (found && inside.nested()) found = walk(ray, kind, *found, inside);
+  if (found && (inside.nested() || world_.hasHoles())) found = walk(ray, kind, *found, inside, chance);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
     if (records()) {
       const CameraFrame& camera = world_.camera();
@@ -62,25 +63,33 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
 
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
 /// so that what lies behind is met where it is met without the surfaces before it.
-std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside) {
-  if (!ignored(ray, found, inside)) return found;
+std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,
+                                  Real chance) {
+  if (!ignored(ray, found, inside, chance)) return found;
   collect(ray, kInfinity, facesSeenBy(kind));
   for (const Found& next : crossed_)
-    if (found.before(next) && !ignored(ray, next, inside)) return next;
+    if (found.before(next) && !ignored(ray, next, inside, chance)) return next;
   return std::nullopt;
 }
 
-/// If nothing changes there for light: the ray is behind it now.
-bool Tracer::ignored(const Ray& ray, const Found& found, Interfaces& inside) {
-  if (world_.opaque(found.object) || !world_.solid(found.object)) return false;
+/// If nothing changes there for light: the ray is behind it now. `chance` becomes one for what comes next.
+bool Tracer::ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance) {
+  if (world_.opaque(found.object)) return false;
   const Hit hit(world_, ray, found);
+  if (chance >= hit.opacity) {
+    if (hit.opacity > 0) chance = (chance - hit.opacity) / (1 - hit.opacity);
+    if (records())
+      tree_->nodes.back().ignored.push_back({hit.object, hit.part, hit.t, hit.leaving, hit.opacity});
+    return true;
+  }
+  if (!inside.nested() || !hit.solid) return false;
   const PlaceBsdf bsdf = world_.shade(hit);
   if (!whitted(*bsdf).transmits() || !whitted(*bsdf).encloses(hit.solid)) return false;
   const Filling body = filling(hit, whitted(*bsdf));
   const Sides sides = inside.at(hit.leaving, body, hit.solid);
   if (!sides.alike()) return false;
   if (records())
-    tree_->nodes.back().ignored.push_back({hit.object, hit.part, hit.t, hit.leaving, body, sides.before});
+    tree_->nodes.back().ignored.push_back({hit.object, hit.part, hit.t, hit.leaving, 1, body, sides.before});
   inside.pass(hit.leaving, body, hit.solid);
   return true;
 }
@@ -94,8 +103,20 @@ bool Tracer::tooNear(const Ray& ray) const {
   const Real near = world_.camera().near;
   if (near <= 0) return false;
   Statistics uncounted;
-  const auto found = world_.closest(ray, facesSeenBy(RayKind::camera), uncounted);
+  const auto found = behindHoles(ray, RayKind::camera, uncounted);
   return found && found->t < near;
+}
+
+std::optional<Found> Tracer::behindHoles(const Ray& ray, RayKind kind, Statistics& statistics) const {
+  const Faces faces = facesSeenBy(kind);
+  auto found = world_.closest(ray, faces, statistics);
+  if (!found || world_.opacityAt(ray, *found) > 0) return found;
+  found.reset();
+  world_.crossings(ray, kInfinity, faces, statistics, [&](const Found& next) {
+    if ((!found || next.before(*found)) && world_.opacityAt(ray, next) > 0) found = next;
+    return false;
+  });
+  return found;
 }
 
 [[gnu::always_inline]] inline Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside,
@@ -113,10 +134,7 @@ bool Tracer::tooNear(const Ray& ray) const {
   return color;
 }
 
-Color Tracer::visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
-                      bool litThrough) {
-  Ray ray = from.leave(toLight);
-  if (litThrough) ray.leaves = from.object;
+Color Tracer::visible(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside) {
   // Apart, so that the usual way stays short.
   const auto throughNested = [&]() __attribute__((noinline)) {
     Interfaces start = startOn(from, ray, inside);
@@ -157,8 +175,9 @@ bool Tracer::occluded(const Ray& ray, Real tMost) {
   crossed_.clear();
   const bool blackGlass = settings_.glassShadows == GlassShadows::black;
   if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
-        if (!blackGlass) crossed_.push_back(found);
-        return blackGlass;
+        const bool ends = blackGlass && !(world_.opacityAt(ray, found) < 1);
+        if (!ends) crossed_.push_back(found);
+        return ends;
       }))
     return true;
   if (crossed_.size() > 1) sortCrossed();
@@ -187,19 +206,29 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
     tree_->nodes.back().filters.push_back({object, part, t, factor, std::move(materials)});
   };
   for (const Found& found : crossed_) {
+    const Real opacity = world_.opacityAt(ray, found);
+    if (!(opacity > 0)) continue;
+    const auto pass = [&](const Color& throughIt) {
+      const Color factor = opacity < 1 ? lerp(opacity, Color(1), throughIt) : throughIt;
+      color *= factor;
+      if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
+    };
     const PlaceBsdf bsdf = world_.bsdfAt(ray, found);
     const WhittedTerms& terms = whitted(*bsdf);
-    if (!terms.transmits() || gathers(terms)) return Color(0);
+    if (!terms.transmits() || gathers(terms) || settings_.glassShadows == GlassShadows::black) {
+      if (!(opacity < 1)) return Color(0);
+      pass(Color(0));
+      continue;
+    }
     const bool perCrossing = settings_.glass == Glass::perCrossing;
     Color factor = perCrossing || terms.passage != Passage::asSaid ? terms.transmissive : Color(1);
     if (terms.passage == Passage::straight) {
-      factor = passWeight(*bsdf, std::abs(dot(ray.direction, world_.surface(ray, found).shading)));
-      color *= factor;
-      if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
+      pass(passWeight(*bsdf, std::abs(dot(ray.direction, world_.surface(ray, found).shading))));
       continue;
     }
     if (inside) {
-      if (ignored(ray, found, *inside)) continue;
+      Real whole = 0;
+      if (ignored(ray, found, *inside, whole)) continue;
       const Hit hit(world_, ray, found);
       const Color& passes = inside->around().passes;
       if (!(passes == Color(1))) factor *= pow(passes, found.t - last);
@@ -209,9 +238,8 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
       const Hit hit(world_, ray, found);
       if (hit.leaving) factor *= pow(filling(hit, terms).passes, found.t - last);
     }
-    color *= factor;
+    pass(factor);
     last = found.t;
-    if (records()) record(found.object, found.part, found.t, factor, sharesOf(world_.materialMix(found)));
   }
   if (!inside) return color;
   const Filling& around = inside->around();
@@ -239,8 +267,10 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   Statistics uncounted;
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
-    const bool opaque = world_.opaque(found.object) || settings_.glassShadows == GlassShadows::black ||
-                        isBlack(world_.filter(ray, found)) || gathers(whitted(*world_.bsdfAt(ray, found)));
+    const bool opaque = world_.opaque(found.object) || (!(world_.opacityAt(ray, found) < 1) &&
+                                                        (settings_.glassShadows == GlassShadows::black ||
+                                                         isBlack(world_.filter(ray, found)) ||
+                                                         gathers(whitted(*world_.bsdfAt(ray, found)))));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });
@@ -288,6 +318,10 @@ void Tracer::record(int node, const RayEnd& why) {
 }
 
 void Tracer::record(int node, const Bsdf& bsdf) { tree_->nodes[static_cast<std::size_t>(node)].bsdf = bsdf; }
+
+void Tracer::record(int node, const std::optional<Vec3>& raised) {
+  tree_->nodes[static_cast<std::size_t>(node)].raised = raised;
+}
 
 void Tracer::record(int node, const Indices& indices) {
   tree_->nodes[static_cast<std::size_t>(node)].indices = indices;

@@ -21,19 +21,26 @@ class Tracer {
 
   /// The first surface that a ray of this kind meets. `inside` is what the ray starts in, and becomes what it
   /// is in when it gets there: with nested glass a ray walks on through surfaces at which nothing changes.
-  std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside);
+  ///
+  /// It walks on through holes, too. What is there in part is met with this chance, if `chance` is a number
+  /// drawn from 0 up to 1, and counts as a whole; where that is 0 it is met, and Hit::opacity says its share.
+  std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0);
+  /// Such a number, drawn only where something has holes.
+  template <class Numbers>
+  Real chance(Numbers&& numbers) const {
+    return world_.hasHoles() ? numbers.next() : 0;
+  }
 
-  /// How much of each colour passes from what was hit toward a light at `distance` (may be infinite) in the
-  /// unit direction `toLight`: 0 behind anything opaque, filtered by what is transmissive. `inside` is what
-  /// the ray that hit it is in. `litThrough`: the object that was hit is not in its own way.
-  Color visible(const Hit& from, const Vec3& toLight, Real distance, const Interfaces& inside,
-                bool litThrough = false);
+  /// How much of each colour passes along a ray of unit direction that leaves what was hit toward a light at
+  /// `distance` (may be infinite): 0 behind anything opaque, filtered by what is transmissive. `inside` is
+  /// what the ray that hit it is in.
+  Color visible(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
   /// The same from a point in the open, in what is `inside`.
   Color visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside);
-  /// What a ray would meet first; counted as of that kind, and not recorded.
+  /// What a ray would meet first, but for holes; counted as of that kind, and not recorded.
   std::optional<Found> look(const Ray& ray, RayKind kind) {
     count(kind);
-    return world_.closest(ray, facesSeenBy(kind), statistics_);
+    return behindHoles(ray, kind, statistics_);
   }
 
   /// What a ray that starts at the point is inside of.
@@ -80,6 +87,7 @@ class Tracer {
   void record(int node, const RayEnd& why);
   void record(int node, const Indices& indices);
   void record(int node, const Bsdf& bsdf);
+  void record(int node, const std::optional<Vec3>& raised);
   void record(int node, const Color& through, const Color& radiance);
   /// A new node for a ray about to be traced; when it was, what it cost.
   void begin(const Ray& ray, RayKind kind, Real tMost, Real wavelength);
@@ -89,17 +97,19 @@ class Tracer {
   Faces facesSeenBy(RayKind kind) const;
   /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
+  std::optional<Found> behindHoles(const Ray& ray, RayKind kind, Statistics& statistics) const;
   void collect(const Ray& ray, Real tMost, Faces faces);
   bool occluded(const Ray& ray, Real tMost);
   void sortCrossed();
-  std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside);
-  bool ignored(const Ray& ray, const Found& found, Interfaces& inside);
+  std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance);
+  bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
   /// Photons bring the light that the glass lets through, from elsewhere.
   bool gathers(const WhittedTerms& terms) const {
-    return settings_.caustics > 0 && settings_.integrator == IntegratorKind::whitted &&
-           terms.passage != Passage::straight;
+    const bool bring = settings_.integrator == IntegratorKind::photon ||
+                       (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
+    return bring && terms.passage != Passage::straight;
   }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);

@@ -8,6 +8,7 @@
 #include "base/match.h"
 #include "geometry/mesh/mesh_closed.h"
 #include "geometry/shapes/sphere.h"
+#include "scene/displacement.h"
 
 namespace trace {
 
@@ -45,9 +46,34 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
 }
 
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
-  const MaterialMix materials = materialMix(found);
-  return shade(found.object, found.part, materials,
-               textured(materials) ? surface(ray, found) : SurfacePoint(), nullptr);
+  MaterialMix materials = materialMix(found);
+  const SurfacePoint point = textured(materials) ? surface(ray, found) : SurfacePoint();
+  if (hasHoles_) pierce(found.object, found.part, point, materials);
+  return shade(found.object, found.part, materials, point, nullptr);
+}
+
+Real World::opacityAt(const Ray& ray, const Found& found) const {
+  if (!hasHoles_ || opaque(found.object)) return 1;
+  MaterialMix materials = materialMix(found);
+  return pierce(found.object, found.part, textured(materials) ? surface(ray, found) : SurfacePoint(),
+                materials);
+}
+
+Real World::pierce(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                   MaterialMix& materials) const {
+  const auto of = [&](std::uint32_t material) {
+    if (material == MaterialMix::kClear || !surfaces_[material].hasHoles) return 1.0;
+    const Surface& s = surfaces_[material];
+    const Texture* texture = s.textured ? textureOf(s.textured->textures, kOpacity) : nullptr;
+    const Real share = texture ? luminance(texture->at(place(object, part, surface, nullptr))) : 1;
+    return std::clamp(s.opacity * share, 0.0, 1.0);
+  };
+  if (materials.count == 1) return of(materials.material[0]);
+  Real there[3], all = 0;
+  for (int i = 0; i < 3; ++i) all += there[i] = materials.weight[i] * of(materials.material[i]);
+  if (!(all > 0) || !(all < 1)) return all > 0 ? 1 : 0;
+  for (int i = 0; i < 3; ++i) materials.weight[i] = there[i] / all;
+  return all;
 }
 
 // --- what is inside -----------------------------------------------------------------------------------
@@ -124,6 +150,49 @@ std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings
                                          : Bvh(boxes, Bvh::Leaves::single, settings.threads));
 }
 
+/// Hierarchies of meshes, by the data of the scene and what displaces it.
+class TreesOfMeshes {
+ public:
+  using Tree = std::shared_ptr<const MeshTree>;
+  /// The place for the one of the mesh; null until it is given one.
+  Tree& of(const MeshData* data, const Displacement& displacement) {
+    if (Tree* found = find(data, displacement)) return *found;
+    return trees_.emplace(data, std::pair(displacement, Tree()))->second.second;
+  }
+  /// Null if there is none.
+  Tree find(const MeshData* data, const Displacement& displacement) const {
+    Tree* found = const_cast<TreesOfMeshes*>(this)->find(data, displacement);
+    return found ? *found : nullptr;
+  }
+
+ private:
+  Tree* find(const MeshData* data, const Displacement& displacement) {
+    const auto [first, last] = trees_.equal_range(data);
+    const auto found =
+        std::find_if(first, last, [&](const auto& entry) { return entry.second.first == displacement; });
+    return found == last ? nullptr : &found->second.second;
+  }
+
+  std::multimap<const MeshData*, std::pair<Displacement, Tree>> trees_;
+};
+
+/// The materials as the settings want them.
+std::vector<Material> shownAs(std::vector<Material> materials, const Settings& settings) {
+  for (Material& material : materials) {
+    if (!settings.textures) {
+      if (textureOf(material.textures, "displacement")) material.displacement = 0;
+      material.textures.clear();
+    }
+    if (settings.models == Models::asSaid || std::holds_alternative<Phong>(material.model)) continue;
+    const Phong nearest = phongOf(material.model);
+    for (FieldTexture& t : material.textures)
+      if (t.field == kColor) t.field = kDiffuse;
+    material = withModel(std::move(material), Phong{});
+    material.model = nearest;
+  }
+  return materials;
+}
+
 }  // namespace
 
 /// What a World takes over from the one before: an edit in the studio changes little of a scene.
@@ -134,9 +203,11 @@ class World::Earlier {
     if (!before) return;
     sameAccel_ = (before->settings.accel == Accel::none) == (settings.accel == Accel::none);
     sameNormals_ = before->settings.vertexNormals == settings.vertexNormals;
+    materials_ = shownAs(before->scene.materials, before->settings);
     for (std::size_t i = 0; i < before->scene.objects.size(); ++i) {
       const Instance& instance = before->world.objects_[i];
-      if (const auto data = instance.shape.mesh(); data && instance.mesh) trees_[data.get()] = instance.mesh;
+      if (const auto data = instance.shape.mesh(); data && instance.mesh)
+        trees_.of(data.get(), Displacement(*data, instance.material, materials_)) = instance.mesh;
       instance.shape.addMeshTrees(operandTrees_);
     }
   }
@@ -151,12 +222,14 @@ class World::Earlier {
     return nullptr;
   }
 
-  /// The hierarchy of the mesh, which is that of `same` if that is not null; null if it has to be made.
-  std::shared_ptr<const MeshTree> tree(const Instance* same, const MeshData& data) const {
+  /// The hierarchy of the mesh, which is that of `same` if that is not null, displaced so; null if it has to
+  /// be made.
+  std::shared_ptr<const MeshTree> tree(const Instance* same, const MeshData& data,
+                                       const Displacement& displacement) const {
     if (!sameAccel_ || (data.generateNormals && !sameNormals_)) return nullptr;
-    if (same && same->mesh) return same->mesh;
-    const auto found = trees_.find(&data);
-    return found == trees_.end() ? nullptr : found->second;
+    if (same && same->mesh && Displacement(data, same->material, materials_) == displacement)
+      return same->mesh;
+    return trees_.find(&data, displacement);
   }
 
   /// The hierarchies of meshes that solids are made of.
@@ -175,7 +248,9 @@ class World::Earlier {
   const Compiled* before_;
   const Scene& scene_;
   bool sameAccel_ = false, sameNormals_ = false;
-  MeshTrees trees_, operandTrees_;  // by the data of the scene, without generated normals
+  std::vector<Material> materials_;  // of the scene before, as it was shown
+  TreesOfMeshes trees_;
+  MeshTrees operandTrees_;  // by the data of the scene, without generated normals
 };
 
 /// The ball of the mean radius in place of an ellipsoid.
@@ -218,18 +293,14 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   return kinds;
 }
 
-/// The materials as the settings want them.
-std::vector<Material> shownAs(std::vector<Material> materials, const Settings& settings) {
-  for (Material& material : materials) {
-    if (!settings.textures) material.textures.clear();
-    if (settings.models == Models::asSaid || std::holds_alternative<Phong>(material.model)) continue;
-    const Phong nearest = phongOf(material);
-    for (FieldTexture& t : material.textures)
-      if (t.field == kColor) t.field = kDiffuse;
-    material = withModel(std::move(material), Phong{});
-    material.model = nearest;
-  }
-  return materials;
+void warnOfUndisplaced(const std::vector<const Object*>& objects, Messages& messages) {
+  if (objects.empty()) return;
+  const std::string more =
+      objects.size() == 1 ? "" : " (the first of " + std::to_string(objects.size()) + ")";
+  messages.warn(objects.front()->place,
+                "displacement moves the points of meshes: this " +
+                    std::string(objects.front()->shape.keyword()) + " keeps its shape" + more,
+                "`bump` bends the normals of every shape; `ray convert` makes a mesh of one");
 }
 
 void World::measureMiddle() {
@@ -243,9 +314,13 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const World::Earlier earlier(before, scene, settings);
   world.rules_ = rulesOf(settings);
   const std::vector<Material> materials = shownAs(scene.materials, settings);
-  for (const Material& material : materials)
+  for (const Material& material : materials) {
+    const bool hasHoles = material.opacity < 1 || textureOf(material.textures, kOpacity);
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
-                               material.textures.empty() ? nullptr : std::make_shared<Material>(material)});
+                               material.textures.empty() ? nullptr : std::make_shared<Material>(material), 0,
+                               material.opacity, hasHoles});
+    world.hasHoles_ |= hasHoles;
+  }
   world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
                        (settings.nestedGlass == NestedGlass::byPriority &&
                         std::any_of(world.surfaces_.begin(), world.surfaces_.end(),
@@ -256,6 +331,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   }
   for (const Material& material : materials)
     for (const FieldTexture& t : material.textures) {
+      if (t.field == "displacement") continue;  // asked for at points, before there are rays
       const bool footprint = wantsFootprint(t.texture);
       world.wantsFootprints_ |= footprint;
       world.footprintsInUv_ |= footprint && wantsUv(t.texture);
@@ -282,7 +358,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;
-  MeshTrees trees;
+  TreesOfMeshes trees;
+  std::vector<const Object*> undisplaced;  // what its material displaces in vain
   std::vector<Box3> boxes;
   Work work("building the objects", static_cast<std::int64_t>(scene.objects.size()));
   for (const Object& object : scene.objects) {
@@ -307,11 +384,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     std::vector<std::uint32_t> used{object.material};  // of all its parts
     Box3 box;
     if (const auto shared = instance.shape.mesh()) {
-      auto& tree = trees[shared.get()];
-      if (!tree) tree = earlier.tree(same, *shared);
+      const Displacement displacement(*shared, object.material, materials);
+      auto& tree = trees.of(shared.get(), displacement);
+      if (!tree) tree = earlier.tree(same, *shared, displacement);
       if (!tree) {
         auto data = shared;
-        if (data->generateNormals)
+        if (!displacement.none())
+          data = std::make_shared<const MeshData>(displacement.of(*data, object.place));
+        else if (data->generateNormals)
           data = std::make_shared<const MeshData>(
               withGeneratedNormals(*data, settings.vertexNormals == VertexNormals::unit));
         tree = std::make_shared<const MeshTree>(data, bruteForce, settings.threads);
@@ -321,15 +401,24 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       instance.mixed = !own.empty();
       used.insert(used.end(), own.begin(), own.end());
       box = bounds(tree->data());
+      if (displacement.wantsUv() && shared->uvs.empty())
+        messages.warn(object.place, "the texture of its displacement lies in u and v, which the mesh lacks",
+                      "uv = spherical, cylindrical, planar or cubic in the mesh makes them");
     } else {
       box = instance.shape.bounds();
       instance.approach = Approach(box);
       instance.convex = instance.shape.convex();
       instance.mixed = instance.shape.ofSeveralMaterials();
       instance.shape.addMaterials(used);
+      if (std::any_of(used.begin(), used.end(), [&](std::uint32_t m) {
+            return m != MaterialMix::kClear && materials.at(m).displacement != 0;
+          }))
+        undisplaced.push_back(&object);
     }
     instance.opaque = std::none_of(used.begin(), used.end(), [&](std::uint32_t m) {
-      return m == MaterialMix::kClear || whitted(world.surfaces_.at(m).bsdf).transmits();
+      if (m == MaterialMix::kClear) return true;
+      const World::Surface& surface = world.surfaces_.at(m);
+      return surface.hasHoles || whitted(surface.bsdf).transmits();
     });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
                                    : instance.shape.solid();
@@ -345,6 +434,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     world.bounds_.extend(instance.bounds);
     world.objects_.push_back(std::move(instance));
   }
+  warnOfUndisplaced(undisplaced, messages);
   world.collectForms();
   world.bvh_ = earlier.hierarchy(boxes);
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);

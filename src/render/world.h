@@ -97,6 +97,14 @@ class World {
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
   MaterialMix materialMix(const Found& found) const;
+  /// Some material has holes, or is not wholly there.
+  bool hasHoles() const { return hasHoles_; }
+  /// The share of the surface that is there: through the rest a ray goes straight on.
+  Real opacityAt(const Ray& ray, const Found& found) const;
+  /// Sets the opacity of the hit, and takes what is not there out of its materials.
+  void pierce(Hit& hit) const {
+    if (hasHoles_) hit.opacity = pierce(hit.object, hit.part, hit.surface, hit.materials);
+  }
   /// How texture coordinates and the normal change along the surface, in world space.
   SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
   /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
@@ -107,6 +115,11 @@ class World {
   PlaceBsdf shade(const Hit& hit, const Differentials* arrived = nullptr) const {
     return shade(hit.object, hit.part, hit.materials, hit.surface, arrived);
   }
+  /// The place on a mesh moved outward to where the planes lie that touch the smooth surface at the corners
+  /// of its triangle, by the weights of the corners (Hanika, Hacking the Shadow Terminator, Ray Tracing Gems
+  /// II, 2021, chapter 4, listing 4-1). `turned`: outward is where the normals do not point. Nothing where
+  /// that is no farther out, and for what has no normals of its own.
+  std::optional<SurfacePoint> raised(const Hit& hit, bool turned) const;
   /// Some texture is filtered by footprint: rays should have Differentials.
   bool wantsFootprints() const { return wantsFootprints_; }
   /// Bends the normal for shading by the material's bump texture, if it has one; `ray` found the place.
@@ -121,7 +134,10 @@ class World {
     return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}, dot(normal, hit.surface.shading) < 0};
   }
   /// What of it the rays of a light pass through.
-  Color filter(const Ray& ray, const Found& found) const { return whitted(*bsdfAt(ray, found)).transmissive; }
+  Color filter(const Ray& ray, const Found& found) const {
+    const Color filter = whitted(*bsdfAt(ray, found)).transmissive;
+    return hasHoles_ ? lerp(opacityAt(ray, found), Color(1), filter) : filter;
+  }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
   /// A mesh whose triangles are shaded from both sides.
   bool twoSided(std::uint32_t object) const {
@@ -247,6 +263,8 @@ class World {
     Bsdf bsdf;                                 ///< without its textures
     std::shared_ptr<const Material> textured;  ///< null if it has none
     std::uint32_t kind = 0;                    ///< Filling::kind, where glass may be nested
+    Real opacity = 1;                          ///< where it has no texture
+    bool hasHoles = false;                     ///< some of it may not be there
   };
   /// Of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
@@ -269,9 +287,12 @@ class World {
                      const Differentials* arrived) const;
 
   void bend(const Ray& ray, Hit& hit) const;
+  /// The opacity there; `materials` become those of what is there.
+  Real pierce(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+              MaterialMix& materials) const;
 
   std::vector<Surface> surfaces_;  ///< of the scene's materials
-  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false;
+  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

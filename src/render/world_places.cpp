@@ -107,6 +107,32 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   return place;
 }
 
+std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {
+  const Instance& instance = objects_[hit.object];
+  if (!instance.mesh || instance.mesh->data().normals.empty()) return {};
+  const MeshData& mesh = instance.mesh->data();
+  const Corners v = corners(mesh, static_cast<std::uint32_t>(hit.part));
+  const Triangle& t = mesh.triangles[hit.part];
+  const Vec3 p = instance.placement.inFromOut() * hit.surface.point;
+  const TriangleHit at = Barycentric(v).at(p);
+  Vec3 rise;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 given(mesh.normals[t[static_cast<std::size_t>(i)]]);
+    const Real size = length(given);
+    if (!(size > 0) || !std::isfinite(size)) return {};
+    const Vec3 normal = given / (turned ? -size : size);
+    const Vec3& corner = i == 0 ? v.a : i == 1 ? v.b : v.c;
+    rise += normal * (max(at.b[i], 0) * max(dot(corner - p, normal), 0));
+  }
+  SurfacePoint place = hit.surface;
+  const Vec3 move = linear(instance.placement.outFromIn(), rise);
+  place.point += move;
+  place.error += (abs(hit.surface.point) + abs(move)) * gammaError(4);
+  const Real outward = dot(move, hit.surface.normal) * (turned ? -1 : 1);
+  if (!(outward > dot(abs(hit.surface.normal), place.error))) return {};
+  return place;
+}
+
 Vec3 World::along(const Hit& hit) const {
   const Vec3 grows = slopes(hit).u;
   if (length(grows) > 0) return grows;

@@ -27,6 +27,7 @@ constexpr std::array kTable{
     Row{"moments", "motion blur steps time"},
     Row{"ambient-occlusion", "ao corners creases dirt soft sky dome ambient"},
     Row{"occlusion-reach", "ao distance"},
+    Row{"smooth-terminator", "shadow facets polygons low poly lowpoly coarse mesh normals artifact"},
     Row{"caustics", "photon map mapping glass light focus concentrated"},
     Row{"caustic-radius", "photon map gather blur"},
     Row{"fog", "mist haze smoke dust volume volumetric god rays beams medium atmosphere"},

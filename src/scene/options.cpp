@@ -25,8 +25,8 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 5> kNames<IntegratorKind>{"whitted", "path", "direct", "occlusion",
-                                                                 "normals"};
+constexpr std::array<std::string_view, 8> kNames<IntegratorKind>{"whitted", "path",      "direct",  "mlt",
+                                                                 "photon",  "occlusion", "normals", "cost"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -422,7 +422,9 @@ const std::array kTable{
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
                  "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; occlusion shows how open places are, normals where surfaces face",
+                 "without bounces; mlt is path, led by chains that look around where light was found; photon "
+                 "is path with one bounce, and photons tell what light it meets; occlusion "
+                 "shows how open places are, normals where surfaces face, cost how much work whitted has",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
     row<&Settings::depth>({.name = "depth",
@@ -448,8 +450,32 @@ const std::array kTable{
                                   .source = "docs/path-tracing.md",
                                   .least = 0,
                                   .most = 1e9,
-                                  .integrators = "path, direct",
+                                  .integrators = "path, direct, mlt, photon",
                                   .extra = true}),
+    row<&Settings::chainStarts>(
+        {.name = "chain-starts",
+         .group = "Tracing",
+         .help = "samples taken first, at random, among which chains begin: more make the picture's "
+                 "brightness more exact",
+         .source = "docs/metropolis.md",
+         .least = 1,
+         .most = 1e8,
+         .unit = "samples",
+         .integrators = "mlt"}),
+    row<&Settings::moveAnywhere>({.name = "move-anywhere",
+                                  .group = "Tracing",
+                                  .help = "share of a chain's moves that go anywhere; the others go nearby",
+                                  .source = "Kelemen et al. 2002",
+                                  .least = 0.01,
+                                  .most = 1,
+                                  .integrators = "mlt"}),
+    row<&Settings::moveSize>({.name = "move-size",
+                              .group = "Tracing",
+                              .help = "how far a move nearby goes, as a part of what there is to choose from",
+                              .source = "docs/metropolis.md",
+                              .least = 1e-6,
+                              .most = 1,
+                              .integrators = "mlt"}),
     row<&Settings::ambientOcclusion>(
         {.name = "ambient-occlusion",
          .group = "Tracing",
@@ -470,16 +496,35 @@ const std::array kTable{
                                     .most = 1e9,
                                     .unit = "units",
                                     .integrators = "whitted, occlusion"}),
+    row<&Settings::photons>(
+        {.name = "photons",
+         .group = "Tracing",
+         .help = "photons that fly from all that gives light, to tell what light bounces; more "
+                 "make it sharper and smoother",
+         .source = "Jensen 1996; docs/photons.md",
+         .least = 1,
+         .most = 50e6,
+         .unit = "photons",
+         .integrators = "photon"}),
+    row<&Settings::smoothTerminator>(
+        {.name = "smooth-terminator",
+         .group = "Tracing",
+         .help = "rays from a mesh to light start on the smooth surface that the normals of its points stand "
+                 "for: the line between light and shade shows no facets",
+         .source = "Hanika 2021; docs/smooth-terminator.md",
+         .integrators = "whitted, path, direct, mlt, photon, occlusion",
+         .extra = true}),
     row<&Settings::caustics>(
         {.name = "caustics",
          .group = "Tracing",
          .help = "photons from the lights that show where mirrors and glass gather light; glass that "
-                 "refracts then has a black shadow, since the photons bring its light; 0 shows none",
+                 "refracts then has a black shadow, since the photons bring its light; 0 shows none, and of "
+                 "the integrator photon as many as --photons",
          .source = "Jensen 2001; docs/caustics.md",
          .least = 0,
          .most = 50e6,
          .unit = "photons",
-         .integrators = "whitted",
+         .integrators = "whitted, photon",
          .extra = true}),
     row<&Settings::causticRadius>(
         {.name = "caustic-radius",
@@ -489,7 +534,7 @@ const std::array kTable{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted"}),
+         .integrators = "whitted, photon"}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
          .group = "Tracing",
@@ -712,7 +757,7 @@ const std::array kTable{
                          .least = 0,
                          .most = 1e6,
                          .unit = "per unit",
-                         .integrators = "whitted, path, direct",
+                         .integrators = "whitted, path, direct, mlt, photon",
                          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -721,7 +766,7 @@ const std::array kTable{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path, direct"}),
+         .integrators = "whitted, path, direct, mlt, photon"}),
     row<&Settings::fogHeight>({.name = "fog-height",
                                .group = "Fog",
                                .help =
@@ -731,7 +776,7 @@ const std::array kTable{
                                .least = 0,
                                .most = 1e9,
                                .unit = "units",
-                               .integrators = "whitted, path, direct"}),
+                               .integrators = "whitted, path, direct, mlt, photon"}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help =
@@ -740,7 +785,7 @@ const std::array kTable{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path, direct"}),
+                                .integrators = "whitted, path, direct, mlt, photon"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "places on every ray that ask for the lights",
@@ -748,7 +793,7 @@ const std::array kTable{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted, path, direct"}),
+                                .integrators = "whitted, path, direct, mlt, photon"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",

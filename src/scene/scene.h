@@ -69,4 +69,11 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
+/// Changes every picture that the scene puts on surfaces and around itself: change(Pixels&).
+template <class Change>
+void changePixels(Scene& scene, const Change& change) {
+  for (Material& material : scene.materials) changePixels(material, change);
+  changePixels(scene.background, change);
+}
+
 }  // namespace trace

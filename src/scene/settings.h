@@ -16,7 +16,7 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class IntegratorKind { whitted, path, direct, occlusion, normals };
+enum class IntegratorKind { whitted, path, direct, mlt, photon, occlusion, normals, cost };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -97,8 +97,13 @@ struct Settings {
   int depth = 5;
   Real threshold = 0;
   Real fireflyLimit = 0;
+  int chainStarts = 100000;
+  Real moveAnywhere = 0.3;
+  Real moveSize = 0.01;
   int ambientOcclusion = 0;
   Real occlusionReach = 0;
+  int photons = 200000;
+  bool smoothTerminator = false;
   int caustics = 0;
   Real causticRadius = 0;
   NestedGlass nestedGlass = NestedGlass::byPriority;

@@ -1,8 +1,10 @@
 // What is seen where nothing is met, as the scene says it: bands of colour across the picture, which only
-// camera rays see, or a sky all around, which every ray sees.
+// camera rays see, or what is all around, which every ray sees: a gradient, a sky by day, and pictures on the
+// six faces of a cube before them.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 
@@ -28,6 +31,10 @@ struct Background {
   Vec3 sun{1, 1, 1};               ///< the direction to it
   Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
   Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a sky by day
+  /// On the faces of a cube around everything, as seen from inside: each covers its face from edge to edge,
+  /// upright for who looks at it from -z on. The top follows above the front, the bottom below it. What lies
+  /// behind is seen where there is none, and through its transparency (VRML97, section 6.5).
+  Pixels front{}, back{}, left{}, right{}, top{}, bottom{};
 
   static constexpr auto fields() {
     return std::tuple{
@@ -43,8 +50,17 @@ struct Background {
         Field{"sun", &Background::sun, "", -kNoLimit, kNoLimit, "the direction to the sun of that sky"},
         Field{"sky_brightness", &Background::skyBrightness, "", 0, kNoLimit,
               "factor from its luminance, in kcd/m^2, to colours"},
-        Field{"ground", &Background::ground, "", 0, kNoLimit, "the colour below its horizon"}};
+        Field{"ground", &Background::ground, "", 0, kNoLimit, "the colour below its horizon"},
+        Field{"front", &Background::front, "", 0, 0,
+              "a picture on a face of a cube around everything, at -z"},
+        Field{"back", &Background::back, "", 0, 0, "the picture behind, at +z"},
+        Field{"left", &Background::left, "", 0, 0, "the picture at the left, at -x"},
+        Field{"right", &Background::right, "", 0, 0, "the picture at the right, at +x"},
+        Field{"top", &Background::top, "", 0, 0, "the picture above; it follows above the front"},
+        Field{"bottom", &Background::bottom, "", 0, 0, "the picture below; it follows below the front"}};
   }
+  /// In the order of EnvironmentMap::kFaceNames.
+  std::array<const Pixels*, 6> faces() const { return {&right, &left, &top, &bottom, &back, &front}; }
   bool operator==(const Background&) const = default;
 
   /// Of the bands, at a share of the picture's height from the top.
@@ -75,5 +91,13 @@ struct Background {
     return share > 0 ? lerp(share, gradient[below], gradient[below + 1]) : gradient[below];
   }
 };
+
+/// Changes every picture of the background: change(Pixels&).
+template <class Change>
+void changePixels(Background& background, const Change& change) {
+  for (Pixels* face : {&background.front, &background.back, &background.left, &background.right,
+                       &background.top, &background.bottom})
+    change(*face);
+}
 
 }  // namespace trace

@@ -16,13 +16,16 @@ struct Coating {
   Color alongNormal;    ///< what is mirrored of light along the normal
   MicrofacetLobe lobe;
   Color meanAlbedo;
-  ThinFilm film;  ///< of thickness 0 there is none
+  ThinFilm film;    ///< of thickness 0 there is none
+  Real filmed = 1;  ///< share of the layer on which it lies
 
   Coating() = default;
-  /// With a film on it.
-  Coating(Distribution kind, Real roughness, const ThinFilm& onTop)
-      : Coating(kind, roughness, 0, onTop.mirrored(1)) {
+  /// With a film on `share` of it.
+  Coating(Distribution kind, Real roughness, Real anisotropy, const ThinFilm& onTop, Real share)
+      : Coating(kind, roughness, anisotropy,
+                lerp(share, Color(mirroredAlongNormal(onTop.behind)), onTop.mirrored(1))) {
     film = onTop;
+    filmed = share;
     // Gauss's formula with three points, over the square of the cosine.
     constexpr Real kAway = 0.3872983346207417;  // half the root of 0.6
     meanAlbedo =
@@ -41,13 +44,14 @@ struct Coating {
 
   /// What one facet mirrors.
   Color fresnel(Real cosine) const {
-    return film.nanometres > 0 ? film.mirrored(cosine) : schlick(cosine, alongNormal);
+    if (!(film.nanometres > 0)) return schlick(cosine, alongNormal);
+    return lerp(filmed, schlick(cosine, Color(mirroredAlongNormal(film.behind))), film.mirrored(cosine));
   }
   /// The share of light that goes to `v`, or comes from there, and is mirrored. Of rough films nearly.
   Color albedo(const Vec3& v) const {
     if (film.nanometres > 0) {
       const Real once = smooth ? 1 : lobe.white(v);
-      return film.mirrored(v.z) * once + lobe.multiple * (1 - once);
+      return fresnel(v.z) * once + lobe.multiple * (1 - once);
     }
     return smooth ? schlick(v.z, alongNormal) : lobe.albedo(v, alongNormal);
   }

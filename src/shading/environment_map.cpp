@@ -116,13 +116,15 @@ EnvironmentMap::EnvironmentMap(std::array<Picture, 6> faces)
                                   std::to_string(pictures_.front().height));
 }
 
+EnvironmentMap::Spot EnvironmentMap::cubeSpot(const Vec3& d) {
+  const int face = faceOf(d);
+  const FaceAxes& axes = kFaces[static_cast<std::size_t>(face)];
+  const Real depth = dot(d, axes.outward);
+  return {face, {(dot(d, axes.right) / depth + 1) / 2, (dot(d, axes.down) / depth + 1) / 2}};
+}
+
 EnvironmentMap::Spot EnvironmentMap::spot(const Vec3& d) const {
-  if (kind_ == EnvironmentKind::cube) {
-    const int face = faceOf(d);
-    const FaceAxes& axes = kFaces[static_cast<std::size_t>(face)];
-    const Real depth = dot(d, axes.outward);
-    return {face, {(dot(d, axes.right) / depth + 1) / 2, (dot(d, axes.down) / depth + 1) / 2}};
-  }
+  if (kind_ == EnvironmentKind::cube) return cubeSpot(d);
   const Real across = std::hypot(d.x, d.z);
   if (kind_ == EnvironmentKind::latLong) {
     const Real around = across > 0 ? std::atan2(d.x, -d.z) : 0;

@@ -43,6 +43,8 @@ class EnvironmentMap {
   EnvironmentKind kind() const { return kind_; }
   /// Of a direction of any length but 0.
   Spot spot(const Vec3& direction) const;
+  /// The same on a cube.
+  static Spot cubeSpot(const Vec3& direction);
   /// The direction seen there, of length 1; (0, 0, 0) outside the disc of an angular map.
   Vec3 direction(const Spot& spot) const;
   /// Interpolated between the four texels around.

@@ -1,22 +1,39 @@
 #include "shading/material.h"
 
 #include <algorithm>
+#include <any>
 #include <type_traits>
 #include <utility>
 
 namespace trace {
 namespace {
 
+/// A field of a model, whatever its type. So models are known one by one, not in pairs, which are very many.
+struct AnyField {
+  std::string_view keyword;
+  std::any value;
+};
+
 /// Those that differ from the default, which another model may have another of.
-template <class From, class To>
-void copyFields(const From& from, To& to) {
-  forEachField<To>([&](const auto& target) {
-    auto& value = to.*target.member;
-    forEachField<From>([&](const auto& source) {
-      using Value = std::remove_cvref_t<decltype(from.*source.member)>;
-      if constexpr (std::is_same_v<Value, std::remove_cvref_t<decltype(value)>>)
-        if (source.keyword == target.keyword && !(from.*source.member == From{}.*source.member))
-          value = from.*source.member;
+std::vector<AnyField> changedFields(const MaterialModel& model) {
+  std::vector<AnyField> fields;
+  match(model, [&]<class M>(const M& m) {
+    forEachField<M>([&](const auto& f) {
+      if (!(m.*f.member == M{}.*f.member)) fields.push_back({f.keyword, m.*f.member});
+    });
+  });
+  return fields;
+}
+
+/// Those that the model has, too.
+void takeFields(const std::vector<AnyField>& fields, MaterialModel& model) {
+  match(model, [&]<class M>(M& m) {
+    forEachField<M>([&](const auto& f) {
+      auto& value = m.*f.member;
+      for (const AnyField& field : fields)
+        if (field.keyword == f.keyword)
+          if (const auto* given = std::any_cast<std::remove_cvref_t<decltype(value)>>(&field.value))
+            value = *given;
     });
   });
 }
@@ -37,7 +54,7 @@ void changeColors(MaterialModel& model, std::initializer_list<std::string_view> 
 MaterialModel converted(const MaterialModel& from, const MaterialModel& to) {
   if (from.index() == to.index()) return from;
   MaterialModel result = match(to, []<class M>(const M&) -> MaterialModel { return M{}; });
-  match(result, [&](auto& target) { match(from, [&](const auto& source) { copyFields(source, target); }); });
+  takeFields(changedFields(from), result);
   return result;
 }
 
@@ -55,6 +72,26 @@ Material withModel(Material material, const MaterialModel& to) {
     return !known;
   });
   return material;
+}
+
+Phong phongOf(const Material& material) {
+  Phong phong = phongOf(material.model);
+  const Real there = material.opacity;
+  if (!(there < 1)) return phong;
+  if (!phong.transmits()) phong.index = 1;
+  for (Color Phong::*part :
+       {&Phong::emissive, &Phong::ambient, &Phong::diffuse, &Phong::specular, &Phong::reflective})
+    phong.*part = phong.*part * there;
+  phong.transmissive = phong.transmissive * there + Color(1 - there);
+  return phong;
+}
+
+Phong phongWithoutTextures(const Material& material) {
+  Material solid = material;
+  if (textureOf(material.textures, kOpacity)) solid.opacity = 1;
+  Phong phong = phongOf(solid);
+  if (textureOf(material.textures, "transmissive")) phong.transmissive = Color(0);
+  return phong;
 }
 
 }  // namespace trace

@@ -62,11 +62,22 @@ struct Material {
   MaterialModel model;
   std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
   Real bump = 0;                         ///< its texture bends the normal for shading
+  Real opacity = 1;                      ///< share of the surface that is there
+  Real displacement = 0;                 ///< moves the points of meshes (scene/displacement.h)
+  int displacementLevels = 0;            ///< so often each triangle is cut in four before
 
   /// What a material has whatever its model.
   static constexpr auto fields() {
-    return std::tuple{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
-                            "how high the surface seems to stand where the texture that it scales is white"}};
+    return std::tuple{
+        Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
+              "how high the surface seems to stand where the texture that it scales is white"},
+        Field{"opacity", &Material::opacity, "", 0, 1,
+              "share of the surface that is there: through the rest light goes straight on"},
+        Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
+              "how far the points of a mesh move along their normals; a texture of heights "
+              "scales it"},
+        Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
+              "so often each triangle of a mesh is cut in four before its points move"}};
   }
   bool operator==(const Material&) const = default;
 };
@@ -75,6 +86,8 @@ struct Material {
 /// and what it looks like, which is `color` where it is no diffuse reflectance.
 inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
                                   kColor = "color";
+/// And what every material has, whatever its model.
+inline constexpr std::string_view kOpacity = "opacity";
 /// color = change(color) for those of the keywords that the model has.
 void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
                   const std::function<Color(const Color&)>& change);
@@ -92,9 +105,13 @@ void changePixels(Material& material, const Change& change) {
 
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
-inline Phong phongOf(const Material& material) {
-  return match(material.model, [](const auto& model) -> Phong { return model.asPhong(); });
+inline Phong phongOf(const MaterialModel& model) {
+  return match(model, [](const auto& said) -> Phong { return said.asPhong(); });
 }
+/// Of one that is not wholly there it lets light through.
+Phong phongOf(const Material& material);
+/// The same for formats that have no holes: what a texture makes transparent in places is opaque.
+Phong phongWithoutTextures(const Material& material);
 
 inline bool glows(const Material& material) { return !isBlack(phongOf(material).emissive); }
 

@@ -6,7 +6,9 @@
 // spectrum under D65. Gold's red, which no screen can show, is taken as 0.98.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "math/color.h"
@@ -30,6 +32,16 @@ constexpr ComplexIndex indexOf(Metal metal) {
                                      {{0.3936, 0.9639, 1.1624}, {5.7560, 2.6047, 2.3219}},
                                      {{0.4558, 0.5653, 1.0590}, {4.2499, 2.7825, 1.7611}}};
   return kTable[static_cast<int>(metal) - 1];
+}
+
+/// Of what does not absorb and mirrors so much of light along its normal.
+inline ComplexIndex indexMirroring(const Color& alongNormal) {
+  const auto index = [](Real mirrored) {
+    constexpr Real kMost = 0.9999;
+    const Real root = std::sqrt(std::clamp(mirrored, 0.0, kMost));
+    return (1 + root) / (1 - root);
+  };
+  return {{index(alongNormal.r), index(alongNormal.g), index(alongNormal.b)}, Color(0)};
 }
 
 }  // namespace trace

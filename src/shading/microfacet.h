@@ -74,6 +74,13 @@ struct Microfacets {
   }
 };
 
+/// What comes from `eye` refracted at the facet; eta = index behind / index before. Precondition: none of it
+/// is mirrored totally.
+inline Vec3 refractedAt(const Vec3& half, const Vec3& eye, Real eta) {
+  const Real cosine = dot(eye, half), behind = std::sqrt(max(0, 1 - (1 - cosine * cosine) / (eta * eta)));
+  return normalize(half * (cosine / eta - behind) - eye / eta);
+}
+
 /// The share of light that microfacets give back, tabulated; isotropic, of reflectance 1, and of the part
 /// that Schlick's weight (1 - cos)^5 makes of it.
 struct MicrofacetAlbedo {

@@ -4,6 +4,7 @@
 
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/metals.h"
 
 namespace trace {
 
@@ -21,6 +22,11 @@ struct ThinFilm {
   /// (spectralColor), for light that holds as much of every wavelength, which is white. Colours outside what
   /// a screen shows are cut off. From a few micrometres on the colours wash out, as they do in life.
   Color mirrored(Real cosine) const;
+
+  /// The same of a film on a metal of the index eta + i k, in place of `behind`.
+  Real mirroredOn(Real eta, Real k, Real cosine, Real wavelength) const;
+  /// Each channel by its index, which is taken to be that of all wavelengths.
+  Color mirroredOn(const ComplexIndex& metal, Real cosine) const;
 };
 
 }  // namespace trace

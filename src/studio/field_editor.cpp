@@ -22,6 +22,12 @@ bool drag(const FieldFacts& facts, double* values, int count) {
   return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, facts.name});
 }
 
+/// A file that is named, and not chosen here.
+bool showFile(const std::string& name) {
+  ImGui::TextDisabled("%s", name.empty() ? "none" : name.c_str());
+  return false;
+}
+
 }  // namespace
 
 bool editValue(const FieldFacts& facts, Real& value) { return drag(facts, &value, 1); }
@@ -70,10 +76,8 @@ bool editValue(const FieldFacts& facts, Color& value) {
   return true;
 }
 
-bool editValue(const FieldFacts&, Heights& value) {
-  ImGui::TextDisabled("%s", value.file.empty() ? "none" : value.file.c_str());
-  return false;
-}
+bool editValue(const FieldFacts&, Heights& value) { return showFile(value.file); }
+bool editValue(const FieldFacts&, Pixels& value) { return showFile(value.file); }
 
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);

@@ -37,6 +37,7 @@ bool editSwatch(Color& value);
 bool editValue(const FieldFacts& facts, std::string& value);
 /// Shows the name of the picture: it is read with the scene.
 bool editValue(const FieldFacts& facts, Heights& value);
+bool editValue(const FieldFacts& facts, Pixels& value);
 /// Several numbers, in rows of at most four.
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
 /// One of the names.

@@ -190,6 +190,10 @@ void editMaterial(Studio& studio) {
       changed(name + ": " + std::string(key));
     });
   });
+  forEachField<Material>([&](const auto& f) {
+    if (f.keyword == "bump" && !textureOf(material.textures, f.keyword)) return;  // nothing to scale
+    editField(f, material.*f.member, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
+  });
   endFields();
   for (const FieldTexture& t : material.textures)
     ImGui::TextDisabled("%s is scaled by a texture: %s", t.field.c_str(), summary(t.texture).c_str());

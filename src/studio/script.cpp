@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -17,8 +18,6 @@
 
 namespace trace::studio {
 namespace {
-
-constexpr int kSettle = 3;  // frames until a change shows everywhere
 
 int whole(const std::string& word) {
   constexpr double kMost = 1e9;
@@ -139,7 +138,7 @@ void checkOption(const Words& words) {
 }
 
 /// `run` returns false to be called again after the next frame. `check`, if any, throws an Error if the
-/// arguments are wrong whatever the window shows.
+/// arguments are wrong whatever the window shows. `settle`: frames until what it did shows everywhere.
 struct Command {
   const char* name;
   const char* arguments;
@@ -147,6 +146,7 @@ struct Command {
   const char* help;
   bool (*run)(Studio&, const Words&);
   void (*check)(const Words&) = nullptr;
+  int settle = 3;
 };
 
 constexpr std::array kTable{
@@ -229,9 +229,15 @@ constexpr std::array kTable{
             },
             checkPicture},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
-            [](Studio& s, const Words& a) { return writeFile(a[0], state(s)), true; }},
+            [](Studio& s, const Words& a) { return writeFile(a[0], state(s)), true; }, nullptr, 0},
+    Command{"say", "WORDS...", 1, 9, "write these words to standard output, for who waits there",
+            [](Studio&, const Words& a) {
+              return std::printf("%s\n", joined(a).c_str()), std::fflush(stdout), true;
+            },
+            nullptr, 0},
     Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen",
-            [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); }},
+            [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); },
+            nullptr, 0},
 };
 
 const Command& commandOf(const Words& words) {
@@ -280,10 +286,11 @@ bool Script::step(Studio& studio) {
   const Line& line = lines_[failed && next_ > 0 ? next_ - 1 : next_];
   try {
     if (failed) fail(workspace);
-    waits_ = !commandOf(line.words).run(studio, argumentsOf(line.words));
+    const Command& command = commandOf(line.words);
+    waits_ = !command.run(studio, argumentsOf(line.words));
     if (!waits_) {
       ++next_;
-      framesToWait_ = kSettle;
+      framesToWait_ = command.settle;
     }
     return true;
   } catch (const Error& error) {

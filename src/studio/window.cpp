@@ -219,7 +219,13 @@ void Window::endFrame() {
   glfwSwapBuffers(state_->window);
 }
 
-bool Window::quiet() const { return state_->queue.empty() && state_->framesDue == 0; }
+bool Window::quiet() {
+  State& state = *state_;
+  state.happened = false;
+  glfwPollEvents();
+  if (state.happened) state.framesDue = kSettlingFrames;
+  return state.queue.empty() && state.framesDue == 0;
+}
 bool Window::closing() const { return glfwWindowShouldClose(state_->window); }
 void Window::keepOpen() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
 void Window::hide() { glfwHideWindow(state_->window); }

@@ -33,8 +33,8 @@ class Window {
   /// Hands the frame its share of what happened: the rest is for the next frames.
   void beginFrame();
   void endFrame();
-  /// Nothing that happened waits for a frame.
-  bool quiet() const;
+  /// Nothing that happened up to now waits for a frame.
+  bool quiet();
   bool closing() const;
   void keepOpen();  ///< takes back the wish to close
   void hide();

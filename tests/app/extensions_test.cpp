@@ -36,7 +36,7 @@ TEST(Extensions, EachChangesThePictureOfItsExample) {
     SCOPED_TRACE(e.name);
     ASSERT_TRUE(std::filesystem::exists(kScenes + "/" + std::string(e.scene)));
     std::vector<Choice> small;
-    if (e.view.empty()) small.push_back({"width", "80", {}});
+    if (e.view.empty()) small.push_back({"width", "40", {}});
     if (!e.view.empty()) small.push_back({"spp", "1", {}});
     const Picture off = pictureOf(e, false, kScenes, small), on = pictureOf(e, true, kScenes, small);
     ASSERT_EQ(off.width, on.width);

@@ -46,12 +46,16 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about("point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { }",
         {{"ambient-occlusion", "4", {}}}, "no ambient light");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
+  about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit, {}), "");
   EXPECT_EQ(warnings(kLit, {{"caustics", "1000", {}}, {"ambient-occlusion", "4", {}}, {"fog", "0.1", {}}}),
             "");
+  const std::string mesh =
+      "polymesh { points = ((0, 0, 0), (1, 0, 0), (0, 1, 0)); faces = ((0, 1, 2)); gennormals; }";
+  EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
             "");
 }

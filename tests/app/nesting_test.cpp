@@ -53,8 +53,9 @@ struct Nesting {
   int most;
 };
 
+/// A wide picture: the views of its drawings have the fewest pixels.
 const std::string kRay =
-    "SBT-raytracer 1.0 camera { position = (0,0,5); viewdir = (0,0,-1); updir = (0,1,0); }\n"
+    "SBT-raytracer 1.0 camera { position = (0,0,5); viewdir = (0,0,-1); updir = (0,1,0); aspectratio = 6; }\n"
     "point_light { position = (3,3,5); color = (1,1,1); }\n";
 const std::string kGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -88,7 +89,7 @@ void useAll(const std::string& file) {
   session.open(file, std::vector<Choice>{{"width", "8", {}}, {"threads", "1", {}}});
   session.build();
   session.renderPicture();
-  const Explanation explanation = session.explain(4, 4, 0);
+  const Explanation explanation = session.explain(4, session.size().height / 2, 0);
   drawRays(session.scene(), session.settings(), session.world(), explanation.tree);
   const Scene copy = session.scene();
   EXPECT_EQ(copy, session.scene());

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/file.h"
 #include "base/match.h"
 #include "formats/format.h"
-#include "formats/textures.h"
+#include "support/folder.h"
+#include "support/gltf.h"
 #include "support/paths.h"
 #include "support/scenes.h"
 #include "support/shared.h"
@@ -23,15 +25,6 @@ Picture small(const Scene& scene) {
   return test::picture(scene, settings);
 }
 
-/// Whether a picture lies inside the scene's own file ("x.wrl#11:7"), where a .ray file cannot find it; the
-/// writer warns.
-bool holdsPictures(Scene scene) {
-  bool found = false;
-  for (Material& material : scene.materials)
-    changePixels(material, [&](Pixels& pixels) { found |= liesInside(pixels.file); });
-  return found;
-}
-
 enum class Broken { fails, isLeftOut };
 
 void expectSamePicture(const std::string& file, Broken broken) {
@@ -43,9 +36,15 @@ void expectSamePicture(const std::string& file, Broken broken) {
     if (broken == Broken::fails) ADD_FAILURE() << error.what();
     return;
   }
-  if (holdsPictures(scene)) return;
-  const std::string out = (std::filesystem::path(file).parent_path() / "out.ray").string();  // never written
-  const auto files = writableFormatFor(out).write(scene, out, {}, messages);
+  // Never written, but where pictures belong beside it.
+  std::string out = (std::filesystem::path(file).parent_path() / "out.ray").string();
+  auto files = writableFormatFor(out).write(scene, out, {}, messages);
+  std::optional<test::Folder> folder;
+  if (files.size() > 1) {
+    out = folder.emplace() / "out.ray";
+    files = writableFormatFor(out).write(scene, out, {}, messages);
+    for (const NamedBytes& written : files) writeFile(written.file, written.bytes);
+  }
   const Scene back = readScene(out, files.at(0).bytes, messages);
   EXPECT_EQ(small(back), small(scene)) << file;
 }
@@ -63,6 +62,46 @@ TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
   for (const char* suffix : kSuffixes)
     for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes", suffix))
       expectSamePicture(file, Broken::isLeftOut);  // the tests of the reader have them
+}
+
+/// Pictures that lie inside a file stand beside what it is converted to.
+TEST(RoundTrip, ScenesWithPicturesInsideLookTheSame) {
+  const test::Folder folder;
+  const std::vector<InsideFile> pictures{{"red", test::smallPng(255, 0, 0)},
+                                         {"red", test::smallPng(0, 200, 0)},
+                                         {"", test::smallPng(0, 0, 255)}};
+  writeFile(folder / "a.glb", test::gltfOf(pictures, true));
+  writeFile(folder / "b.gltf", test::gltfOf(pictures, false));
+  writeFile(
+      folder / "c.wrl",
+      "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { } texture PixelTexture { image "
+      "2 1 3 0xff0000 0x00ff00 } } geometry Sphere { } }\nTransform { translation 2 0 0 children Shape { "
+      "appearance Appearance { texture PixelTexture { image 2 2 4 0xff0000ff 0x00ff0080 0x0000ffff "
+      "0xffffff00 } } geometry Box { } } }\n");
+  writeFile(folder / "d.ray", "SBT-raytracer 1.0\nmesh { file = \"a.glb\"; }\n");
+  const std::string plain = folder / "e.glb";
+  writeFile(plain, test::gltfOf({{"", test::smallPng(255, 255, 255)}}, true));
+  Messages messages;
+  EXPECT_NE(small(readScene(folder / "a.glb", messages)), small(readScene(plain, messages)));
+  struct Case {
+    const char* file;
+    std::size_t ray, composer;  ///< files that are written; the composer has pictures of diffuse alone
+  };
+  for (const Case& c :
+       {Case{"a.glb", 4, 1}, {"b.gltf", 4, 1}, {"c.wrl", 3, 2}, {"d.ray", 4, 1}, {"e.glb", 2, 1}}) {
+    Messages found;
+    const Scene scene = readScene(folder / c.file, found);
+    for (const std::string suffix : {".ray", ".out"}) {
+      const std::string out = folder / ("out" + suffix);
+      const auto files = writableFormatFor(out).write(scene, out, {}, found);
+      EXPECT_EQ(files.size(), suffix == ".ray" ? c.ray : c.composer) << c.file << suffix;
+      for (const NamedBytes& file : files) writeFile(file.file, file.bytes);
+      const Scene back = readScene(out, found);
+      for (const Message& message : found.all())
+        EXPECT_EQ(message.what.find("cannot be read"), std::string::npos) << message.what;
+      if (suffix == ".ray") EXPECT_EQ(small(back), small(scene)) << c.file;
+    }
+  }
 }
 
 TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {

@@ -33,15 +33,15 @@ TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
   ASSERT_FALSE(scenes.empty());
   for (const std::string& scene : scenes) {
     Session session;
-    session.open(scene, std::vector<Choice>{{"width", "64", {}}});
+    session.open(scene, std::vector<Choice>{{"width", "40", {}}});
     session.build();
     EXPECT_TRUE(session.messages().all().empty()) << toString(session.messages().all().front());
-    const Picture one = renderFile(scene, {{"width", "64", {}}, {"threads", "1", {}}});
+    const Picture one = renderFile(scene, {{"width", "40", {}}, {"threads", "1", {}}});
     double brightest = 0;
     for (const Color& c : one.pixels) brightest = std::max(brightest, maxComponent(c));
     EXPECT_GT(brightest, 0.2) << scene;
     for (const char* threads : {"2", "7"})
-      EXPECT_EQ(one, renderFile(scene, {{"width", "64", {}}, {"threads", threads, {}}})) << scene;
+      EXPECT_EQ(one, renderFile(scene, {{"width", "40", {}}, {"threads", threads, {}}})) << scene;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
+#include "support/gltf.h"
 
 namespace trace {
 namespace {
@@ -52,6 +53,55 @@ TEST_F(Convert, TurnsAProfile) {
   EXPECT_TRUE(
       test::contains(wrong.err, "wrong.txt:2:1: error: expected a distance from the axis of 0 or more"));
   EXPECT_FALSE(exists("wrong.ply"));
+}
+
+/// Four colours around, dark below: the picture stands upright on what is seen from the front, and is not
+/// mirrored. Every format that names it shows the same.
+TEST_F(Convert, PutsAPictureOnAProfile) {
+  Raster four(4, 2, 3, 255);
+  four.samples = std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255,  // above
+                                           51,  0, 0, 0, 51,  0, 0, 0, 51,  51,  51,  51};
+  for (const char* name : {"pictures", "out"}) std::filesystem::create_directory(path(name));
+  write("pictures/four.png", encodePng(four));
+  write("can.txt", "1 0\n1 2\n");
+  const std::vector<std::string> view{"--camera", "position = (0, 1, 50); look_at = (0, 1, 0); fov = 3",
+                                      "--light", "ambient_light { color = 1; }"};
+  const auto convert = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "convert");
+    words.insert(words.end(), view.begin(), view.end());
+    const auto r = run(words);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r;
+  };
+  convert({"--revolve", "can.txt", "out/can.ray", "--picture", "pictures/four.png"});
+  EXPECT_TRUE(test::contains(read("out/can.ray"), "\"../pictures/four.png\""));
+  const auto rendered = [&](const std::string& scene) {
+    EXPECT_EQ(run({scene, "-w", "40", "-o", "seen.ppm"}).code, 0) << scene;
+    return readPicture(path("seen.ppm"));
+  };
+  const Picture seen = rendered("out/can.ray");
+  constexpr int kLeft = 9, kRight = 30, kAbove = 12, kBelow = 27;  // in the middle of a texel, nearly
+  const auto expectNear = [&](int x, int y, const Color& wanted) {
+    for (const auto channel : {&Color::r, &Color::g, &Color::b})
+      EXPECT_NEAR(seen.at(x, y).*channel, wanted.*channel, 0.1) << x << ", " << y;
+  };
+  expectNear(kLeft, kAbove, {0, 0, 1});
+  expectNear(kRight, kAbove, Color(1));
+  expectNear(kLeft, kBelow, {0, 0, 0.2});
+  expectNear(kRight, kBelow, Color(0.2));
+
+  EXPECT_TRUE(test::contains(run({"info", "out/can.ray"}).out, "objects (1)"));
+  for (const char* name : {"out/can.obj", "out/can.ply"}) {
+    const auto r = convert({"--revolve", "can.txt", name, "--picture", "pictures/four.png"});
+    EXPECT_FALSE(test::contains(r.err, "texture")) << r.err;
+    convert({name, "again.ray"});
+    EXPECT_EQ(rendered("again.ray"), seen) << name;
+  }
+  EXPECT_TRUE(test::contains(read("out/can.mtl"), "map_Kd ../pictures/four.png\n"));
+
+  EXPECT_EQ(run({"convert", "--revolve", "can.txt", "a.ray", "--picture", "no.png"}).code, 1);
+  EXPECT_FALSE(exists("a.ray"));
+  EXPECT_EQ(run({"convert", "tri.off", "a.ray", "--picture", "pictures/four.png"}).code, 2);
 }
 
 TEST_F(Convert, WritesNothingWhereOneOfItsFilesCannotBeWritten) {
@@ -137,7 +187,7 @@ TEST_F(Convert, SaysWhatIsLeftOut) {
         "point_light { position=(0,0,5); color=(1,1,1); }\nbackground { color = (0, 0, 1); }\n"
         "sphere { material = { diffuse = checker { }; } }\n");
   const std::string rest =
-      "left out, as the format has none of them: the camera, the light, the background and the "
+      "left out, as the format has none of them: the camera, the light, the background and "
       "textures of 1 material";
   for (const char* file : {"all.obj", "all.ply"}) {
     const auto r = run({"convert", "all.ray", file});
@@ -150,13 +200,80 @@ TEST_F(Convert, SaysWhatIsLeftOut) {
   EXPECT_FALSE(test::contains(run({"convert", "tri.off", "tri.ply"}).err, "left out"));
 }
 
-TEST_F(Convert, PicturesInsideTheFileAreNamedAsLost) {
+/// Three pictures, two of one name.
+std::vector<InsideFile> threePictures() {
+  return {{"wheel", test::smallPng(200, 0, 0)},
+          {"wheel", test::smallPng(0, 200, 0)},
+          {"The roof.png", test::smallPng(0, 0, 200)}};
+}
+
+TEST_F(Convert, PicturesInsideTheFileAreWrittenBesideIt) {
+  const std::vector<InsideFile> pictures = threePictures();
+  write("car.glb", test::gltfOf(pictures, true));
+  const auto first = run({"convert", "car.glb", "my car.ray"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_TRUE(
+      first.last.starts_with("wrote my car.ray, my-car-wheel.png, my-car-wheel-2.png and "
+                             "my-car-The-roof.png (3 objects, 6 triangles) in "))
+      << first.last;
+  EXPECT_EQ(read("my-car-wheel.png"), pictures[0].bytes);
+  EXPECT_EQ(read("my-car-wheel-2.png"), pictures[1].bytes);
+  EXPECT_EQ(read("my-car-The-roof.png"), pictures[2].bytes);
+  EXPECT_FALSE(test::contains(first.err, "left out")) << first.err;
+
+  const std::size_t files = this->files();
+  const auto second = run({"convert", "car.glb", "my car.ray"});
+  EXPECT_EQ(second.last.substr(0, second.last.find(" in ")), first.last.substr(0, first.last.find(" in ")));
+  EXPECT_EQ(this->files(), files) << "the same pictures have the same names again";
+
+  ASSERT_EQ(run({"car.glb", "-w", "40", "-o", "a.ppm"}).code, 0);
+  ASSERT_EQ(run({"my car.ray", "-w", "40", "-o", "b.ppm"}).code, 0);
+  EXPECT_EQ(readPicture(path("a.ppm")), readPicture(path("b.ppm")));
+}
+
+TEST_F(Convert, ReplacesThePicturesOfTheFileItReplacesAndNoOther) {
+  const std::vector<InsideFile> pictures = threePictures();
+  write("car.glb", test::gltfOf(pictures, true));
+  write("out-wheel.png", "precious");
+  const auto first = run({"convert", "car.glb", "out.ray"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(read("out-wheel.png"), "precious");
+  EXPECT_EQ(read("out-wheel-2.png"), pictures[0].bytes);
+  EXPECT_EQ(read("out-wheel-3.png"), pictures[1].bytes);
+  EXPECT_TRUE(first.last.ends_with("; out-wheel.png is kept as it is, for out.ray did not name it"))
+      << first.last;
+
+  const std::vector<InsideFile> repainted{
+      {"wheel", test::smallPng(9, 9, 9)}, pictures[1], {"The roof.png", test::smallPng(7, 7, 7)}};
+  write("car.glb", test::gltfOf(repainted, false));
+  EXPECT_EQ(run({"convert", "car.glb", "out.ray"}).code, 0);
+  EXPECT_EQ(read("out-wheel.png"), "precious");
+  EXPECT_EQ(read("out-wheel-2.png"), repainted[0].bytes) << "out.ray named it";
+  EXPECT_EQ(read("out-wheel-3.png"), repainted[1].bytes);
+  EXPECT_EQ(read("out-The-roof.png"), repainted[2].bytes);
+
+  // A picture that the scene itself is made of stays, though the file that is replaced names it as well.
+  write("in.ray",
+        "SBT-raytracer 1.0\nmesh { file = \"car.glb\"; }\nsphere { material = { diffuse = "
+        "map(\"out-The-roof.png\"); } }\n");
+  const auto both = run({"convert", "in.ray", "out.ray"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_TRUE(test::contains(read("out.ray"), "out-The-roof.png\"")) << "the sphere's";
+  EXPECT_TRUE(test::contains(read("out.ray"), "out-The-roof-2.png\"")) << "the mesh's";
+  EXPECT_EQ(read("out-The-roof.png"), repainted[2].bytes);
+}
+
+TEST_F(Convert, PicturesInsideTheFileAreNamedAsLostWhereNothingLiesBeside) {
   write("inside.wrl",
         "#VRML V2.0 utf8\nShape { appearance Appearance { texture PixelTexture { image 1 1 3 0xff0000 } }\n"
         "geometry Box { } }\n");
-  const auto r = run({"convert", "inside.wrl", "inside.ray"});
+  std::filesystem::create_symlink("/dev/null", path("nothing.ray"));
+  const std::size_t files = this->files();
+  const auto r = run({"convert", "inside.wrl", "nothing.ray"});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_TRUE(test::contains(r.err, "pictures that lie inside the file are left out: 1")) << r.err;
+  EXPECT_EQ(this->files(), files);
+  EXPECT_EQ(run({"convert", "inside.wrl", "nothing.ray", "--strict"}).code, 3) << "warnings are errors";
 }
 
 TEST_F(Convert, WarningsStandInTheOrderOfTheFile) {

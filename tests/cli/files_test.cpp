@@ -217,8 +217,9 @@ TEST_F(FilesTest, StatisticsThatNobodyTakesDoNotHideThePicture) {
 
 TEST_F(FilesTest, AnyNumberOfColumnsWill) {
   for (const char* columns : {"2147483647", "99999999999999999999", "1", "0", "-5", "abc", ""}) {
-    const Run r = run({"white.ray", "-w", "1000", "--spp", "256", "--time-limit", "1.5", "--progress=bar"},
-                      {{"COLUMNS", columns}});
+    const Run r =
+        run({"white.ray", "-w", "1000", "--spp", "256", "-t", "1", "--time-limit", "1.3", "--progress=bar"},
+            {{"COLUMNS", columns}});
     EXPECT_EQ(r.code, 5) << columns;
     EXPECT_LT(r.err.size(), 100000u) << columns;
     fs::remove(path("white.png"));

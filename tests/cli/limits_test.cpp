@@ -49,14 +49,14 @@ class Limits : public ProgramTest {
 
   static std::vector<std::string> scenes() { return {"copies", "sweep", "waves", "julia", "glass", "mesh"}; }
 
-  /// Runs the command for each scene with a limit of half a second. Where one goes on and on, ctest ends the
-  /// test.
+  /// Runs the command for each scene with a limit of a fifth of a second. Where one goes on and on, ctest
+  /// ends the test.
   void expectEnds(const std::vector<std::string>& before, const std::vector<std::string>& after) const {
     for (const std::string& scene : scenes()) {
       std::vector<std::string> words = before;
       words.push_back(scene + ".ray");
       words.insert(words.end(), after.begin(), after.end());
-      words.insert(words.end(), {"--time-limit", "0.5"});
+      words.insert(words.end(), {"--time-limit", "0.2"});
       const Run r = run(words);
       const bool ended = r.code == 0 || r.code == kLimit || r.code == 6;  // 6: lint found something
       EXPECT_TRUE(ended) << scene << ": " << r.code << "\n" << r.err;
@@ -159,7 +159,7 @@ TEST_F(Limits, MemoryEndsEveryCommand) {
                                                        {"explain", "mesh.ray", "--pixel", "0,0"},
                                                        {"convert", "mesh.ray", "out.obj"}};
   for (std::vector<std::string> words : commands) {
-    words.insert(words.end(), {"--max-memory", "200"});
+    words.insert(words.end(), {"--max-memory", "120"});
     const Run r = run(words);
     EXPECT_EQ(r.code, kLimit) << words[0] << r.err;
     EXPECT_TRUE(contains(r.err, "error: out of memory while reading the scene, subdividing a mesh ("))

@@ -105,5 +105,63 @@ TEST(MeshWriters, ObjKeepsObjectsAndMaterials) {
   }
 }
 
+/// What OBJ and PLY can say of textures is kept, of the rest is told.
+TEST(MeshWriters, KeepPicturesThatLieAsTheCoordinatesHaveThem) {
+  struct Written {
+    std::string material, header, warnings;
+  };
+  const auto write = [](std::initializer_list<const char*> textures) {
+    std::string text = "SBT-raytracer 1.0\n";
+    for (const char* texture : textures)
+      text +=
+          "mesh { points = ((0,0,0), (1,0,0), (0,1,0)); texture_uv = ((0,0), (1,0), (0,1)); faces = "
+          "((0,1,2)); "
+          "material = { diffuse = " +
+          std::string(texture) + "; } }\n";
+    const Scene from = scene(text);
+    Written written;
+    Messages messages;
+    written.material = writeObj(from, "out.obj", {}, messages).at(1).bytes;
+    const std::string ply = writePly(from, "out.ply", {}, messages).at(0).bytes;
+    written.header = ply.substr(0, ply.find("element"));
+    for (const Message& message : messages.all()) written.warnings += message.what + "\n";
+    return written;
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != text.npos;
+  };
+
+  const Written one = write(
+      {"texture(image { file = \"a b.png\"; })", "texture(image { file = \"a b.png\"; }, (0.5, 0.25, 1))"});
+  EXPECT_TRUE(has(one.material, "Kd 0.5 0.25 1\n")) << one.material;
+  EXPECT_TRUE(has(one.material, "map_Kd a b.png\n")) << one.material;
+  EXPECT_TRUE(has(one.header, "comment TextureFile a b.png\n")) << one.header;
+  EXPECT_EQ(one.warnings, "");
+
+  const Written two = write({"texture(image { file = \"a.png\"; })", "texture(image { file = \"b.png\"; })"});
+  EXPECT_TRUE(has(two.material, "map_Kd a.png\n") && has(two.material, "map_Kd b.png\n")) << two.material;
+  EXPECT_FALSE(has(two.header, "TextureFile")) << two.header;
+  EXPECT_EQ(two.warnings,
+            "the pictures are left out: a PLY file has one for all of it, which is not decoded\n");
+
+  const Written decoded = write({"texture(image { file = \"a.png\"; srgb = true; })"});
+  EXPECT_TRUE(has(decoded.material, "map_Kd -colorspace sRGB a.png\n")) << decoded.material;
+  EXPECT_FALSE(has(decoded.header, "TextureFile")) << decoded.header;
+
+  const Written clamped = write({"map(\"a.png\"); opacity = map(\"holes.png\")"});
+  EXPECT_TRUE(has(clamped.material, "map_Kd -clamp on a.png\n")) << clamped.material;
+  EXPECT_TRUE(has(clamped.material, "Kd 1 1 1\n") && !has(clamped.material, "Tf")) << clamped.material;
+  EXPECT_TRUE(has(clamped.warnings, "textures of 1 material")) << "the holes are lost";
+
+  for (const char* other : {"checker { }", "texture(image { file = \"a.png\"; channel = red; })",
+                            "texture(image { file = \"a.png\"; transform = (2, 0, 0, 0, 2, 0); })",
+                            "texture(image { file = \"a.png\"; translate = (1, 0, 0); })"}) {
+    const Written none = write({other});
+    EXPECT_FALSE(has(none.material, "map_Kd")) << other;
+    EXPECT_FALSE(has(none.header, "TextureFile")) << other;
+    EXPECT_TRUE(has(none.warnings, "textures of 1 material")) << other;
+  }
+}
+
 }  // namespace
 }  // namespace trace

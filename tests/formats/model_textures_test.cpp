@@ -206,6 +206,45 @@ TEST(GltfTextures, AlphaMakesHoles) {
   EXPECT_TRUE(std::holds_alternative<Principled>(with("OPAQUE", 0.5).material().model));
 }
 
+TEST(GltfTextures, HolesKeepMetalnessAndRoughness) {
+  const auto with = [](const std::string& mode) {
+    return Read("a.gltf", gltf("\"alphaMode\": \"" + mode +
+                                   R"(", "pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0},
+"baseColorFactor": [1, 1, 1, 0.5], "baseColorTexture": {"index": 0}})",
+                               "\"source\": 0", "", picture(true)));
+  };
+  const Read blend = with("BLEND"), mask = with("MASK");
+  for (const Read* read : {&blend, &mask}) {
+    EXPECT_TRUE(std::holds_alternative<Principled>(read->material().model));
+    EXPECT_EQ(read->at("metallic", kBottomLeft), Color(1)) << "blue";
+    EXPECT_EQ(read->warnings(), "");
+  }
+  EXPECT_EQ(blend.material().opacity, 0.5);
+  EXPECT_EQ(blend.at("opacity", kTopLeft), Color(1));
+  EXPECT_EQ(blend.at("opacity", kTopRight), Color(0));
+  EXPECT_NEAR(blend.at("opacity", kBottomRight).g, 51 / 255.0, 1e-9);
+  EXPECT_EQ(mask.material().opacity, 1);
+  EXPECT_EQ(mask.at("opacity", kTopLeft), Color(1)) << "1 times 0.5 is the cutoff";
+  EXPECT_EQ(mask.at("opacity", kBottomRight), Color(0));
+}
+
+TEST(GltfTextures, IridescenceIsAFilm) {
+  const Read read("a.gltf", gltf(R"("extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 0.7,
+"iridescenceIor": 1.4, "iridescenceThicknessMinimum": 100, "iridescenceThicknessMaximum": 500,
+"iridescenceThicknessTexture": {"index": 0}}})",
+                                 "\"source\": 0"));
+  EXPECT_EQ(read.warnings(), "");
+  const auto& model = std::get<Principled>(read.material().model);
+  EXPECT_EQ(model.iridescence, 0.7);
+  EXPECT_EQ(model.iridescenceIndex, 1.4);
+  EXPECT_EQ(model.iridescenceThickness, 500);
+  EXPECT_NEAR(read.at("iridescence_thickness", kTopLeft).g, 0.2, 1e-12) << "no green";
+  EXPECT_NEAR(read.at("iridescence_thickness", kTopRight).g, 1, 1e-12);
+  const Read glass("a.gltf", gltf(R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+"KHR_materials_iridescence": {"iridescenceFactor": 1}})"));
+  EXPECT_NE(glass.warnings().find("its iridescence is not rendered"), std::string::npos);
+}
+
 TEST(GltfTextures, BrokenOnesAreWarnings) {
   const std::string cut = picture().substr(0, 22);
   const Read read("a.gltf", gltf(kBase, "\"source\": 0", "", cut));

@@ -52,10 +52,12 @@ TEST(RayModels, AreRefusedWithAHint) {
   EXPECT_EQ(
       errorsOf("sphere { material = { model = lamber; } }"),
       "2:31: model: expected the name of a shading model, found \"lamber\" [did you mean \"lambert\"?]");
-  EXPECT_EQ(errorsOf("sphere { material = { model = lambert; shininess = 5; } }"),
-            "2:40: the shading model lambert has no field \"shininess\" [it has name, bump, diffuse, "
-            "emissive, ambient "
-            "and shadow]");
+  EXPECT_EQ(
+      errorsOf("sphere { material = { model = lambert; shininess = 5; } }"),
+      "2:40: the shading model lambert has no field \"shininess\" [it has name, bump, opacity, displacement, "
+      "displacement_levels, diffuse, "
+      "emissive, ambient "
+      "and shadow]");
   EXPECT_EQ(
       errorsOf("sphere { material = { model = conductor; metal = god; } }"),
       "2:50: metal: expected none, silver, aluminium, gold, copper or brass, found \"god\" [did you mean "
@@ -66,6 +68,41 @@ TEST(RayModels, AreRefusedWithAHint) {
       "model, before the field]");
   EXPECT_EQ(warningsOf("sphere { material = { model = coated; roughness = 3; } }"),
             "2:39: roughness of material: expected 0 to 1, found 3");
+}
+
+TEST(RayModels, HaveHoles) {
+  // One after the other, since blocks inherit.
+  const Scene scene = load(
+                          "material = { model = conductor; opacity = 0.5; }\nsphere { }\n"
+                          "sphere { material = { opacity = texture(checker { }, 0.75); } }\n"
+                          "sphere { material = { model = lambert; opacity = 1; } }\n"
+                          "sphere { material = { library = water; } }\n")
+                          .scene;
+  const auto material = [&](std::size_t i) { return scene.materials.at(scene.objects.at(i).material); };
+  EXPECT_EQ(material(0).opacity, 0.5);
+  EXPECT_EQ(material(1).opacity, 0.75);
+  ASSERT_TRUE(textureOf(material(1).textures, kOpacity));
+  EXPECT_TRUE(std::holds_alternative<Conductor>(material(1).model));
+  EXPECT_EQ(material(2).opacity, 1);
+  EXPECT_EQ(material(3).opacity, 1) << "water of the library has no holes";
+  Messages messages;
+  const std::string written = writeRay(scene, "b.ray", {}, messages).at(0).bytes;
+  const Scene back = readScene("b.ray", written, messages);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Material& again = back.materials.at(back.objects.at(i).material);
+    EXPECT_EQ(again.opacity, material(i).opacity) << written;
+    EXPECT_EQ(textureOf(again.textures, kOpacity) != nullptr, i == 1) << written;
+  }
+  EXPECT_EQ(warningsOf("sphere { material = { opacity = 3; } }"),
+            "2:23: opacity of material: expected 0 to 1, found 3");
+}
+
+TEST(RayModels, HolesAreEditedInTheirText) {
+  const auto set = [](Real opacity) { return [=](Scene& s) { s.materials[0].opacity = opacity; }; };
+  EXPECT_EQ(after("sphere { material = { opacity = 0.25; } }\n", set(0.75)),
+            "sphere { material = { opacity = 0.75; } }\n");
+  EXPECT_EQ(after("sphere { material = { model = lambert; } }\n", set(0.5)),
+            "sphere { material = { model = lambert; opacity = 0.5; } }\n");
 }
 
 TEST(RayModels, AreEditedInTheirText) {

@@ -115,6 +115,27 @@ TEST(RayTexture, BendsNormalsByHeights) {
   EXPECT_NE(errorsOf("sphere { material = { bump = 0.5; } }"), "");
 }
 
+TEST(RayTexture, DisplacesMeshes) {
+  const Scene scene = load(
+                          "sphere { material = { displacement = texture(checker { a = (1, 0, 0); }, -0.1); "
+                          "displacement_levels = 3; } }\n"
+                          "sphere { material = { displacement = 0.5; } }\n"
+                          "union { sphere { material = { displacement_levels = 2; } } "
+                          "box { material = { displacement = 0.2; } } }")
+                          .scene;
+  const auto material = [&](std::size_t i) { return scene.materials.at(scene.objects.at(i).material); };
+  EXPECT_EQ(material(0).displacement, -0.1);
+  EXPECT_EQ(material(0).displacementLevels, 3);
+  EXPECT_EQ(material(0).textures, (std::vector<FieldTexture>{{"displacement", kChecker}}));
+  EXPECT_EQ(material(1).displacement, 0.5) << "the same everywhere";
+  EXPECT_EQ(material(1).displacementLevels, 0);
+  Messages messages;
+  const std::string written = writeRay(scene, "b.ray", {}, messages).at(0).bytes;
+  EXPECT_EQ(readScene("b.ray", written, messages).materials, scene.materials) << written;
+  EXPECT_NE(errorsOf("sphere { material = { displacement_levels = checker { }; } }"), "");
+  EXPECT_FALSE(load("sphere { material = { displacement_levels = 40; } }").warnings.empty());
+}
+
 TEST(RayTexture, HasANameForOthers) {
   const Scene scene =
       load(

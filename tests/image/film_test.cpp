@@ -172,6 +172,56 @@ TEST(Film, TakesNothingThatDoesNotFit) {
     refuses(Film(40, 3, 4), std::string_view(bytes).substr(0, length));
 }
 
+TEST(Film, SplatsLandAnywhereAndTheirOrderDoesNotMatter) {
+  const auto chunk = [](const Film& film, std::int64_t tile, std::size_t wave) {
+    TileSamples samples = uniform(film, tile, wave, Color(tile == 0 ? 2 : 0));
+    for (int i = 0; i < 50; ++i)
+      samples.splats.push_back({i % film.width(), i % 3, Color(0.1 * i, 1e-3, tile == 0 ? -1e3 : 1e5)});
+    samples.splats.push_back({0, 0, Color(std::numeric_limits<double>::quiet_NaN())});
+    samples.paths = static_cast<std::int64_t>(samples.colors.size());
+    return samples;
+  };
+  const auto filmOf = [] {
+    Film film(Film::kTileSize + 5, 3, 4);
+    film.takeSplats();
+    return film;
+  };
+  Film forward = filmOf(), backward = filmOf(), back = filmOf();
+  for (std::size_t wave = 0; wave < forward.waves().size(); ++wave)
+    for (std::int64_t tile = 0; tile < 2; ++tile) forward.add(tile, wave, chunk(forward, tile, wave));
+  for (std::size_t wave = backward.waves().size(); wave-- > 0;)
+    for (std::int64_t tile = 1; tile >= 0; --tile) {
+      if (wave == 0 && tile == 0) {
+        EXPECT_GT(luminanceOf(backward.picture().at(0, 0)), 0) << "splats of another tile are seen";
+        back.restore(backward.saved());
+        EXPECT_EQ(back.picture(), backward.picture());
+      }
+      backward.add(tile, wave, chunk(backward, tile, wave));
+    }
+  EXPECT_EQ(forward.picture(), backward.picture());
+  for (std::size_t wave = 0; wave < back.waves().size(); ++wave)
+    if (!back.has(0, wave)) back.add(0, wave, chunk(back, 0, wave));
+  EXPECT_EQ(back.picture(), forward.picture());
+  EXPECT_THROW(Film(Film::kTileSize + 5, 3, 4).restore(back.saved()), std::runtime_error);
+
+  // The mean of a pixel's samples and what a path brings: of pixel (1, 1), splats 1 and 38 of six waves.
+  const double paths = (Film::kTileSize + 5) * 3 * 4;
+  EXPECT_NEAR(forward.picture().at(1, 1).r, 2 + 3 * 2 * (0.1 + 3.8 * (38 % 3 == 1)) / paths, 1e-6);
+  EXPECT_NEAR(forward.picture().at(1, 1).g, 2 + 3 * 2 * 1e-3 / paths, 1e-6);
+}
+
+TEST(Film, SplatsMayBeVeryBrightOrVeryDark) {
+  for (const double value : {1e-9, 1e12}) {
+    Film film(1, 1);
+    film.takeSplats();
+    TileSamples samples = uniform(film, 0, 0, Color(0));
+    samples.splats.assign(100000, {0, 0, Color(value)});
+    samples.paths = 100000;
+    film.add(0, 0, samples);
+    EXPECT_NEAR(film.picture().at(0, 0).g / value, 1, 1e-3) << value;
+  }
+}
+
 TEST(PixelSum, SettlesWhereItsErrorIsSmall) {
   PixelSum even, noisy, bright;
   for (int k = 0; k < 16; ++k) {

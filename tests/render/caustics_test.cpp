@@ -1,10 +1,9 @@
 // Photons of caustics against what mirrors, panes and lenses do with light.
-#include "render/caustics.h"
-
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
+#include "render/photons.h"
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -106,7 +105,7 @@ TEST(Caustics, AllThatEntersALensArrives) {
   const World world = compile(scene, settings, messages);
   Job job;
   Real power = 0;
-  const PhotonMap map = causticMap(world, settings, job);
+  const PhotonMap map = causticMap(world, settings, nullptr, job);
   for (const Photon& photon : map.photons()) power += photon.power.g;
   EXPECT_NEAR(power / kPi, kPi, 0.01 * kPi) << "the light of its cross-section";
 }

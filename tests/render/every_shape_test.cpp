@@ -97,8 +97,9 @@ int sentOf(const Shape& shape, int rays) {
   const auto isOneOf = [&](const std::set<std::string_view>& keywords) {
     return keywords.contains(shape.keyword());
   };
-  if (isOneOf({"blend", "isosurface", "supertoroid"})) return rays / 10;
-  if (isOneOf({"height_field", "terrain", "sweep", "sphere_sweep", "bezier_patches"})) return rays / 4;
+  if (isOneOf({"bezier_patches", "blend", "height_field", "isosurface", "plant", "supertoroid", "sweep"}))
+    return rays / 10;
+  if (isOneOf({"terrain", "sphere_sweep"})) return rays / 4;
   return rays;
 }
 

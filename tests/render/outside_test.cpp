@@ -174,5 +174,104 @@ TEST(Outside, SentencesNameThePlace) {
   EXPECT_EQ(sentence(build(Scene{}).outside().view({{}, {1, 0, 0}}, RayKind::camera)), "background");
 }
 
+// --- the panorama -------------------------------------------------------------------------------------
+
+/// Each quarter of each face has a colour of its own, of whole bytes.
+Color quarterColor(int face, int column, int row) {
+  return {face * 40 / 255.0, column * 200 / 255.0, row * 200 / 255.0};
+}
+
+std::shared_ptr<const MipMap> quarters(int face, std::uint8_t alpha) {
+  Raster raster(2, 2, 4, 255);
+  std::vector<std::uint8_t> samples;
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 2; ++column)
+      for (const int sample : {face * 40, column * 200, row * 200, static_cast<int>(alpha)})
+        samples.push_back(static_cast<std::uint8_t>(sample));
+  raster.samples = std::move(samples);
+  return std::make_shared<const MipMap>(std::move(raster));
+}
+
+/// How VRML97 (ISO/IEC 14772-1, 6.5) has who looks at a face stand.
+struct Face {
+  Pixels Background::*picture;
+  Vec3 look, up;
+};
+const Face kFaces[] = {
+    {&Background::front, {0, 0, -1}, {0, 1, 0}}, {&Background::back, {0, 0, 1}, {0, 1, 0}},
+    {&Background::left, {-1, 0, 0}, {0, 1, 0}},  {&Background::right, {1, 0, 0}, {0, 1, 0}},
+    {&Background::top, {0, 1, 0}, {0, 0, 1}},    {&Background::bottom, {0, -1, 0}, {0, 0, -1}},
+};
+
+Scene panorama(std::uint8_t alpha = 255) {
+  Scene scene;
+  for (int i = 0; i < 6; ++i) (scene.background.*kFaces[i].picture).map = quarters(i, alpha);
+  return scene;
+}
+
+/// Through the middle of a quarter of the face.
+Ray through(const Face& face, int column, int row) {
+  const Vec3 right = cross(face.look, face.up);
+  return {{}, normalize(face.look + right * (column - 0.5) + face.up * (0.5 - row))};
+}
+
+void expectNear(const Color& is, const Color& wanted, const std::string& what = {}) {
+  EXPECT_NEAR(is.r, wanted.r, 1e-9) << what;
+  EXPECT_NEAR(is.g, wanted.g, 1e-9) << what;
+  EXPECT_NEAR(is.b, wanted.b, 1e-9) << what;
+}
+
+TEST(Panorama, PicturesStandAsTheSpecificationOfVrmlHasThem) {
+  const World world = build(panorama());
+  for (int i = 0; i < 6; ++i)
+    for (int column = 0; column < 2; ++column)
+      for (int row = 0; row < 2; ++row)
+        for (const RayKind kind : {RayKind::camera, RayKind::reflection}) {
+          const auto view = world.outside().view(through(kFaces[i], column, row), kind);
+          expectNear(view.color, quarterColor(i, column, row),
+                     std::to_string(i) + " " + std::to_string(column) + " " + std::to_string(row));
+          EXPECT_EQ(view.source, Outside::Source::panorama);
+          expectNear({view.place.x, view.place.y, 0}, {0.25 + 0.5 * column, 0.25 + 0.5 * row, 0});
+        }
+  EXPECT_EQ(sentence(world.outside().view({{}, {0, 0, -1}}, RayKind::camera)),
+            "panorama, face front at (0.5, 0.5) from its top left");
+}
+
+/// The colours behind, where there is no picture and as far as one is transparent.
+TEST(Panorama, WhatLiesBehindIsSeenThroughIt) {
+  const Color sky(0.5, 0.25, 1);
+  Scene scene = panorama(51);
+  scene.background.gradient = {sky};
+  scene.background.top = {};
+  Settings settings;
+  settings.environmentBrightness = 2;
+  const World world = build(scene, settings);
+  for (const RayKind kind : {RayKind::camera, RayKind::reflection}) {
+    const auto at = [&](int face) { return world.outside().view(through(kFaces[face], 1, 0), kind); };
+    expectNear(at(0).color, (quarterColor(0, 1, 0) * 0.2 + sky * 0.8) * 2);
+    EXPECT_EQ(at(0).source, Outside::Source::panorama);
+    expectNear(at(4).color, sky * 2);
+    EXPECT_EQ(at(4).source, Outside::Source::gradient);
+  }
+  scene.background.gradient.clear();
+  scene.background.colors = {sky};
+  const World banded = build(scene);
+  const Ray up = through(kFaces[4], 0, 0), ahead = through(kFaces[0], 0, 1);
+  EXPECT_EQ(banded.outside().view(up, RayKind::camera).color, sky);
+  EXPECT_EQ(banded.outside().view(up, RayKind::reflection).color, Color(0)) << "bands are in no mirror";
+  expectNear(banded.outside().view(ahead, RayKind::camera).color, quarterColor(0, 0, 1) * 0.2 + sky * 0.8);
+  expectNear(banded.outside().view(ahead, RayKind::reflection).color, quarterColor(0, 0, 1) * 0.2);
+}
+
+TEST(Panorama, TurnsAndIsHiddenByAnEnvironment) {
+  Settings settings;
+  settings.environmentRotation = 90;  // what was ahead is then to the left
+  const Ray left{{}, normalize(Vec3{-1, -0.5, -0.5})};
+  expectNear(seen(panorama(), settings, left), quarterColor(0, 1, 1));
+  Scene scene = panorama();
+  scene.surroundings.environment = rainbow();
+  EXPECT_EQ(build(scene).outside().view(left, RayKind::camera).source, Outside::Source::environment);
+}
+
 }  // namespace
 }  // namespace trace::test

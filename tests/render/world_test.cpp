@@ -259,7 +259,7 @@ constexpr std::uint32_t kGenerated = 30, kBall = 31;  // in sceneToEdit()
 
 TEST(World, AfterAnEditOnlyWhatChangedIsMadeAnew) {
   const Scene scene = sceneToEdit();
-  const Settings settings{.width = 60};
+  const Settings settings{.width = 30};
   const World world = build(scene, settings);
   Messages messages;
   const Compiled before{scene, settings, world};

@@ -32,11 +32,9 @@ step 'panel Controls' # 73
 for ((i = 0; i < 6; ++i)); do step; done
 step 'set spp 3' 'drop scene.ray' # 80
 for ((i = 0; i < 5; ++i)); do step; done
-"$studio" scene.ray --script script >log 2>&1 &
-program=$!
-await 0
+start scene.ray
 
-press() { xdotool key --delay 60 "$@"; next; }
+press() { xdotool key "$@"; next; }
 pressUntil() { # KEY LANDMARK
   for ((tries = 0; tries < 12; ++tries)); do
     [[ "$(line focused)" != "$2" ]] || return 0
@@ -87,13 +85,13 @@ press ctrl+z
 is objects 31 "undo brings it back"
 click entry object 0
 goTo button Delete
-xdotool click --repeat 2 --delay 100 1
+slowly xdotool click --repeat 2 --delay 20 1
 next
 is objects 30 "a double click deletes one object"
 press ctrl+z
 click entry object 0
 goTo button Duplicate
-xdotool click --repeat 2 --delay 100 1
+slowly xdotool click --repeat 2 --delay 20 1
 next
 is objects 32 "a double click makes one copy"
 press ctrl+z
@@ -110,7 +108,6 @@ is undo 'camera: position' "a position was typed"
 press Delete
 is objects 31 "a camera is not deleted"
 press ctrl+s
-sleep 1
 next
 is edited no "Ctrl+S saves the scene"
 is popup none "it asks nothing"
@@ -160,7 +157,6 @@ grep -q ' nothing found$' "$now" || fail "it is not said that nothing was found"
 press ctrl+o
 click file other.ray
 press Return
-sleep 1
 next
 is file other.ray "Enter opens the file that was clicked"
 
@@ -169,7 +165,6 @@ skipTo 80
 is popup open "it is asked first"
 goTo button Save
 xdotool click 1
-sleep 1
 next
 is file scene.ray "what was interrupted goes on"
 grep -q 'spp = 3' other.ray || fail "Save does not write over the file"

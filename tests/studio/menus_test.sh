@@ -24,10 +24,8 @@ step 'select object 12' # 31
 for ((i = 0; i < 8; ++i)); do step; done
 step 'select material 2' # 40
 step
-"$studio" scene.ray --script script >log 2>&1 &
-program=$!
-await 0
-press() { xdotool key --delay 60 "$@"; next; }
+start scene.ray
+press() { xdotool key "$@"; next; }
 skipTo() {
   ((now <= $1)) || fail "more steps than were foreseen: $now"
   while ((now < $1)); do next; done

@@ -1,21 +1,27 @@
 # Sourced after display.sh by tests that use a real mouse and keyboard: the script of the studio writes the
-# window's state into 0, 1, 2 ... and goes on when somebody has made go-0, go-1 ...
+# window's state into 0, 1, 2 ..., says so, and goes on when somebody has made go-0, go-1 ...
 command -v xdotool >/dev/null || skip "there is no xdotool; ./dev setup all installs it"
 
 steps=0
-step() { printf '%s\n' "$@" "state $steps" "await go-$steps" >>script; steps=$((steps + 1)); }
+step() { printf '%s\n' "$@" "state $steps" "say $steps" "await go-$steps" >>script; steps=$((steps + 1)); }
 
+mkfifo said
 now=0
-# Waits for the state `now`, then sees to it that the next one is written after what follows.
-await() {
-  for ((i = 0; i < 1200; ++i)); do
-    [[ ! -s "$1" ]] || return 0
-    kill -0 "$program" 2>/dev/null || fail "the studio ended before state $1"
-    sleep 0.05
-  done
-  fail "the studio never wrote state $1"
+start() {  # SCENE: the studio, up to the state 0
+  "$studio" "$1" --script script >said 2>log &
+  program=$!
+  exec 4<said
+  await
 }
-next() { sleep 0.3; touch "go-$now"; now=$((now + 1)); await "$now"; sleep 0.1; }
+# Waits for the state `now`.
+await() {
+  local said=''
+  read -r -t 100 -u 4 said || fail "the studio ended, or hangs, before state $now"
+  [[ "$said" == "$now" ]] || fail "the studio wrote state $said, not $now"
+}
+# The state after all that was done up to now: what xdotool sent has arrived when it ends, and the studio goes on
+# when it has seen all that has arrived.
+next() { : >"go-$now"; now=$((now + 1)); await; }
 line() { grep -- "^$1 " "$now" | cut -d' ' -f"$(($(wc -w <<<"$1") + 1))-" || true; }
 is() { [[ "$(line "$1")" == "$2" ]] || fail "step $now: $1 is \"$(line "$1")\", expected \"$2\": $3"; }
 goTo() {
@@ -27,4 +33,4 @@ goTo() {
 }
 # All of it arrives at once, as if the last frame had taken that long.
 slowly() { kill -STOP "$program"; "$@"; kill -CONT "$program"; }
-doubleClickAndType() { xdotool click --repeat 2 --delay 20 1; sleep 0.1; xdotool type --delay 5 "$1"; }
+doubleClickAndType() { xdotool click --repeat 2 --delay 20 1 type --delay 5 "$1"; }

@@ -122,7 +122,7 @@ state after
 await go
 state idle
 END
-{ sleep 8; touch go; } &
+{ sleep 2; touch go; } &  # in which the studio looks for news some sixty times
 "$studio" scene.ray --script script >log 2>&1 || fail "the script of idle frames failed"
 count() { grep "^$2 " "$1" | cut -d' ' -f2; }
 (($(count after frames) > $(count before frames) + 8)) || fail "frames are not counted"
@@ -181,14 +181,8 @@ code=0
 if command -v xdotool >/dev/null; then
   "$(dirname -- "$studio")/ray" >log 2>&1 &
   program=$!
-  for ((i = 0; i < 600; ++i)); do
-    xdotool search --name '^Trace$' >/dev/null 2>&1 && break
-    sleep 0.1
-  done
-  sleep 1
-  xdotool key --delay 100 ctrl+l
-  sleep 1
-  xdotool key --delay 100 ctrl+q
+  timeout 60 xdotool search --sync --onlyvisible --name '^Trace$' >/dev/null || fail "ray alone opens no window"
+  xdotool key ctrl+l ctrl+q
   wait "$program" || fail "ray alone does not open a window that closes when asked"
   grep -q '^theme light' config/trace/studio.txt || fail "the theme is not remembered"
 else

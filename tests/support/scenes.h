@@ -3,6 +3,7 @@
 
 #include "image/tone.h"
 #include "render/integrator.h"
+#include "render/passes.h"
 #include "render/render.h"
 #include "support/shapes.h"
 
@@ -30,7 +31,7 @@ inline std::unique_ptr<const Integrator> integratorOf(const World& world, const 
 inline Picture picture(const World& world, const Settings& settings, const Camera& camera,
                        Statistics* statistics = nullptr) {
   const Size size = pictureSize(settings, camera);
-  Film film(size.width, size.height, samplesOf(settings));
+  Film film = makeFilm(settings, size.width, size.height);
   Job job;
   const RenderResult result = render(world, settings, film, job);
   if (statistics) *statistics = result.statistics;

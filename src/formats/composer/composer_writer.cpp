@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/composer/composer_file.h"
 #include "formats/composer/composer_format.h"
-#include "formats/textures.h"
+#include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
 #include "geometry/shapes/sphere.h"
+#include "scene/displacement.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -33,6 +35,9 @@ class Writer {
     for (const Object& object : scene_.objects) add(object);
     return std::move(file_);
   }
+
+  /// Their names as the file has them.
+  const std::set<std::string>& pictures() const { return pictures_; }
 
  private:
   /// Once for each kind.
@@ -91,14 +96,14 @@ class Writer {
 
   /// `hasUv`: pictures can lie on the object.
   cf::Material material(std::uint32_t index, std::string& name, bool hasUv) {
-    const Phong p = phongOf(scene_.materials.at(index));
+    const Phong p = phongWithoutTextures(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     for (const FieldTexture& field : scene_.materials[index].textures) {
       const auto* image = std::get_if<ImageMap>(&field.texture->model);
       if (field.field == "diffuse" && image && !hasUv)
         warn("pictures of shapes that become triangles are left out");
       else if (field.field == "diffuse" && image)
-        say(name, "texture=" + image->file.file);
+        say(name, "texture=" + *pictures_.insert(image->file.file).first);
       else
         warn("textures are left out, but for pictures of diffuse");
     }
@@ -135,8 +140,8 @@ class Writer {
     if (object.shape.is<Sphere>()) {
       o.materials.push_back(material(object.material, o.name, true));
       o.sphere = sphere(object.worldFromObject);
-    } else if (const auto* mesh = object.shape.as<Mesh>()) {
-      add(o, mesh->data->generateNormals ? withGeneratedNormals(*mesh->data, true) : *mesh->data, object);
+    } else if (const auto mesh = displacedMesh(object, scene_.materials)) {
+      add(o, mesh->generateNormals ? withGeneratedNormals(*mesh, true) : *mesh, object);
     } else if (const auto surface = tessellated(object.shape)) {
       warn("shapes other than spheres and meshes become triangles");
       add(o, *surface, object);
@@ -192,18 +197,21 @@ class Writer {
   Messages& messages_;
   const Settings settings_;
   cf::File file_;
-  std::set<std::string> told_;
+  std::set<std::string> told_, pictures_;
 };
 
 }  // namespace
 
 std::vector<NamedBytes> writeComposer(const Scene& scene, const std::string& file,
                                       const WriteOptions& options, Messages& messages) {
-  const Scene moved = withPicturesSeenFrom(scene, file, messages);
-  const cf::File written = Writer(moved, messages).write();
+  const SeenFrom seen = seenFrom(scene, file, messages);
+  Writer writer(seen.scene, messages);
+  const cf::File written = writer.write();
   NamedBytes::Contents holds{written.objects.size(), 0};
   for (const cf::Object& object : written.objects) holds.triangles += object.polygons.counts.size();
-  return {{file, cf::writeText(written, options.digits), holds}};
+  std::vector<NamedBytes> files{{file, cf::writeText(written, options.digits), holds}};
+  for (NamedBytes& picture : picturesNamed(writer.pictures(), seen)) files.push_back(std::move(picture));
+  return files;
 }
 
 }  // namespace trace

@@ -1,10 +1,12 @@
 // Lights, cameras and what is behind all.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
 #include "formats/directions.h"
 #include "formats/inventor/inventor_reader.h"
+#include "formats/inventor/inventor_sky.h"
 #include "formats/inventor/inventor_transform.h"
 
 namespace trace::inventor {
@@ -105,12 +107,32 @@ void Reader::viewpoint(const Values& v, State& s) {
   camera(v, s, {0, 0, 10}, v.number("fieldOfView", 0.785398), 1);
 }
 
-void Reader::background(const Values& v, State&) {
-  const std::vector<Color> sky = v.colors("skyColor");
-  if (scene_.background.colors.empty() && !sky.empty()) scene_.background.colors = {sky.front()};
-  for (const char* side : {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"})
-    if (const std::string_view file = v.word(side, ""); !file.empty())
-      textures_.note(file, document_.place(v.node().token));
+void Reader::background(const Values& v, State& state) {
+  if (std::exchange(hasBackground_, true)) return;
+  Background& is = scene_.background;
+  const Place place = document_.place(v.node().token);
+  const auto picture = [&](std::string_view field) { return Pixels{fileOf(v, field), nullptr, place}; };
+  const Dome sky{v.colors("skyColor"), v.numbers("skyAngle")},
+      ground{v.colors("groundColor"), v.numbers("groundAngle")};
+  is = gradientOf(sky, ground);
+  is.front = picture("frontUrl"), is.back = picture("backUrl");
+  is.left = picture("leftUrl"), is.right = picture("rightUrl");
+  is.top = picture("topUrl"), is.bottom = picture("bottomUrl");
+
+  const auto faces = is.faces();
+  const bool pictures =
+      std::any_of(faces.begin(), faces.end(), [](const Pixels* p) { return !p->file.empty(); });
+  if (!pictures && is.gradient.size() < 2) {  // one colour is behind everything, and in no mirror
+    is.colors = std::exchange(is.gradient, {});
+    is.elevations.clear();
+    return;
+  }
+  const Vec3 up = linear(state.worldFromObject, {0, 1, 0}), ahead = linear(state.worldFromObject, {0, 0, -1});
+  constexpr Real kTilted = 1e-6;
+  if (!(up.y > 0) || std::hypot(up.x, up.z) > kTilted * up.y)
+    return warn(v.node(), "a Background that is turned about another axis than y stands upright", "tilted");
+  const Real turn = std::atan2(-ahead.x, -ahead.z) * 180 / kPi;
+  if (pictures && turn != 0) scene_.choices.push_back({"environment-rotation", toText(turn), place});
 }
 
 void Reader::drawStyle(const Values& v, State&) {

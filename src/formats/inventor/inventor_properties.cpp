@@ -157,7 +157,8 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
     picture.kind = {.colored = image->channels > 2, .transparent = image->hasAlpha()};
     const auto line = std::to_string(place.line) + ":" + std::to_string(place.column);
     const std::string file = std::filesystem::path(document_.file()).filename().string();
-    picture.map = modelPicture({file + "#" + line, std::make_shared<const MipMap>(*image), place});
+    picture.map = modelPicture({file + "#" + line, std::make_shared<const MipMap>(*image), place,
+                                std::make_shared<const InsideFile>("", encodePng(*image))});
     if (image->width == 1 || image->height == 1) picture.map.filter = TexelFilter::bilinear;
   } else {
     if (v.numbers("image").size() > 3)
@@ -180,8 +181,10 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
   return picture;
 }
 
-std::string Reader::nameOf(const Values& v) const {
-  const auto& names = v.words(v.has("url") ? "url" : "filename");
+std::string Reader::nameOf(const Values& v) const { return fileOf(v, v.has("url") ? "url" : "filename"); }
+
+std::string Reader::fileOf(const Values& v, std::string_view field) const {
+  const auto& names = v.words(field);
   std::error_code ignored;
   for (std::string_view name : names)
     if (!name.empty() &&

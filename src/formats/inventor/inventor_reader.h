@@ -144,8 +144,10 @@ class Reader {
   void texture2Transform(const Values& v, State& s);
   /// The picture of a texture node; of several only the first is rendered. Nothing if it has none.
   std::optional<PaintedPicture> pictureOf(const Values& v);
-  /// The first file of a texture node that is there, or the first that it names; empty if it names none.
+  /// Of a texture node.
   std::string nameOf(const Values& v) const;
+  /// The first file of the field that is there, or the first that it names; empty if it names none.
+  std::string fileOf(const Values& v, std::string_view field) const;
   void vertexProperty(const Values& v, State& s);
 
   // --- lights and cameras ---
@@ -165,8 +167,8 @@ class Reader {
   /// Seen from so far behind that its lines are nearly parallel.
   void orthographicCamera(const Values& v, State& s);
   void viewpoint(const Values& v, State& s);
-  /// The sky straight above stands for all of it.
-  void background(const Values& v, State&);
+  /// Only the first of a file is seen.
+  void background(const Values& v, State& s);
   /// Nothing but whether what follows is seen at all.
   void drawStyle(const Values& v, State&);
 
@@ -217,7 +219,7 @@ class Reader {
   bool vrml2_;
   MeshRepairs repairs_;
   Scene scene_;
-  bool hasCamera_ = false;
+  bool hasCamera_ = false, hasBackground_ = false;
   Color ambient_ = vrml2_ ? Color(0) : Color(0.2);
   Vec3 fading_{1, 0, 0};
   std::deque<Env> envs_;

@@ -27,6 +27,7 @@ constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EX
 constexpr std::string_view kRead[] = {kLights,
                                       "KHR_materials_ior",
                                       "KHR_materials_transmission",
+                                      "KHR_materials_iridescence",
                                       "KHR_materials_emissive_strength",
                                       "KHR_mesh_quantization",
                                       "KHR_texture_transform",
@@ -383,6 +384,15 @@ class GltfCheck {
     });
     extension(material, "KHR_materials_transmission",
               [&](const Part& e) { number(e, "transmissionFactor", 0, 1); });
+    extension(material, "KHR_materials_iridescence", [&](const Part& e) {
+      known(e, {"iridescenceFactor", "iridescenceTexture", "iridescenceIor", "iridescenceThicknessMinimum",
+                "iridescenceThicknessMaximum", "iridescenceThicknessTexture"});
+      number(e, "iridescenceFactor", 0, 1);
+      number(e, "iridescenceIor", 1);
+      number(e, "iridescenceThicknessMinimum", 0);
+      number(e, "iridescenceThicknessMaximum", 0);
+      for (const char* key : {"iridescenceTexture", "iridescenceThicknessTexture"}) texture(e, key);
+    });
     extension(material, "KHR_materials_emissive_strength",
               [&](const Part& e) { number(e, "emissiveStrength", 0); });
   }

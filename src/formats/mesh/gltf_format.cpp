@@ -545,6 +545,7 @@ class GltfReader {
     m.transmission = share(extension(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0));
     m.index = extension(from.extensions, "KHR_materials_ior", "ior", 1.5);
     if (!(m.index > 0) || !std::isfinite(m.index)) m.index = 1.5;
+    readFilm(from, m);
     if (!isFinite(m.baseColor) || !isFinite(m.emissive)) {
       messages_.warn(place_, "material \"" + from.name + "\" has numbers that are not finite");
       m.baseColor = Color(1);
@@ -554,10 +555,41 @@ class GltfReader {
     Material material = toMaterial(from.name, m);
     if (m.metallicRoughnessMap && std::holds_alternative<Phong>(material.model))
       noteTexture(pbr.metallicRoughnessTexture.index);
+    if (m.iridescence > 0 && std::holds_alternative<Phong>(material.model))
+      messages_.warn(place_,
+                     "material \"" + from.name + "\" lets light through: its iridescence is not rendered");
     return material;
   }
 
+  void readFilm(const tinygltf::Material& from, MetallicRoughness& m) const {
+    const auto number = [&](const char* field, double otherwise) {
+      const double x = extension(from.extensions, kIridescence, field, otherwise);
+      return std::isfinite(x) && x >= 0 ? x : otherwise;
+    };
+    m.iridescence = std::min(1.0, number("iridescenceFactor", 0));
+    m.filmIndex = std::max(1.0, number("iridescenceIor", 1.3));
+    m.filmMost = std::min(5000.0, number("iridescenceThicknessMaximum", 400));
+    m.filmLeast = std::min(m.filmMost, number("iridescenceThicknessMinimum", 100));
+  }
+
   // --- pictures ---
+
+  /// A texture that an extension of a material names.
+  static tinygltf::TextureInfo textureIn(const tinygltf::Material& from, const char* extension,
+                                         const char* field) {
+    tinygltf::TextureInfo info;
+    const auto found = from.extensions.find(extension);
+    if (found == from.extensions.end() || !found->second.Has(field)) return info;
+    const tinygltf::Value& said = found->second.Get(field);
+    const auto whole = [&](const char* key, int otherwise) {
+      return said.Has(key) && said.Get(key).IsNumber() ? said.Get(key).GetNumberAsInt() : otherwise;
+    };
+    info.index = whole("index", -1);
+    info.texCoord = whole("texCoord", 0);
+    if (said.Has("extensions") && said.Get("extensions").IsObject())
+      info.extensions = said.Get("extensions").Get<tinygltf::Value::Object>();
+    return info;
+  }
 
   /// All of a material use the texture coordinates of the first of them: a mesh has one set.
   void readPictures(const tinygltf::Material& from, MetallicRoughness& m) {
@@ -568,6 +600,8 @@ class GltfReader {
     m.emissiveMap = pictureOf(from.emissiveTexture, set);
     m.occlusionMap = pictureOf(from.occlusionTexture, set);
     m.normalMap = pictureOf(from.normalTexture, set);
+    m.iridescenceMap = pictureOf(textureIn(from, kIridescence, "iridescenceTexture"), set);
+    m.filmMap = pictureOf(textureIn(from, kIridescence, "iridescenceThicknessTexture"), set);
     m.normalScale = std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1;
     m.occlusionStrength = from.occlusionTexture.strength;
     if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
@@ -607,6 +641,7 @@ class GltfReader {
   }
 
   static constexpr const char* kTransform = "KHR_texture_transform";
+  static constexpr const char* kIridescence = "KHR_materials_iridescence";
 
   /// T R S of that extension, where v grows downward, as Trace sees it.
   static std::array<Real, 6> placementOf(const Vec2& offset, Real radians, const Vec2& scale) {
@@ -650,7 +685,7 @@ class GltfReader {
     if (fresh)
       found->second = inside_.decode(
           std::filesystem::path(place_.file).filename().string() + "#images[" + std::to_string(number) + "]",
-          bytesOf(image), place_);
+          {image.name, std::string(bytesOf(image))}, place_);
     return found->second;
   }
 

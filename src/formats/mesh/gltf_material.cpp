@@ -44,6 +44,9 @@ Principled toPrincipled(const MetallicRoughness& m) {
   model.metallic = m.metallic;
   model.roughness = m.roughness;
   model.index = m.index;
+  model.iridescence = m.iridescence;
+  model.iridescenceIndex = m.filmIndex;
+  model.iridescenceThickness = m.filmMost;
   return model;
 }
 
@@ -67,15 +70,19 @@ Phong toPhong(const MetallicRoughness& m) {
 
 Material toMaterial(std::string name, const MetallicRoughness& m) {
   const bool textured = m.baseColorMap || m.metallicRoughnessMap || m.emissiveMap || m.occlusionMap;
-  const bool clear = m.transmission > 0 || m.hasAlphaMap || evenOpacity(m) < 1;
+  const bool hasHoles = m.hasAlphaMap || evenOpacity(m) < 1;
+  const bool needed = m.metallicRoughnessMap || m.iridescence > 0;
+  const bool principled = m.transmission == 0 && (needed || (textured && !hasHoles));
   Material material{std::move(name), {}, {}};
   const auto put = [&](std::string_view field, const Texture& texture) {
     setTexture(material.textures, field, texture);
   };
-  if (textured && !clear)
+  if (principled) {
     material.model = toPrincipled(m);
-  else
+    material.opacity = evenOpacity(m);
+  } else {
     material.model = toPhong(m);
+  }
 
   if (m.emissiveMap) put(kEmissive, TextureNode{.model = *m.emissiveMap});
   std::optional<Texture> ambient;
@@ -97,10 +104,13 @@ Material toMaterial(std::string name, const MetallicRoughness& m) {
     ambient = ambient ? product(*ambient, open) : open;
   }
   if (ambient) put(kAmbient, *ambient);
-  if (m.metallicRoughnessMap && textured && !clear) {
+  if (m.metallicRoughnessMap && principled) {
     put("metallic", channelOf(*m.metallicRoughnessMap, Channel::blue));
     put("roughness", channelOf(*m.metallicRoughnessMap, Channel::green));
   }
+  if (m.iridescenceMap && principled) put("iridescence", channelOf(*m.iridescenceMap, Channel::red));
+  if (m.filmMap && principled && m.filmMost > 0)
+    put("iridescence_thickness", raised(channelOf(*m.filmMap, Channel::green), m.filmLeast / m.filmMost));
   if (m.normalMap) {
     ImageMap normals = *m.normalMap;
     normals.relief = Relief::normals;
@@ -108,11 +118,19 @@ Material toMaterial(std::string name, const MetallicRoughness& m) {
     material.bump = m.normalScale;
   }
   if (m.hasAlphaMap) {
-    const Texture opacity = channelOf(*m.baseColorMap, Channel::alpha);
-    if (m.alpha == Alpha::blend)
-      cutOut(material, opacity, m.opacity);
-    else
-      cutOut(material, threshold(opacity, m.opacity > 0 ? m.cutoff / m.opacity : m.cutoff > 0 ? 2 : 0));
+    const bool blends = m.alpha == Alpha::blend;
+    const Texture alpha = channelOf(*m.baseColorMap, Channel::alpha);
+    const Texture opacity = blends ? alpha
+                                   : threshold(alpha, m.opacity > 0  ? m.cutoff / m.opacity
+                                                      : m.cutoff > 0 ? 2
+                                                                     : 0);
+    const Real share = blends ? m.opacity : 1;
+    if (principled) {
+      put(kOpacity, opacity);
+      material.opacity = share;
+    } else {
+      cutOut(material, opacity, share);
+    }
   }
   return material;
 }

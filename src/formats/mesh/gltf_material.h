@@ -19,9 +19,12 @@ struct MetallicRoughness {
   double cutoff = 0.5;  ///< of a mask
   double metallic = 1, roughness = 1;
   double transmission = 0, index = 1.5;
+  double iridescence = 0, filmIndex = 1.3;
+  double filmLeast = 100, filmMost = 400;  ///< thickness in nanometres, where its map is black and white
 
   // Each is multiplied by its number above; colours are decoded.
-  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, emissiveMap, occlusionMap, normalMap;
+  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, emissiveMap, occlusionMap, normalMap,
+      iridescenceMap, filmMap;
   double normalScale = 1;
   double occlusionStrength = 1;
   bool hasAlphaMap = false;  ///< the alpha of baseColorMap counts
@@ -36,8 +39,8 @@ struct MetallicRoughness {
 ///   transmissive       base colour x transmission, and 1 - alpha
 Phong toPhong(const MetallicRoughness& material);
 
-/// Phong where it has no texture, or something is seen through it; otherwise principled. Phong's model has no
-/// place for a metallicRoughnessMap.
+/// Phong where it has no texture, or something is seen through it; otherwise principled, as is what has a
+/// metallicRoughnessMap or iridesces, for which Phong's model has no place, unless it refracts.
 Material toMaterial(std::string name, const MetallicRoughness& material);
 
 }  // namespace trace

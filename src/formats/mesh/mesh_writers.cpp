@@ -17,6 +17,7 @@
 #include "base/names.h"
 #include "base/text.h"
 #include "formats/mesh/world_meshes.h"
+#include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
 
 namespace trace {
@@ -26,6 +27,27 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little,
               "binary PLY files are written as the memory has them");
+
+/// Names of the pictures that the materials of the meshes are painted with.
+std::set<std::string> picturesOf(const Scene& scene, const std::vector<WorldMesh>& meshes) {
+  std::set<std::string> names;
+  for (const WorldMesh& part : meshes)
+    if (const ImageMap* picture = pictureOf(scene.materials.at(part.material)))
+      names.insert(picture->file.file);
+  return names;
+}
+
+/// The picture that paints them all as its numbers are; "" if there is none.
+std::string onlyPictureOf(const Scene& scene, const std::vector<WorldMesh>& meshes) {
+  const ImageMap* only = nullptr;
+  for (const WorldMesh& part : meshes) {
+    const ImageMap* picture = pictureOf(scene.materials.at(part.material));
+    if (!picture || picture->srgb || part.mesh.uvs.empty() || (only && !(only->file == picture->file)))
+      return "";
+    only = picture;
+  }
+  return only ? only->file.file : "";
+}
 
 // --- PLY ----------------------------------------------------------------------------------------------
 
@@ -134,14 +156,16 @@ bool namesMaterials(const std::string& obj, const std::string& materials) {
 
 /// Where the materials of an OBJ file go: to NAME.mtl beside it, or NAME-2.mtl and so on if that is there and
 /// belongs to something else than the OBJ file that is replaced.
-std::string placeOfMaterials(const std::string& obj) {
+NamedBytes placeOfMaterials(const std::string& obj) {
   std::error_code ignored;
   const fs::path path(obj);
+  NamedBytes materials;
   for (int number = 1;; ++number) {
     const std::string name =
         path.stem().string() + (number == 1 ? "" : "-" + std::to_string(number)) + ".mtl";
-    std::string place = (path.parent_path() / name).string();
-    if (!fs::exists(place, ignored) || namesMaterials(obj, place)) return place;
+    materials.file = (path.parent_path() / name).string();
+    if (!fs::exists(materials.file, ignored) || namesMaterials(obj, materials.file)) return materials;
+    if (number == 1) materials.spared = materials.file;
   }
 }
 
@@ -170,8 +194,8 @@ class ObjWriter {
   }
   void color(std::string_view keyword, const Color& c) { line(keyword, {c.r, c.g, c.b}); }
 
-  /// Illumination models as readObj() understands them.
-  void material(const std::string& name, const Phong& phong) {
+  /// Illumination models as readObj() understands them. `picture` may be null.
+  void material(const std::string& name, const Phong& phong, const ImageMap* picture) {
     const bool mirrors = phong.mirrors() || (phong.mirrorsSpecular && !isBlack(phong.specular));
     line("newmtl", name);
     color("Ka", phong.ambient);
@@ -183,6 +207,9 @@ class ObjWriter {
     if (phong.transmits()) color("Tf", phong.transmissive);
     const int glass = mirrors ? 7 : 9, opaque = mirrors ? 3 : isBlack(phong.specular) ? 1 : 2;
     line("illum", {static_cast<double>(phong.transmits() ? glass : opaque)});
+    if (picture)
+      line("map_Kd", std::string(picture->wrapU == Wrap::clamp ? "-clamp on " : "") +
+                         (picture->srgb ? "-colorspace sRGB " : "") + onOneLine(picture->file.file));
     out_ += '\n';
   }
 
@@ -217,13 +244,20 @@ class ObjWriter {
 
 std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
-  std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const SeenFrom seen = seenFrom(scene, file, messages);
+  std::vector<WorldMesh> meshes = worldMeshes(seen.scene, messages);
   const std::size_t objects = meshes.size();
+  const std::string picture = onlyPictureOf(seen.scene, meshes);
+  if (picture.empty() && !picturesOf(seen.scene, meshes).empty())
+    messages.warn(Place{scene.file, 0, 0, {}},
+                  "the pictures are left out: a PLY file has one for all of it, which is not decoded");
   const MeshData mesh = merged(std::move(meshes));
   const auto& m = mesh.materials;
   const bool colored = std::adjacent_find(m.begin(), m.end(), std::not_equal_to<>()) != m.end();
   std::string out = "ply\nformat " + std::string(options.ascii ? "ascii" : "binary_little_endian") +
-                    " 1.0\ncomment written by Trace\nelement vertex " + std::to_string(mesh.points.size()) +
+                    " 1.0\ncomment written by Trace\n" +
+                    (picture.empty() ? "" : "comment TextureFile " + onOneLine(picture) + "\n") +
+                    "element vertex " + std::to_string(mesh.points.size()) +
                     "\nproperty float x\nproperty float y\nproperty float z\n";
   if (!mesh.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!mesh.uvs.empty()) out += "property float s\nproperty float t\n";
@@ -252,18 +286,24 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
     for (std::uint32_t corner : t) row.add(static_cast<std::int32_t>(corner));
     row.end();
   }
-  return {{file, std::move(out), NamedBytes::Contents{objects, mesh.triangles.size()}}};
+  std::vector<NamedBytes> files{{file, std::move(out), NamedBytes::Contents{objects, mesh.triangles.size()}}};
+  for (NamedBytes& beside : picturesNamed({picture}, seen)) files.push_back(std::move(beside));
+  return files;
 }
 
 std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
-  const std::vector<WorldMesh> meshes = worldMeshes(scene, messages);
+  const SeenFrom seen = seenFrom(scene, file, messages);
+  const std::vector<WorldMesh> meshes = worldMeshes(seen.scene, messages);
   const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
-  const std::string materialFile = placeOfMaterials(file);
+  NamedBytes materialFile = placeOfMaterials(file);
   ObjWriter materials(options), objects(options);
-  for (const auto& [index, name] : names) materials.material(name, phongOf(scene.materials.at(index)));
+  for (const auto& [index, name] : names) {
+    const Material& material = seen.scene.materials.at(index);
+    materials.material(name, phongWithoutTextures(material), pictureOf(material));
+  }
 
-  objects.line("mtllib", onOneLine(fs::path(materialFile).filename().string()));
+  objects.line("mtllib", onOneLine(fs::path(materialFile.file).filename().string()));
   std::size_t colored = 0, triangles = 0, number = 0;
   bool named = false;  // a name holds until the next one
   for (const WorldMesh& part : meshes) {
@@ -281,8 +321,12 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
     messages.warn(Place{scene.file, 0, 0, {}}, "an OBJ file holds no materials of points: left out for " +
                                                    std::to_string(colored) +
                                                    (colored == 1 ? " mesh" : " meshes"));
-  return {{file, objects.take(), NamedBytes::Contents{meshes.size(), triangles}},
-          {materialFile, materials.take()}};
+  materialFile.bytes = materials.take();
+  std::vector<NamedBytes> files{{file, objects.take(), NamedBytes::Contents{meshes.size(), triangles}},
+                                std::move(materialFile)};
+  for (NamedBytes& beside : picturesNamed(picturesOf(seen.scene, meshes), seen))
+    files.push_back(std::move(beside));
+  return files;
 }
 
 }  // namespace trace

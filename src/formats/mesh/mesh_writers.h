@@ -1,4 +1,4 @@
-// The meshes of a scene as PLY and OBJ files, in world space. Analytic shapes are left out with a warning.
+// The meshes of a scene as PLY and OBJ files, in world space, and pictures on them.
 #pragma once
 
 #include <string>

@@ -1,9 +1,11 @@
 #include "formats/mesh/revolve.h"
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
+#include "formats/model_textures.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 
@@ -42,6 +44,22 @@ std::vector<Real> lengths(std::span<const Vec2> profile) {
   if (whole > 0)
     for (Real& a : along) a /= whole;
   return along;
+}
+
+/// A matt material with the picture, whose name is seen from the file `from`.
+Material painted(const std::string& from, const std::string& picture, InputFiles& inputs) {
+  namespace fs = std::filesystem;
+  const std::string bytes = readBeside("", picture, inputs);
+  const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
+  const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).string(),
+                      MipMap::decode(bytes, picture), Place{.file = picture}};
+  const Texture texture = TextureNode{.model = modelPicture(pixels)};
+  Phong phong;
+  phong.ambient = phong.diffuse = Color(1);
+  Material material{"", phong, {}};
+  setTexture(material.textures, kAmbient, texture);
+  setTexture(material.textures, kDiffuse, texture);
+  return material;
 }
 
 }  // namespace
@@ -88,15 +106,20 @@ MeshData revolve(std::span<const Vec2> profile, int steps) {
   return mesh;
 }
 
-Scene revolvedScene(const std::string& file, std::string_view text, int steps, Messages& messages) {
+Scene revolvedScene(const std::string& file, std::string_view text, int steps, const std::string& picture,
+                    Messages& messages) {
   const Place place{file, 0, 0, {}};
   MeshData mesh = revolve(readProfile(file, text), steps);
   MeshRepairs repairs;
   repairs.check(mesh, place);
   repairs.report(place, messages);
   Model model;
-  model.objects.push_back(
-      {"", Mesh{std::make_shared<const MeshData>(std::move(mesh))}, {}, Model::kNoMaterial, place});
+  std::uint32_t material = Model::kNoMaterial;
+  if (!picture.empty()) {
+    material = 0;
+    model.materials.push_back(painted(file, picture, model.inputs));
+  }
+  model.objects.push_back({"", Mesh{std::make_shared<const MeshData>(std::move(mesh))}, {}, material, place});
   return sceneOf(std::move(model), file, "profile");
 }
 

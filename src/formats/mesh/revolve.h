@@ -22,7 +22,9 @@ std::vector<Vec2> readProfile(const std::string& file, std::string_view text);
 /// Precondition: steps >= 3, at least two points.
 MeshData revolve(std::span<const Vec2> profile, int steps);
 
-/// The profile's mesh as a scene of its own.
-Scene revolvedScene(const std::string& file, std::string_view text, int steps, Messages& messages);
+/// The profile's mesh as a scene of its own, with the picture of that file on it if the name is not empty:
+/// once around, and once along the profile. Throws Error(Fault::io) for a picture that cannot be read.
+Scene revolvedScene(const std::string& file, std::string_view text, int steps, const std::string& picture,
+                    Messages& messages);
 
 }  // namespace trace

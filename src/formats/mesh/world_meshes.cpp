@@ -9,6 +9,7 @@
 #include "formats/model.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
+#include "scene/displacement.h"
 
 namespace trace {
 namespace {
@@ -27,6 +28,25 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
   return result;
 }
 
+/// The picture, if the texture is one that lies as the texture coordinates have it, or half a texel beside.
+const ImageMap* plainPicture(const Texture& texture) {
+  const auto* map = std::get_if<ImageMap>(&texture->model);
+  if (!map || !texture->inputs.empty() || !(texture->placement == TexturePlacement{})) return nullptr;
+  if (map->wrapU != map->wrapV || map->wrapU == Wrap::mirror) return nullptr;
+  ImageMap usual{.file = map->file, .wrapU = map->wrapU, .wrapV = map->wrapV};
+  usual.filter = map->filter;
+  usual.centersAtEnds = map->centersAtEnds;
+  usual.srgb = map->srgb;
+  return *map == usual ? map : nullptr;
+}
+
+/// It is the picture of the material, or says the same of its share of the ambient light.
+bool isWritten(const FieldTexture& field, const ImageMap* picture) {
+  const ImageMap* map = plainPicture(field.texture);
+  const bool known = field.field == kDiffuse || field.field == kColor || field.field == kAmbient;
+  return picture && map && known && map->file == picture->file;
+}
+
 /// Says what of the scene a file of meshes has no words for.
 void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
   std::vector<std::string> parts;
@@ -35,11 +55,12 @@ void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
   if (const std::size_t n = scene.lights.size(); hasView && n > 0)
     parts.push_back(n == 1 ? "the light" : "the " + std::to_string(n) + " lights");
   if (!(scene.background == Background{})) parts.emplace_back("the background");
-  const auto textured = std::count_if(scene.materials.begin(), scene.materials.end(),
-                                      [](const Material& m) { return !m.textures.empty(); });
+  const auto textured = std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+    return !std::all_of(m.textures.begin(), m.textures.end(),
+                        [&](const FieldTexture& field) { return isWritten(field, pictureOf(m)); });
+  });
   if (textured > 0)
-    parts.push_back("the textures of " + std::to_string(textured) +
-                    (textured == 1 ? " material" : " materials"));
+    parts.push_back("textures of " + std::to_string(textured) + (textured == 1 ? " material" : " materials"));
   std::string list;
   for (std::size_t i = 0; i < parts.size(); ++i)
     list += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
@@ -47,6 +68,12 @@ void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
 }
 
 }  // namespace
+
+const ImageMap* pictureOf(const Material& material) {
+  for (const std::string_view field : {kDiffuse, kColor})
+    if (const Texture* texture = textureOf(material.textures, field)) return plainPicture(*texture);
+  return nullptr;
+}
 
 std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   const Place place{scene.file, 0, 0, {}};
@@ -58,14 +85,14 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   for (const Object& object : scene.objects) {
     work.reached(done++);
     std::optional<MeshData> triangles;
-    const auto* mesh = object.shape.as<Mesh>();
+    const auto mesh = displacedMesh(object, scene.materials);
     if (!mesh) {
       triangles = tessellated(object.shape);
       sampled |= triangles.has_value();
     }
     if ((mesh || triangles) && invertible(object.worldFromObject))
-      meshes.push_back({object.name, object.material,
-                        transformed(mesh ? *mesh->data : *triangles, object.worldFromObject)});
+      meshes.push_back(
+          {object.name, object.material, transformed(mesh ? *mesh : *triangles, object.worldFromObject)});
     else
       ++leftOut[std::string(object.shape.keyword())];
   }

@@ -20,6 +20,10 @@ struct WorldMesh {
 /// what has no end and is left out, by kinds. Throws Error(Fault::scene) if nothing is left.
 std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages);
 
+/// The picture that is all of the material's paint, as files of meshes can say it: on diffuse, or what is
+/// called color, and perhaps on ambient, lying as the texture coordinates have it. Null if there is none.
+const ImageMap* pictureOf(const Material& material);
+
 /// The mesh with three points of its own for each triangle, and the faces' normals.
 MeshData withFlatNormals(const MeshData& mesh);
 

@@ -25,7 +25,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kInstead{
     {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
     {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
     {"obj_mesh", "Trace has mesh { file = \"name.obj\"; }"},
-    {"displace", "Trace has height_field { } and isosurface { }"},
+    {"displace", "Trace has displacement = texture(noise { }, 0.1) in the material of a mesh"},
     {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
 }};
 

@@ -96,7 +96,9 @@ class Reader {
     const Place place{scene_.file, 0, 0, {}};
     if (scene_.objects.empty()) return messages_.warn(place, "no object: the picture will be empty");
     const bool glow = std::any_of(scene_.materials.begin(), scene_.materials.end(), glows);
-    if (scene_.lights.empty() && !glow)
+    const Background& around = scene_.background;
+    const bool shines = !around.gradient.empty() || around.turbidity > 0;
+    if (scene_.lights.empty() && !glow && !shines)
       messages_.warn(place, "no light: everything will be black",
                      "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
   }

@@ -189,7 +189,8 @@ void Materials::unknownField(const Block& block, const Item& field) {
       return findings_.error(
           field,
           "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
-          "it has " + list(keywords<Model>({"name", "bump"}), "and"));
+          "it has " + list(keywords<Model>({"name", "bump", kOpacity, "displacement", "displacement_levels"}),
+                           "and"));
     std::vector<std::string_view> having;
     forEachType<MaterialModel>([&]<class Other>(Other*) {
       forEachField<Other>([&](const auto& f) {
@@ -198,7 +199,8 @@ void Materials::unknownField(const Block& block, const Item& field) {
     });
     if (having.empty())
       return findings_.unknownField(Material::kKeyword, field,
-                                    keywords<Model>({"name", "bump", kModel, kLibrary}));
+                                    keywords<Model>({"name", "bump", kOpacity, "displacement",
+                                                     "displacement_levels", kModel, kLibrary}));
     findings_.warn(field,
                    "unknown field \"" + std::string(key) +
                        "\" of material is ignored: it is one of model = " + list(having, "or"),
@@ -218,8 +220,9 @@ void Materials::fromLibrary(Block& block, const Item& value) {
                     std::move(hint));
     return;
   }
-  block.material.textures.clear();
-  block.material.model = found->model;
+  std::string own = std::move(block.material.name);
+  block.material = *found;
+  block.material.name = std::move(own);
 }
 
 /// Is the field given by a pattern that Trace does not render? White shows where it goes.

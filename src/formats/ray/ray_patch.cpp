@@ -231,6 +231,16 @@ class Patch {
   Messages& messages_;
 };
 
+/// Whether the field of that name is a picture of a background.
+bool isFaceOfBackground(std::string_view key) {
+  bool is = false;
+  forEachField<Background>([&](const auto& f) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(Background{}.*f.member)>, Pixels>)
+      is |= f.keyword == key;
+  });
+  return is;
+}
+
 /// The text with the names of files beside the scene as they are seen from another folder.
 std::string moved(const std::string& text, const std::string& from, const std::string& to) {
   std::error_code error;
@@ -249,7 +259,8 @@ std::string moved(const std::string& text, const std::string& from, const std::s
     const Item item(syntax, static_cast<std::uint32_t>(i));
     if (!item.keyed()) continue;
     const std::string_view key = item.key();
-    const bool names = key == "file" || key == "objfile" || key == "backdrop" || key == "environment";
+    const bool names = key == "file" || key == "objfile" || key == "backdrop" || key == "environment" ||
+                       isFaceOfBackground(key);
     if (item.is(Kind::entry) && names) see(item.value());
     if (item.is(Kind::call) && key == "map" && item.value().count() > 0) see(*item.value().begin());
   }

@@ -42,6 +42,11 @@ Material startOf(const Item& block, const Material& inherited) {
   return found ? *found : inherited;
 }
 
+/// The block gives the field itself.
+bool saysOwn(const Item& block, std::string_view field) {
+  return fieldOf(block, field) || (field == "bump" && fieldOf(block, "bump_mapping"));
+}
+
 bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.text() == "specular"; }
 
 }  // namespace
@@ -140,7 +145,7 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
   if (from.model.index() != was.model.index() && !fieldOf(block, kModel)) return was;
   Material result = was;
   result.model = converted(from.model, was.model);
-  std::erase_if(result.textures, [&](const FieldTexture& t) { return !fieldOf(block, t.field); });
+  std::erase_if(result.textures, [&](const FieldTexture& t) { return !saysOwn(block, t.field); });
   match(result.model, [&]<class Model>(Model& model) {
     forEachField<Model>([&](const auto& f) {
       const std::optional<Item> given = fieldOf(block, f.keyword);
@@ -156,11 +161,12 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
       model.mirrorsSpecular = mirror.specular;
     }
   });
-  if (!fieldOf(block, "bump") && !fieldOf(block, "bump_mapping")) {
-    result.bump = from.bump;
-    if (const Texture* texture = textureOf(from.textures, "bump"))
-      setTexture(result.textures, "bump", *texture);
-  }
+  forEachField<Material>([&](const auto& f) {
+    if (saysOwn(block, f.keyword)) return;
+    result.*f.member = from.*f.member;
+    if (const Texture* texture = textureOf(from.textures, f.keyword))
+      setTexture(result.textures, f.keyword, *texture);
+  });
   return result;
 }
 
@@ -181,8 +187,11 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
         edits_.change(given->value(), valueText(wanted, f.keyword, value));
     });
   });
-  if (const auto given = fieldOf(block, "bump"); given && was.bump != wanted.bump)
-    edits_.change(given->value(), valueText(wanted, "bump", wanted.bump));
+  forEachField<Material>([&](const auto& f) {
+    const auto& value = wanted.*f.member;
+    if (const auto given = fieldOf(block, f.keyword); given && was.*f.member != value)
+      edits_.change(given->value(), valueText(wanted, f.keyword, value));
+  });
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
 }
 
@@ -220,9 +229,12 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
       if (mirror.specular != model.mirrorsSpecular)
         add("reflective", mirror.specular ? valueText(wanted, "reflective", model.reflective) : "specular");
   });
-  const bool sameBump = from.bump == wanted.bump && sameTexture(from, wanted, "bump");
-  if (!given("bump") && !given("bump_mapping") && !sameBump)
-    fields.push_back("bump = " + valueText(wanted, "bump", wanted.bump));
+  forEachField<Material>([&](const auto& f) {
+    const auto& value = wanted.*f.member;
+    const bool same = from.*f.member == value && sameTexture(from, wanted, f.keyword);
+    if (!(block && saysOwn(*block, f.keyword)) && !same)
+      fields.push_back(std::string(f.keyword) + " = " + valueText(wanted, f.keyword, value));
+  });
   return fields;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <set>
 #include <type_traits>
@@ -16,11 +17,11 @@
 #include "base/file.h"
 #include "base/match.h"
 #include "base/text.h"
+#include "formats/picture_files.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
-#include "formats/textures.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/csg_tree.h"
@@ -191,8 +192,18 @@ class Writer {
     if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
       item(kModel, std::string(keywordOf(material.model)));
     match(material.model, [&](const auto& model) { modelFields(material, model); });
-    if (bumps_) modelFields(material, material);
+    modelFields(material, material, [&](std::string_view field) { return ownFields_.contains(field); });
     out_ += "}";
+  }
+
+  static std::set<std::string_view> ownFieldsOf(const std::vector<Material>& materials) {
+    std::set<std::string_view> said;
+    for (const Material& m : materials)
+      forEachField<Material>([&](const auto& f) {
+        const bool differs = f.keyword != "bump" && m.*f.member != Material{}.*f.member;
+        if (differs || textureOf(m.textures, f.keyword)) said.insert(f.keyword);
+      });
+    return said;
   }
 
   void item(std::string_view keyword, const std::string& value) {
@@ -202,7 +213,13 @@ class Writer {
   /// Those that differ from the defaults; all of an operand's, which would inherit from the whole.
   template <class Model>
   void modelFields(const Material& material, const Model& model) {
+    modelFields(material, model, [](std::string_view) { return true; });
+  }
+  /// The same of fields that isWanted(keyword).
+  template <class Model, class IsWanted>
+  void modelFields(const Material& material, const Model& model, const IsWanted& isWanted) {
     forEachField<Model>([&](const auto& f) {
+      if (!isWanted(f.keyword)) return;
       const auto& value = model.*f.member;
       const Texture* texture = textureOf(material.textures, f.keyword);
       const bool differs = inWhole_ || texture || value != Model{}.*f.member;
@@ -325,9 +342,8 @@ class Writer {
   std::map<std::uint32_t, std::size_t> materialUses_;
   std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
   WrittenTextures writtenTextures_;
-  /// Some material has one, which others may have to take back.
-  bool bumps_ = std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                            [](const Material& m) { return textureOf(m.textures, "bump") != nullptr; });
+  /// Fields whatever the model that some material says, which others may have to take back.
+  std::set<std::string_view> ownFields_ = ownFieldsOf(scene_.materials);
   std::map<std::string, std::uint32_t> named_;  ///< which material a name stands for so far
 };
 
@@ -346,8 +362,10 @@ std::string writtenLight(const Light& light) {
 
 std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
-  const Scene moved = withPicturesSeenFrom(scene, file, messages);
-  return {{file, rayfile::Writer(moved, options.digits).write()}};
+  SeenFrom seen = seenFrom(scene, file, messages);
+  std::vector<NamedBytes> files{{file, rayfile::Writer(seen.scene, options.digits).write()}};
+  std::move(seen.pictures.begin(), seen.pictures.end(), std::back_inserter(files));
+  return files;
 }
 
 }  // namespace trace

@@ -1,19 +1,13 @@
 #include "geometry/mesh/mesh_closed.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
+
+#include "geometry/mesh/mesh_smooth.h"
 
 namespace trace {
 
 bool closed(const MeshData& mesh) {
-  std::map<std::array<float, 3>, std::uint32_t> first;  // of the points at a place
-  std::vector<std::uint32_t> place;
-  place.reserve(mesh.points.size());
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) {
-    const Vec3f& p = mesh.points[i];
-    place.push_back(first.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, i).first->second);
-  }
+  const std::vector<std::uint32_t> place = placesOf(mesh);
   struct Edge {
     std::uint32_t low, high;
     int sense;

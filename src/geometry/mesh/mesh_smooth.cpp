@@ -26,8 +26,11 @@ class Sets {
   std::vector<Index> parent_;
 };
 
-/// For each point the number of its place; negative zeros are zeros.
-std::vector<Index> places(const MeshData& mesh) {
+Real angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+
+}  // namespace
+
+std::vector<Index> placesOf(const MeshData& mesh) {
   Unique<Vec3f> unique;
   std::vector<Index> numbers;
   numbers.reserve(mesh.points.size());
@@ -35,13 +38,9 @@ std::vector<Index> places(const MeshData& mesh) {
   return numbers;
 }
 
-Real angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
-}  // namespace
-
 MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
   const auto count = static_cast<Index>(mesh.triangles.size());
-  const std::vector<Index> place = places(mesh);
+  const std::vector<Index> place = placesOf(mesh);
   std::vector<Vec3> faces(count);
   for (Index i = 0; i < count; ++i) faces[i] = normalize(faceNormal(mesh, i));
 

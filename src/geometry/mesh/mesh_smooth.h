@@ -15,6 +15,9 @@ struct Crease {
   Real sharpness = 0;
 };
 
+/// For each point the number of its place: those at equal places have the same. Negative zeros are zeros.
+std::vector<std::uint32_t> placesOf(const MeshData& mesh);
+
 /// The mesh with normals at its points that are smooth across edges whose faces turn by less than `angle`
 /// (radians), and sharp at others, where points are doubled. Faces count by their angle at the point
 /// (Thuermer and Wuethrich 1998). Points at equal places are one. Normals of the mesh are replaced. Linear.

@@ -7,6 +7,7 @@
 #include "render/fog.h"
 #include "render/footprint.h"
 #include "render/interaction.h"
+#include "render/photons.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -18,13 +19,14 @@ struct PathTracer::Path {
   Real density = 0;  ///< of its direction, among lobes; 0 where there was one only
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
+  bool gathers = false;                          ///< photons tell what is scattered where it arrives
 };
 
 namespace {
 
 /// Branches of a place's numbers: its lights by their number, and these.
 constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
-                        kFog = 0x80000004u;
+                        kFog = 0x80000004u, kHole = 0x80000005u;
 /// Paths of fewer bounces are not ended by chance.
 constexpr int kSurely = 3;
 
@@ -46,9 +48,12 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
 
 }  // namespace
 
-void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
+void PathTracer::prepare(const World& world, const Settings& settings, Job& job) {
   lamps_ = Lamps(world, settings.threads);
-  depth_ = bounces_ ? settings.depth : 0;
+  depth_ = light_ == Light::straight ? 0 : settings.depth;
+  if (light_ != Light::photons) return;
+  caustics_ = causticMap(world, settings, &lamps_, job);
+  if (!job.cancel) all_ = globalMap(world, settings, lamps_, job);
 }
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
@@ -70,8 +75,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     else
       addFog(sum, tracer, ray, t, inside, Color(0), &lamps_, sampler.branch(kFog));
   };
+  // Photons have brought what shines there.
+  const bool brought = path.gathers && path.kind != RayKind::bounce && !caustics_.empty();
   if (!hit) {
-    if (world.outside().isSeenBy(path.kind)) {
+    if (world.outside().isSeenBy(path.kind) && !brought) {
       const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
@@ -86,10 +93,11 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const Vec2 choice = numbers.next2();
   const Interaction at(tracer, ray, *hit, footprint.get(), inside, choice.y);
   sum.note(at.bsdf());
+  sum.note(at.raised());
   sum.note(at.indices);
 
   const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.origin, *hit) : 0);
-  sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
+  if (!brought) sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
   const auto throughFog = [&] {
     seeFog(hit->t);
     sum.draw(path.ink);
@@ -99,7 +107,12 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     sum.stop(DepthLimit{RayKind::bounce, depth_});
     return throughFog();
   }
-  at.addLights(sum, sampler);
+  if (path.gathers) {
+    at.addPhotons(sum, Term::Kind::photons, all_, true);
+  } else {
+    at.addLights(sum, sampler);
+    at.addPhotons(sum, Term::Kind::caustic, caustics_, true);
+  }
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
   const bool glossy = isGlossy(at.bsdf());
@@ -112,7 +125,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       share ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
-  const Real scattered = scatters(at.bsdf()) ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
+  const bool follows = scatters(at.bsdf()) && !path.gathers;
+  const Real scattered = follows ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
   const Real all = scattered + mirrors + passes;
   const Real toLobe = all > 0 ? scattered / all : 0, toMirror = all > 0 ? mirrors / all : 0;
   if (toLobe > 0) addLamp(sum, at, toLobe, sampler);
@@ -136,9 +150,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     const auto stands = goesOn(kind, weight);
     if (!stands) return;
     const Color factor = weight * *stands;
-    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0};
-    const Ray onward = hit->leave(direction);
-    const std::optional<Hit> met = tracer.cast(onward, kind, there);
+    const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
+    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0, gathers};
+    const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
+    const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
     sum.add(term, factor * allowed(tracer, kind, path.weight * factor * arriving), arriving, {density, 0, 1});
   };
@@ -149,8 +164,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     const auto drawn =
         sample(at.bsdf(), at.frame, -ray.direction, choose, lobe.next2(), Transport::importance);
     const bool inward = drawn && dot(drawn->toLight, at.normal) < 0;
-    // Normals between vertices may turn directions into the surface.
-    const bool astray = drawn && !inward && dot(drawn->toLight, hit->surface.normal) * at.facing() < 0;
+    const bool astray = drawn && !inward && at.isAstray(drawn->toLight);
     if (drawn && !astray && !isBlack(drawn->weight))
       follow(RayKind::bounce, Term::Kind::bounce, drawn->toLight, drawn->weight * ((1 - at.coat) / toLobe),
              drawn->density * toLobe, inward && at.transmits ? at.behind() : inside, {});
@@ -177,19 +191,18 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   if (lamps_.empty()) return;
   Sampler numbers = sampler.branch(kLamp);
   const Real which = numbers.next();
-  const Vec3& from = at.hit.surface.point;
-  const auto place = lamps_.choose(from, which, numbers.next2());
+  const auto place = lamps_.choose(at.lightPlace(), which, numbers.next2());
   if (!place) return;
   const Vec3 toEye = -at.ray.direction;
   const Color scattered =
       evaluate(at.bsdf(), at.frame, toEye, place->toLight, Transport::importance) * (1 - at.coat);
   const bool inward = dot(place->toLight, at.normal) < 0;
-  if (isBlack(scattered) || (!inward && dot(place->toLight, at.hit.surface.normal) * at.facing() < 0)) return;
+  if (isBlack(scattered) || (!inward && at.isAstray(place->toLight))) return;
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
   const ChanceTerm chance = weighed(place->density, other);
 
-  const Color seen = lamps_.look(at.tracer, at.hit.leave(place->toLight), *place,
-                                 inward && at.transmits ? at.behind() : at.inside);
+  const Color seen = lamps_.look(at.tracer, at.leaveToLight(place->toLight), *place,
+                                 inward && at.transmits ? at.behind() : at.inside, at.tracer.chance(numbers));
   sum.add(Term::Kind::lamp, scattered * (chance.share / place->density), seen, chance);
 }
 

@@ -7,11 +7,16 @@
 // 1997, section 9.2.4). Of a surface's mirrored ray, its refracted one and what it scatters one is followed.
 // A ray that was bounced as often as the depth allows sends one more, which sees only what shines: so the
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
+//
+// With photons a path ends where its first ray from a scattering surface arrives: there the photons of all
+// light that lie around tell what it would find (the final gathering of Jensen 2001, section 7.4). What
+// mirrors and glass gather on surfaces that are seen is told by photons of their own.
 #pragma once
 
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
+#include "render/photon_map.h"
 
 namespace trace {
 
@@ -19,8 +24,9 @@ class Interaction;
 
 class PathTracer : public Integrator {
  public:
-  /// Without bounces only what comes from lights and lamps straight is shown.
-  explicit PathTracer(bool bounces) : bounces_(bounces) {}
+  /// straight: without bounces, only what comes from lights and lamps straight.
+  enum class Light { straight, bounced, photons };
+  explicit PathTracer(Light light) : light_(light) {}
   void prepare(const World& world, const Settings& settings, Job& job) override;
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
 
@@ -30,9 +36,10 @@ class PathTracer : public Integrator {
               const Interfaces& inside, const Sampler& sampler) const;
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
 
-  bool bounces_;
+  Light light_;
   int depth_ = 0;  ///< the most bounces
   Lamps lamps_;
+  PhotonMap all_, caustics_;  ///< empty without photons
 };
 
 }  // namespace trace

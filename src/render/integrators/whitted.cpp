@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "render/caustics.h"
 #include "render/fog.h"
 #include "render/footprint.h"
 #include "render/gather.h"
 #include "render/interaction.h"
+#include "render/photons.h"
 #include "shading/dispersion.h"
 #include "shading/optics.h"
 
@@ -31,6 +31,8 @@ namespace {
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 /// The numbers by which a direction into a lobe is chosen, and those of the fog.
 constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu;
+/// And those of the ray that goes straight on where the surface is there in part only.
+constexpr std::uint32_t kStraight = 0x7ffffffbu;
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
@@ -44,7 +46,7 @@ Real spreadOf(int k) {
 }  // namespace
 
 void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
-  caustics_ = causticMap(world, settings, job);
+  caustics_ = causticMap(world, settings, nullptr, job);
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
@@ -65,6 +67,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   const Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
   sum.note(at.bsdf());
+  sum.note(at.raised());
   const WhittedTerms& material = at.material;
 
   sum.add(Term::Kind::emissive, material.emissive);
@@ -74,7 +77,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   else
     sum.add(Term::Kind::ambient, ambient, world.ambient());
   at.addLights(sum, sampler);
-  if (!caustics_.empty()) addCaustics(sum, at);
+  if (!caustics_.empty()) at.addPhotons(sum, Term::Kind::caustic, caustics_, false);
 
   const auto worthwhile = [&](const Path& next) {
     if (next.depth > settings.depth)
@@ -86,7 +89,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
     return false;
   };
   const auto onward = [&](RayKind kind, const Color& share) {
-    return Path{kind, path.depth + 1, path.weight * share, path.spread};
+    return Path{kind, path.depth + 1, path.weight * share * hit->opacity, path.spread};
   };
   sum.note(at.indices);
   const bool glossy = settings.glossy && isGlossy(at.bsdf());
@@ -137,6 +140,17 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
       sum.stop(TotalInternalReflection{});
     }
   }
+  if (const Real hole = 1 - hit->opacity; hole > 0) {
+    sum.cover(Term::Kind::hole, hole);
+    Path next{path.kind, path.depth + 1, path.weight * hole, path.spread};
+    if (worthwhile(next)) {
+      const Footprint widened =
+          refractedAt(world, *hit, footprint.get(), ray.direction, ray.direction, at.normal, 1);
+      next.differentials = widened.get();
+      sum.add(Term::Kind::hole, Color(hole),
+              follow(tracer, hit->leave(ray.direction), next, inside, sampler.branch(kStraight)));
+    }
+  }
   if (settings.fog > 0)
     addFog(sum, tracer, ray, hit->t, inside, world.ambient(), nullptr, sampler.branch(kFog));
   sum.draw(path.ink);
@@ -146,29 +160,13 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
 /// The radiance along a ray that starts in `inside`.
 Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                       const Sampler& sampler) const {
-  const std::optional<Hit> hit = tracer.cast(ray, path.kind, inside);
+  // What the camera sees through a hole may be nearer to that than the camera sees.
+  const RayKind kind = path.kind == RayKind::camera ? RayKind::refraction : path.kind;
+  const std::optional<Hit> hit = tracer.cast(ray, kind, inside);
   return along(tracer, ray, hit, path, inside, sampler);
 }
 
 /// What photons brought that were mirrored or refracted, as the surface scatters it evenly.
-void Whitted::addCaustics(Gather& sum, const Interaction& at) const {
-  if (!scatters(at.bsdf())) return;
-  const Vec3& normal = at.hit.surface.normal;
-  const PhotonMap::Near near = caustics_.near(at.hit.surface.point, at.facing() > 0 ? normal : -normal);
-  Color light;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < near.count; ++i) {
-    const Vec3 toLight = -near.photons[i]->direction;
-    const Real cosine = dot(toLight, at.normal);
-    if (!(cosine > 0)) continue;
-    const Color diffuse = scatter(at.bsdf(), at.frame, toLight, -at.ray.direction).diffuse;
-    light += near.photons[i]->power * diffuse * (near.perArea(i) / (kPi * cosine));
-    ++count;
-  }
-  if (count > 0)
-    sum.add(Term::Kind::caustic, light * (1 - at.coat), PhotonTerm{count, std::sqrt(near.radius2)});
-}
-
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
   path.spread = spreadOf(sampler.sample());

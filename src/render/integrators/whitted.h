@@ -20,6 +20,7 @@ class Interaction;
 class Whitted : public Integrator {
  public:
   void prepare(const World& world, const Settings& settings, Job& job) override;
+  bool weighsHoles() const override { return true; }
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
 
  private:
@@ -28,7 +29,6 @@ class Whitted : public Integrator {
               const Interfaces& inside, const Sampler& sampler) const;
   Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                const Sampler& sampler) const;
-  void addCaustics(Gather& sum, const Interaction& at) const;
 
   PhotonMap caustics_;
 };

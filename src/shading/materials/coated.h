@@ -34,7 +34,7 @@ struct Coated : SurfaceFields {
                  Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"},
                  Field{"film", &Coated::film, "nanometres", 0, 5000,
                        "thickness of a film on the layer, whose faces make colours; 0 is none"},
-                 Field{"film_index", &Coated::filmIndex, "", 0, kNoLimit, "of refraction of the film"});
+                 Field{"film_index", &Coated::filmIndex, "", 1, kNoLimit, "of refraction of the film"});
   }
   bool operator==(const Coated&) const = default;
 
@@ -56,8 +56,8 @@ struct CoatedBsdf : LocalBsdf<CoatedBsdf, Coated> {
   explicit CoatedBsdf(const Coated& model)
       : LocalBsdf(model),
         coat(model.film > 0
-                 ? Coating(model.distribution, model.roughness,
-                           ThinFilm{model.filmIndex, model.index, model.film})
+                 ? Coating(model.distribution, model.roughness, 0,
+                           ThinFilm{model.filmIndex, model.index, model.film}, 1)
                  : Coating(model.distribution, model.roughness, 0, Color(mirroredAlongNormal(model.index)))) {
     index = model.index;
     reflective = coat.mirrorWeight(1);

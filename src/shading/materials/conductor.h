@@ -1,6 +1,7 @@
 // Metal whose surface is rough on a small scale: microfacets of GGX or Beckmann with Smith's masking, mirrors
 // by Fresnel's formula for conductors (exact, from measured indices) or Schlick's, and light that is mirrored
-// several times (shading/microfacet.h). Variant: height-correlated masking; grain after Burley 2012.
+// several times (shading/microfacet.h); with a thin film on it anodised titanium and tempered steel
+// (shading/thin_film.h). Variant: height-correlated masking; grain after Burley 2012.
 // Reciprocal. Energy: gives back what the metal's colour says, all of it if that is white; with grain within
 // a few percent.
 //
@@ -13,6 +14,7 @@
 #include "shading/materials/phong.h"
 #include "shading/metals.h"
 #include "shading/microfacet.h"
+#include "shading/thin_film.h"
 
 namespace trace {
 
@@ -28,6 +30,7 @@ struct Conductor : SurfaceFields {
   Color color{0.9};
   Real roughness = 0.3, anisotropy = 0, angle = 0;
   Distribution distribution = Distribution::ggx;
+  Real film = 0, filmIndex = 2.4;
 
   static constexpr auto fields() {
     return after(
@@ -39,12 +42,20 @@ struct Conductor : SurfaceFields {
         Field{"anisotropy", &Conductor::anisotropy, "", 0, 1, "how much the surface is brushed"},
         Field{"angle", &Conductor::angle, "degrees", -360, 360,
               "of the grain to the direction in which u grows"},
-        Field{"distribution", &Conductor::distribution, "", 0, kNoLimit, "how the facets lean"});
+        Field{"distribution", &Conductor::distribution, "", 0, kNoLimit, "how the facets lean"},
+        Field{"film", &Conductor::film, "nanometres", 0, 5000,
+              "thickness of a clear film on it, an oxide, whose faces make colours; 0 is none"},
+        Field{"film_index", &Conductor::filmIndex, "", 1, kNoLimit, "of refraction of the film"});
   }
   bool operator==(const Conductor&) const = default;
 
   /// What one facet mirrors.
   Color mirrored(Real cosine) const {
+    if (film > 0) {
+      const ThinFilm oxide{filmIndex, 1, film};
+      return metal == Metal::none ? oxide.mirroredOn(indexMirroring(color), cosine)
+                                  : color * oxide.mirroredOn(indexOf(metal), cosine);
+    }
     if (metal == Metal::none) return schlick(cosine, color);
     const ComplexIndex index = indexOf(metal);
     return color * fresnelConductor(cosine, index.eta, index.k);

@@ -1,6 +1,7 @@
 // One model for most things, by the numbers that artists and glTF give: colour, metalness, roughness, a clear
-// coat and sheen (Burley, Physically-Based Shading at Disney, SIGGRAPH 2012 course; Khronos, glTF 2.0,
-// appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy). Variant: GGX; the base
+// coat, sheen and iridescence (Burley, Physically-Based Shading at Disney, SIGGRAPH 2012 course; Khronos,
+// glTF 2.0, appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
+// KHR_materials_iridescence). Variant: GGX; the base
 // is coupled to what lies on it as in shading/coating.h, and each layer takes from those below what it gives
 // back itself, on the way in and out.
 // Reciprocal. Energy: gives back at most what arrives; with grain within a few percent.
@@ -21,7 +22,7 @@ struct PrincipledBsdf;
 struct Principled : SurfaceFields {
   static constexpr std::string_view kKeyword = "principled";
   static constexpr std::string_view kHelp =
-      "colour, metalness, roughness, clear coat and sheen, as glTF has them";
+      "colour, metalness, roughness, clear coat, sheen and iridescence, as glTF has them";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = PrincipledBsdf;
 
@@ -31,6 +32,7 @@ struct Principled : SurfaceFields {
   Real clearcoat = 0, clearcoatRoughness = 0.1;
   Color sheen;
   Real sheenRoughness = 0.5;
+  Real iridescence = 0, iridescenceIndex = 1.3, iridescenceThickness = 400;
 
   static constexpr auto fields() {
     return after(
@@ -44,7 +46,13 @@ struct Principled : SurfaceFields {
         Field{"clearcoat", &Principled::clearcoat, "", 0, 1, "how much of a clear layer lies on it"},
         Field{"clearcoat_roughness", &Principled::clearcoatRoughness, "", 0, 1, "of that layer"},
         Field{"sheen", &Principled::sheen, "", 0, 1, "colour of fibres on it"},
-        Field{"sheen_roughness", &Principled::sheenRoughness, "", 0, 1, "how disorderly they stand"});
+        Field{"sheen_roughness", &Principled::sheenRoughness, "", 0, 1, "how disorderly they stand"},
+        Field{"iridescence", &Principled::iridescence, "", 0, 1,
+              "how much of a thin film, whose faces make colours, lies on the base"},
+        Field{"iridescence_index", &Principled::iridescenceIndex, "", 0, kNoLimit,
+              "of refraction of the film"},
+        Field{"iridescence_thickness", &Principled::iridescenceThickness, "nanometres", 0, 5000,
+              "of the film"});
   }
   bool operator==(const Principled&) const = default;
 
@@ -69,9 +77,8 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   PrincipledBsdf() = default;
   explicit PrincipledBsdf(const Principled& model)
       : LocalBsdf(model),
-        plastic(Distribution::ggx, max(kLeastRoughness, model.roughness), model.anisotropy,
-                Color(mirroredAlongNormal(model.index))),
-        metal(plastic.lobe.facets, model.color),
+        plastic(plasticOf(model)),
+        metal(plastic.lobe.facets, metalMirrors(1)),
         fibres(Sheen::of(model.sheenRoughness)) {
     said.metallic = max(0, min(1, model.metallic));
     said.clearcoat = max(0, min(1, model.clearcoat));
@@ -84,8 +91,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
 
   Color mirrorWeight(Real cosine) const {
     const Color below =
-        lerp(said.metallic, schlick(cosine, plastic.alongNormal), schlick(cosine, said.color)) *
-        plastic.lobe.facets.sharpShare();
+        lerp(said.metallic, plastic.fresnel(cosine), metalMirrors(cosine)) * plastic.lobe.facets.sharpShare();
     if (!(said.clearcoat > 0)) return below;
     const Real through = 1 - said.clearcoat * schlick(cosine, clear.alongNormal).r;
     return below * (through * through) + clear.mirrorWeight(cosine) * said.clearcoat;
@@ -98,7 +104,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
              plastic.mirrored(eye, light) * (1 - said.metallic)};
     if (said.metallic > 0)
       sum.specular +=
-          metal.value(eye, light, [&](Real cosine) { return schlick(cosine, said.color); }) * said.metallic;
+          metal.value(eye, light, [&](Real cosine) { return metalMirrors(cosine); }) * said.metallic;
     if (!isBlack(said.sheen)) {
       const Real most = min(1, maxComponent(said.sheen));
       cover(sum, (1 - most * fibres.albedo(eye.z)) * (1 - most * fibres.albedo(light.z)),
@@ -122,6 +128,24 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   }
 
  private:
+  static bool iridesces(const Principled& model) {
+    return model.iridescence > 0 && model.iridescenceThickness > 0;
+  }
+  static ThinFilm filmOf(const Principled& model) {
+    return {model.iridescenceIndex, model.index, model.iridescenceThickness};
+  }
+  static Coating plasticOf(const Principled& model) {
+    const Real roughness = max(kLeastRoughness, model.roughness);
+    if (iridesces(model))
+      return {Distribution::ggx, roughness, model.anisotropy, filmOf(model), min(1, model.iridescence)};
+    return {Distribution::ggx, roughness, model.anisotropy, Color(mirroredAlongNormal(model.index))};
+  }
+  /// What one facet of metal mirrors.
+  Color metalMirrors(Real cosine) const {
+    const Color bare = schlick(cosine, said.color);
+    if (!iridesces(said)) return bare;
+    return lerp(min(1, said.iridescence), bare, filmOf(said).mirroredOn(indexMirroring(said.color), cosine));
+  }
   static void cover(Scatter& below, Real through, const Color& layer) {
     below = {below.diffuse * through, below.specular * through + layer};
   }

@@ -3,7 +3,9 @@
 // 16, 17, 20 and 21). Variant: height-correlated masking (Heitz, JCGT 3(2), 2014), visible normals are
 // chosen, and one of the two rays by the mirrored share. Reciprocal in the sense of light that changes its
 // medium: f(a, b) / n_b^2 = f(b, a) / n_a^2. Energy: what meets several facets is lost, a few percent of
-// light on glass of roughness 0.5.
+// light on glass of roughness 0.5, unless it is `compensated`: then it is spread evenly to both sides (Kulla
+// and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017 course), as much to each as
+// reciprocity and Fresnel's mean ask.
 //
 // Outside it is air. Under Whitted's equation one mirrored and one refracted ray stand for the facets that
 // lean less than 5 degrees, and lamps are seen in the rest; `--glossy` follows the rest too.
@@ -12,6 +14,7 @@
 #include <string_view>
 
 #include "shading/fresnel.h"
+#include "shading/glass_albedo.h"
 #include "shading/interior.h"
 #include "shading/materials/phong.h"
 #include "shading/microfacet.h"
@@ -29,6 +32,7 @@ struct RoughGlass : SurfaceFields, Interior {
   Color color{1};
   Real index = 1.5, roughness = 0.4;
   Distribution distribution = Distribution::ggx;
+  bool compensated = false;
 
   static constexpr auto fields() {
     return std::tuple_cat(
@@ -36,7 +40,9 @@ struct RoughGlass : SurfaceFields, Interior {
               Field{"index", &RoughGlass::index, "", 0, kNoLimit, "of refraction"},
               Field{"roughness", &RoughGlass::roughness, "", 0, 1,
                     "from 0, clear glass, to 1; its square is the width of the facets' slopes"},
-              Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit, "how the facets lean"}),
+              Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit, "how the facets lean"},
+              Field{"compensated", &RoughGlass::compensated, "", 0, 1,
+                    "light that meets several facets is not lost"}),
         Interior::fields());
   }
   bool operator==(const RoughGlass&) const = default;
@@ -56,6 +62,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
   static constexpr bool kTwoSided = true, kHasInside = true;
 
   Microfacets facets;
+  GlassLoss loss;  ///< of light that meets several facets, where it is compensated
 
   RoughGlassBsdf() = default;
   explicit RoughGlassBsdf(const RoughGlass& model) : LocalBsdf(model) {
@@ -66,6 +73,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
     if (scatters()) {
       facets = Microfacets::of(model.distribution, model.roughness);
       sharp = facets.sharpShare();
+      if (model.compensated) loss = {model.distribution, facets.x, model.index};
     }
     reflective = Color(mirroredAlongNormal(index) * sharp);
   }
@@ -78,27 +86,36 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
     const Turned at(*this, eyeGiven, lightGiven);
     const auto& [eye, light, eta] = at;
     if (!(eye.z > 0) || light.z == 0) return {};
+    const Real several = loss.none() ? 0 : loss.value(eyeGiven.z, lightGiven.z);
     if (light.z > 0) {
       const Vec3 half = halfway(eye, light);
-      return {{}, Color(fresnelDielectric(dot(eye, half), 1, eta) * facets.mirrored(eye, light, half))};
+      return {{},
+              Color(fresnelDielectric(dot(eye, half), 1, eta) * facets.mirrored(eye, light, half) + several)};
     }
-    const Bend bend(eye, light, eta);
-    if (!bend.possible) return {};
-    const Real seen = facets.seenAndLit(eye, {light.x, light.y, -light.z});
-    Real f = (1 - fresnelDielectric(bend.eye, 1, eta)) * facets.spread(bend.half) * seen * bend.eye / eye.z *
-             bend.density;
+    Real f = several;
+    if (const Bend bend(eye, light, eta); bend.possible) {
+      const Real seen = facets.seenAndLit(eye, {light.x, light.y, -light.z});
+      f += (1 - fresnelDielectric(bend.eye, 1, eta)) * facets.spread(bend.half) * seen * bend.eye / eye.z *
+           bend.density;
+    }
     if (transport == Transport::radiance) f /= eta * eta;
     return {{}, said.color * f};
   }
   Vec3 direction(const Vec3& eyeGiven, Real choose, Vec2 u) const {
     const Turned at(*this, eyeGiven, eyeGiven);
     const auto& [eye, same, eta] = at;
+    if (!loss.none()) {
+      const Real several = loss.of(eyeGiven.z);
+      if (choose < several) {
+        const Vec3 light = cosineDirection(u);
+        const bool passes = choose < several * loss.passes(eyeGiven.z), below = passes == (eyeGiven.z > 0);
+        return below ? Vec3{light.x, light.y, -light.z} : light;
+      }
+      choose = (choose - several) / (1 - several);
+    }
     const Vec3 half = facets.chosen(eye, u);
-    const Real cosine = dot(eye, half);
-    Vec3 light = mirroredAt(half, eye);
-    if (choose >= fresnelDielectric(cosine, 1, eta))
-      light = normalize(half * (cosine / eta - std::sqrt(max(0, 1 - (1 - cosine * cosine) / (eta * eta)))) -
-                        eye / eta);
+    const bool mirrors = choose < fresnelDielectric(dot(eye, half), 1, eta);
+    const Vec3 light = mirrors ? mirroredAt(half, eye) : refractedAt(half, eye, eta);
     return eyeGiven.z < 0 ? Vec3{light.x, light.y, -light.z} : light;
   }
   Real directionDensity(const Vec3& eyeGiven, const Vec3& lightGiven) const {
@@ -108,7 +125,9 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
     Real sum = fresnelDielectric(dot(eye, halfway(eye, light)), 1, eta) * facets.density(eye, light);
     if (const Bend bend(eye, light, eta); bend.possible)
       sum += (1 - fresnelDielectric(bend.eye, 1, eta)) * facets.visible(eye, bend.half) * bend.density;
-    return sum;
+    if (loss.none()) return sum;
+    const Real several = loss.of(eyeGiven.z), passes = loss.passes(eyeGiven.z);
+    return (1 - several) * sum + several * (light.z > 0 ? 1 - passes : passes) * std::abs(light.z) / kPi;
   }
 
  private:

@@ -1,0 +1,75 @@
+// Light that lands anywhere in a picture, whichever tile's samples bring it: sums of whole numbers, which no
+// order changes. So the bits do not depend on the number of threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "math/color.h"
+
+namespace trace {
+
+/// What one path brings to a pixel.
+struct Splat {
+  int x, y;
+  Color value;
+};
+
+/// Not for several threads at once, but for those that hold its mutex.
+class SplatPlane {
+ public:
+  SplatPlane(int width, int height)
+      : width_(width), sums_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+  mutable std::mutex mutex;
+
+  /// Bytes that a pixel takes here.
+  static constexpr std::uint64_t bytesPerPixel() { return sizeof(Sum); }
+
+  /// What so many paths bring together. A value that is not finite does not count; one beyond kMost counts as
+  /// that.
+  void add(std::span<const Splat> splats, std::int64_t paths) {
+    paths_ += paths;
+    for (const Splat& splat : splats) {
+      if (!isFinite(splat.value)) continue;
+      Sum& sum = sums_[index(splat.x, splat.y)];
+      sum[0] += parts(splat.value.r);
+      sum[1] += parts(splat.value.g);
+      sum[2] += parts(splat.value.b);
+    }
+  }
+  std::int64_t paths() const { return paths_; }
+  /// What a path brings to the pixel on the average.
+  Color mean(int x, int y) const {
+    if (paths_ == 0) return Color(0);
+    const Sum& sum = sums_[index(x, y)];
+    const double scale = 1 / (kParts * static_cast<double>(paths_));
+    return Color(static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])) *
+           scale;
+  }
+
+ private:
+  friend class FilmState;
+  __extension__ using Whole = __int128;
+  using Sum = std::array<Whole, 3>;
+  static constexpr double kParts = 0x1p40;  ///< of one: what is very dark counts as well
+  static constexpr double kMost = 0x1p50;   ///< of these 2^37 do not overflow
+
+  static Whole parts(double value) {
+    return static_cast<Whole>(std::nearbyint(std::clamp(value, -kMost, kMost) * kParts));
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_;
+  std::vector<Sum> sums_;
+  std::int64_t paths_ = 0;
+};
+
+}  // namespace trace

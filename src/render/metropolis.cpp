@@ -1,0 +1,97 @@
+#include "render/metropolis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/budget.h"
+#include "image/srgb.h"
+#include "math/noise.h"
+
+namespace trace {
+namespace {
+
+/// How bright a sample is to a chain. A filter may take light away: that has to be found, too.
+Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(luminanceOf(sample.value)) : 0; }
+
+/// A sample where a chain is, and how often it has been there, on the average over all that chance could do.
+struct Stop {
+  Splat sample;
+  Real light;
+  Real visits = 0;
+};
+
+}  // namespace
+
+Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings, const Size& size, Job& job,
+                       const std::function<void()>& interrupt)
+    : moments_(moments), settings_(settings), size_(size), area_(areaOf(settings.region, size)) {
+  settings_.sampling = SampleKind::random;  // no grid: a chain moves without steps
+  settings_.noiseTarget = 0;
+  constexpr std::int64_t kChunk = 1024;
+  const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
+  sums_.resize(static_cast<std::size_t>(starts));
+  Work work("looking for light", chunks);
+  std::atomic<std::int64_t> looked{0};
+  parallelChunks(chunks, settings.threads, job, [&](std::int64_t chunk, int) {
+    Budget budget(interrupt);
+    const BudgetScope scope(&budget);
+    PixelTracer samples = tracer();
+    for (std::int64_t n = chunk * kChunk; n < std::min(starts, (chunk + 1) * kChunk); ++n) {
+      PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
+      sums_[static_cast<std::size_t>(n)] = lightOf(samples.sample(numbers, area_));
+    }
+    work.reached(++looked);
+  });
+  job.done = 0;  // what comes next counts anew
+  if (job.cancel) return;
+  for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
+  mean_ = sums_.back() / static_cast<Real>(starts);
+}
+
+PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) const {
+  return {mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(number + 1)), moves,
+          settings_.moveSize};
+}
+
+std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves) const {
+  std::vector<Splat> splats;
+  if (!(mean_ > 0)) return splats;
+  constexpr std::uint64_t kChains = 0x636861696e73ull;  // other numbers than those of the starts
+  std::uint64_t chances = mixBits(mixBits(static_cast<std::uint64_t>(settings_.seed) ^ kChains) ^ number);
+  const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
+  const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
+  PrimarySample numbers = startOf(static_cast<std::uint64_t>(from - sums_.begin()), mixBits(chances));
+  const auto stop = [&] {
+    const Splat sample = tracer.sample(numbers, area_);
+    return Stop{sample, lightOf(sample)};
+  };
+  // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how
+  // often both choose this one, for each move and on the average, is the density of the two.
+  const Real pixels = (area_.x1 - area_.x0) * (area_.y1 - area_.y0);
+  const auto leave = [&](const Stop& at) {
+    if (!(at.light > 0)) return;
+    const Real counts = pixels * at.visits / (at.light / mean_ + settings_.moveAnywhere);
+    splats.push_back({at.sample.x, at.sample.y, at.sample.value * counts});
+  };
+
+  Stop here = stop();
+  for (std::int64_t n = 0; n < moves; ++n) {
+    const bool anywhere = chance() < settings_.moveAnywhere;
+    anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
+    Stop there = stop();
+    const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
+    there.visits = accepts + (anywhere ? 1 : 0);
+    here.visits += 1 - accepts;
+    const bool goes = chance() < accepts;
+    if (goes) std::swap(here, there);
+    goes ? numbers.keep() : numbers.undo();
+    leave(there);
+    Statistics& statistics = tracer.tracer().statistics();
+    ++statistics.moves;
+    statistics.movesKept += goes;
+  }
+  leave(here);
+  return splats;
+}
+
+}  // namespace trace

@@ -1,0 +1,48 @@
+// Metropolis light transport (Veach and Guibas 1997) in primary sample space: Kelemen, Szirmay-Kalos, Antal
+// and Csonka, A Simple and Robust Mutation Strategy for the Metropolis Light Transport Algorithm, 2002.
+//
+// A chain walks among the samples of the whole picture, from each to one nearby or anywhere, and is the more
+// often at a sample the brighter it is: once it has found a way for light that is hard to find, it looks
+// around there. It knows the numbers of a sample only, so it serves any integrator.
+//
+// There is one chain for each wave of a tile, as long as that has samples. It starts at one of many samples
+// taken at random, a brighter one more likely, so that no start has to be thrown away.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "image/film.h"
+#include "render/pixel.h"
+#include "render/primary_sample.h"
+
+namespace trace {
+
+class Metropolis {
+ public:
+  /// Looks for light: takes Settings::chainStarts samples. `interrupt` is asked meanwhile, and may throw
+  /// GivenUp. Of a job that was cancelled the chains are empty. The moments must outlive it.
+  Metropolis(std::span<const Moment> moments, const Settings& settings, const Size& size, Job& job,
+             const std::function<void()>& interrupt);
+
+  /// Takes samples for a worker's chains.
+  PixelTracer tracer() const { return {moments_, settings_, size_}; }
+
+  /// What the chain of that number leaves in the picture in so many moves. Film::picture() divides the sum of
+  /// all chains by the number of all moves.
+  std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves) const;
+
+ private:
+  PrimarySample startOf(std::uint64_t number, std::uint64_t moves) const;
+
+  std::span<const Moment> moments_;
+  Settings settings_;
+  Size size_;
+  Tile area_;               ///< of the picture that is rendered
+  std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
+  Real mean_ = 0;           ///< light of a sample
+};
+
+}  // namespace trace

@@ -1,0 +1,128 @@
+#include "shading/glass_albedo.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "shading/fresnel.h"
+
+namespace trace {
+namespace {
+
+constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
+constexpr int kSamples = 32;  // along each side of the square of numbers for a facet
+constexpr Real kMostIndex = 4;
+
+/// The two entries around a number from 0 to 1, and how far it is on the way between them.
+struct Between {
+  int low;
+  Real share;
+  Between(Real x, int steps) {
+    const Real place = max(0, min(1, x)) * steps;
+    low = std::min(steps - 1, static_cast<int>(place));
+    share = place - low;
+  }
+  /// What `ask` gives of the two, mixed.
+  template <class Ask>
+  Real of(const Ask& ask) const {
+    const Real first = ask(low);
+    return share > 0 ? first + share * (ask(low + 1) - first) : first;
+  }
+};
+
+/// Of one index and width, by the root of the cosine, where the albedo changes evenly.
+struct Row {
+  std::once_flag made;
+  Real at[kCosines + 1];
+  Real mean = 0;
+
+  void make(const Microfacets& facets, Real eta) {
+    for (int c = 0; c <= kCosines; ++c) at[c] = albedo(facets, max(1e-3, 1.0 * c / kCosines), eta);
+    // Simpson's rule for 2 cos d cos with cos = t^2, d cos = 2 t dt.
+    for (int c = 0; c <= kCosines; ++c) {
+      const Real t = 1.0 * c / kCosines, weight = c == 0 || c == kCosines ? 1 : c % 2 ? 4 : 2;
+      mean += weight / (3.0 * kCosines) * 4 * t * t * t * at[c];
+    }
+  }
+
+ private:
+  static Real albedo(const Microfacets& facets, Real root, Real eta) {
+    const Real cosine = root * root;
+    const Vec3 eye{std::sqrt(1 - cosine * cosine), 0, cosine};
+    Real sum = 0;
+    for (int i = 0; i < kSamples; ++i)
+      for (int j = 0; j < kSamples; ++j) {
+        const Vec3 half = facets.chosen(eye, {(i + 0.5) / kSamples, (j + 0.5) / kSamples});
+        const Real mirrors = fresnelDielectric(dot(eye, half), 1, eta);
+        const Vec3 up = mirroredAt(half, eye);
+        if (up.z > 0) sum += mirrors * facets.seenAndLit(eye, up);
+        if (!(mirrors < 1)) continue;
+        const Vec3 down = refractedAt(half, eye, eta);
+        if (down.z < 0) sum += (1 - mirrors) * facets.seenAndLit(eye, {down.x, down.y, -down.z});
+      }
+    return min(1, sum / (facets.seen(eye) * kSamples * kSamples));
+  }
+};
+
+/// Rows by the root of the width and by (eta - 1) / (eta + 1), each made when it is first asked for: most
+/// pictures show one kind of glass.
+class Table {
+ public:
+  explicit Table(Distribution kind) : kind_(kind) {}
+
+  /// What ask(row) gives at the place, from the rows around it.
+  template <class Ask>
+  Real at(Real width, Real eta, const Ask& ask) {
+    const Between index(((eta - 1) / (eta + 1) / kMost + 1) / 2, kIndices), w(std::sqrt(width), kWidths);
+    return index.of([&](int i) { return w.of([&](int j) { return ask(row(i, j)); }); });
+  }
+
+ private:
+  const Row& row(int index, int width) {
+    Row& row = rows_[static_cast<std::size_t>(index * (kWidths + 1) + width)];
+    std::call_once(row.made, [&] {
+      const Real x = (2.0 * index / kIndices - 1) * kMost;
+      row.make(Microfacets::of(kind_, 1.0 * width / kWidths), (1 + x) / (1 - x));
+    });
+    return row;
+  }
+
+  static constexpr Real kMost = (kMostIndex - 1) / (kMostIndex + 1);
+  Distribution kind_;
+  std::vector<Row> rows_ = std::vector<Row>((kIndices + 1) * (kWidths + 1));
+};
+
+Table& table(Distribution kind) {
+  static Table ggx(Distribution::ggx), beckmann(Distribution::beckmann);
+  return kind == Distribution::ggx ? ggx : beckmann;
+}
+
+}  // namespace
+
+Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta) {
+  const Between c(std::sqrt(max(0, cosine)), kCosines);
+  return table(kind).at(width, eta, [&](const Row& row) { return c.of([&](int i) { return row.at[i]; }); });
+}
+
+Real meanGlassAlbedo(Distribution kind, Real width, Real eta) {
+  return table(kind).at(width, eta, [](const Row& row) { return row.mean; });
+}
+
+GlassLoss::GlassLoss(Distribution kind, Real width, Real index)
+    : kind_(kind),
+      width_(width),
+      index_(index),
+      mean_{1 - meanGlassAlbedo(kind, width, index), 1 - meanGlassAlbedo(kind, width, 1 / index)} {
+  if (none()) return;
+  // From the thinner side as much passes as a smooth surface lets through on the average (Kulla and Conty's
+  // fit), and from the other as much as reciprocity asks.
+  const bool airIsThin = index > 1;
+  const Real n = airIsThin ? index : 1 / index, thin = mean_[airIsThin ? 0 : 1],
+             dense = mean_[airIsThin ? 1 : 0];
+  const Real down = 1 - (n - 1) / (4.08567 + 1.00071 * n), up = down * thin / (n * n * dense);
+  const Real most = std::max(1.0, up);
+  passes_[airIsThin ? 0 : 1] = down / most;
+  passes_[airIsThin ? 1 : 0] = up / most;
+}
+
+}  // namespace trace

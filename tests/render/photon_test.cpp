@@ -1,0 +1,171 @@
+// Photons of all light, and the integrator that gathers by them, against path tracing and closed forms.
+#include <gtest/gtest.h>
+
+#include "geometry/shapes/square.h"
+#include "render/explain.h"
+#include "render/photons.h"
+#include "support/quarters.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+Phong diffuse(const Color& albedo, Real emissive = 0) {
+  Phong phong;
+  phong.diffuse = albedo, phong.emissive = Color(emissive);
+  return phong;
+}
+
+/// A cube of two units around the origin, open toward the camera at z = 4, with one red wall.
+Scene room() {
+  Scene scene;
+  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
+  const auto add = [&](const Vec3& axis, Real angle, const Phong& phong) {
+    addObject(scene, Square{}, Affine::rotation(axis, angle * kPi) * wall, phong);
+  };
+  add({0, 1, 0}, 1, diffuse(Color(0.7)));
+  add({0, 1, 0}, 0.5, diffuse({0.8, 0.1, 0.1}));
+  add({0, 1, 0}, 1.5, diffuse(Color(0.7)));
+  add({1, 0, 0}, 0.5, diffuse(Color(0.7)));
+  add({1, 0, 0}, 1.5, diffuse(Color(0.7)));
+  scene.camera.position = {0, 0, 4};
+  scene.camera.fov = 40;
+  return scene;
+}
+
+Affine ceiling(Real size) {
+  return Affine::translation({0, 0.98, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
+         Affine::scaling({size, size, 1});
+}
+
+Settings settingsOf(IntegratorKind integrator, int spp) {
+  Settings settings;
+  settings.integrator = integrator;
+  settings.sampling = SampleKind::sobol;
+  settings.width = settings.height = 24;
+  settings.depth = 8, settings.spp = spp;
+  settings.airIndex = 1;
+  settings.fresnel = Fresnel::exact;
+  return settings;
+}
+
+void expectAlike(const Scene& scene, Real tolerance, int spp = 64) {
+  const auto wanted = quarters(picture(scene, settingsOf(IntegratorKind::path, 16 * spp)));
+  const auto found = quarters(picture(scene, settingsOf(IntegratorKind::photon, spp)));
+  for (std::size_t q = 0; q < 4; ++q)
+    for (const auto channel : {&Color::r, &Color::g, &Color::b}) {
+      EXPECT_GT(wanted[q].*channel, 0.01);
+      EXPECT_NEAR(found[q].*channel / wanted[q].*channel, 1, tolerance) << q;
+    }
+}
+
+TEST(Photon, APointLightLightsARoomAsPathsSay) {
+  Scene scene = room();
+  scene.lights.push_back({PointLight{.position = {0.2, 0.3, 0.1}, .color = Color(1)}, {}});
+  expectAlike(scene, 0.03);
+}
+
+TEST(Photon, ASunInARoomToo) {
+  Scene scene = room();
+  scene.lights.push_back({DirectionalLight{.direction = {-0.4, -1, -2}, .color = Color(1)}, {}});
+  expectAlike(scene, 0.03);
+}
+
+TEST(Photon, LampsOfEveryKindDo) {
+  Scene scene = room();
+  addObject(scene, Square{}, ceiling(0.6), diffuse(Color(0.5), 6));
+  addObject(scene, Sphere{}, Affine::translation({0.5, -0.5, 0.3}) * Affine::scaling({0.2, 0.2, 0.2}),
+            diffuse(Color(0), 3));
+  MeshData data;
+  data.points = {{-0.9f, -0.5f, 0.2f}, {-0.5f, -0.5f, 0.2f}, {-0.9f, 0, 0.2f}};
+  data.triangles = {{0, 1, 2}};
+  addObject(scene, Mesh{std::make_shared<MeshData>(data)}, {}, diffuse(Color(0.2), 5));
+  expectAlike(scene, 0.03);
+}
+
+TEST(Photon, ALampCloseUnderTheCeilingShinesThroughNeither) {
+  // Between the two, photons are very dense: none of them may count below the lamp.
+  Scene scene = room();
+  addObject(scene, Square{},
+            Affine::translation({0, 0.995, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
+                Affine::scaling({0.5, 0.5, 1}),
+            diffuse(Color(0.7), 6));
+  expectAlike(scene, 0.03);
+}
+
+TEST(Photon, WhatIsAroundDoes) {
+  Scene scene = room();
+  scene.background.gradient = {{Color(0.2, 0.3, 0.4), Color(0.9, 0.8, 0.7)}};
+  expectAlike(scene, 0.03);
+}
+
+TEST(Photon, GlassAndMirrorsThrowTheLightOfALamp) {
+  Scene scene = room();
+  Phong glass, mirror;
+  glass.transmissive = glass.reflective = Color(1), glass.index = 1.5;
+  mirror.reflective = Color(0.9);
+  addObject(scene, Square{}, ceiling(1), diffuse(Color(0.5), 4));
+  addObject(scene, Sphere{}, Affine::translation({-0.4, -0.55, 0}) * Affine::scaling({0.4, 0.4, 0.4}), glass);
+  addObject(scene, Sphere{}, Affine::translation({0.5, -0.6, -0.3}) * Affine::scaling({0.3, 0.3, 0.3}),
+            mirror);
+  expectAlike(scene, 0.05, 128);
+}
+
+TEST(Photon, ARoomThatShinesHasTheSumOfItsBounces) {
+  // Closed, and all of it sends out 1 and scatters half: 2 everywhere.
+  Scene scene = room();
+  addObject(scene, Square{}, Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1}), {});
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) scene.materials[i].model = diffuse(Color(0.5), 1);
+  scene.camera.position = {0, 0, 0};
+  Settings settings = settingsOf(IntegratorKind::photon, 64);
+  settings.depth = 30;
+  for (const Color& q : quarters(picture(scene, settings))) EXPECT_NEAR(q.g, 2, 0.05);
+}
+
+TEST(Photon, TheMapHoldsThePowerOfItsLights) {
+  // All that a point light in a closed black room sends lands once: 4 pi times pi times its colour.
+  Scene scene = room();
+  addObject(scene, Square{}, Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1}), {});
+  for (Material& material : scene.materials) material.model = diffuse(Color(1e-9));
+  scene.lights.push_back(
+      {PointLight{.position = {0.3, 0.2, 0.1}, .color = Color(0.5), .constant = 0, .quadratic = 1}, {}});
+  Settings settings = settingsOf(IntegratorKind::photon, 1);
+  settings.photons = 50000;
+  settings.limitAttenuation = false;
+  const World world = build(scene, settings);
+  Job job;
+  const PhotonMap map = globalMap(world, settings, Lamps(world, 1), job);
+  Real power = 0;
+  for (const Photon& photon : map.photons()) power += photon.power.g;
+  EXPECT_NEAR(power / (4 * kPi * kPi * 0.5), 1, 0.01);
+}
+
+TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
+  Random random(5);
+  Scene scene = randomScene(random, 12);
+  addObject(scene, Square{}, ceiling(1), diffuse(Color(0.5), 4));
+  Settings settings = settingsOf(IntegratorKind::photon, 4);
+  settings.photons = 20000;
+  settings.threads = 1;
+  const Picture one = picture(scene, settings);
+  for (const int threads : {2, 7}) {
+    settings.threads = threads;
+    EXPECT_EQ(picture(scene, settings), one);
+  }
+  const World world = build(scene, settings);
+  const auto integrator = integratorOf(world, settings);
+  std::size_t photons = 0;
+  for (int at = 0; at < 24; at += 3) {
+    const Explanation e = explain(world, *integrator, settings, {24, 24}, at, at, at % 4);
+    EXPECT_EQ(e.pixel, one.at(at, at)) << at;
+    EXPECT_TRUE(sumsUp(e.tree)) << at;
+    for (const RayNode& node : e.tree.nodes)
+      for (const Term& term : node.terms)
+        photons += term.kind == Term::Kind::photons ? term.photons->count : 0;
+  }
+  EXPECT_GT(photons, 0u);
+}
+
+}  // namespace
+}  // namespace trace::test
