@@ -26,6 +26,10 @@ void waitFor(BackgroundRender& render) {
   while (render.state().working()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
+void waitFor(const PixelInspector& inspector) {
+  while (inspector.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 /// Until all files are read and written. False if one could not be.
 bool settled(Workspace& workspace) {
   const std::uint64_t before = workspace.failures();
@@ -528,7 +532,7 @@ TEST_F(WorkspaceTest, PinnedRaysGoWithTheirScene) {
   PixelInspector& inspector = workspace.inspector;
   const auto raysOf = [&](const std::shared_ptr<const Session>& session) {
     inspector.want(session, 5, 5, 0);
-    while (inspector.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    waitFor(inspector);
     inspector.update();
   };
   raysOf(workspace.render.session());
@@ -551,6 +555,7 @@ TEST_F(WorkspaceTest, ThePulseTellsWhetherThereIsSomethingNewToSee) {
   EXPECT_FALSE(changed());
   ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
   waitFor(workspace.render);  // perhaps it ended while the file was opened
+  waitFor(workspace.inspector);
   workspace.update();
   EXPECT_TRUE(changed());
   for (int i = 0; i < 50; ++i) {  // nothing happens, however long one looks
@@ -573,7 +578,7 @@ TEST_F(WorkspaceTest, ThePulseTellsWhetherThereIsSomethingNewToSee) {
     changed();
   }
   workspace.inspector.forget();
-  while (workspace.inspector.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  waitFor(workspace.inspector);
   EXPECT_TRUE(changed());
   EXPECT_FALSE(before.tracing);
   workspace.startRender();
