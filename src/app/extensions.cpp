@@ -25,6 +25,7 @@ constexpr std::array kTable{
               "--spp 9", "--spp 9 --filter gaussian", ""},
     Extension{"light-samples", "soft shadows of lights that have a size", "soft-shadows.ray",
               "--spp 1 --light-samples 1", "--spp 1 --light-samples 32", ""},
+    Extension{"lamp-samples", "objects that shine light others", "glow.ray", "--lamp-samples 0", "", ""},
     Extension{"aperture", "depth of field: what is not in focus blurs", "lens.ray", "--aperture 0", "", ""},
     Extension{"projection", "other cameras than the pinhole: panoramas, fisheyes, orthographic views",
               "room.ray", "--projection perspective", "--projection panorama", ""},

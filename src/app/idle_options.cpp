@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/integrator.h"
+#include "render/lamps.h"
 #include "render/render.h"
 #include "scene/options.h"
 
@@ -59,6 +60,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
       warn("--smooth-terminator changes nothing: no mesh of the scene has normals at its points",
            "gennormals or crease in a mesh makes them");
   }
+  if (whitted && s.lampSamples > 0 && Lamps(world, s.threads).empty())
+    warn("--lamp-samples changes nothing: no square, ball or mesh of the scene shines",
+         "give an object an emissive color; other shapes that shine light nothing");
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 

@@ -99,7 +99,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     const Vec3 toLight = sky_.choose(u);
     const Real density = this->density(toLight);
     if (!(density > 0)) return {};
-    return Place{kNone, 0, toLight, density};
+    return Place{kNone, 0, toLight, density, kInfinity};
   }
   which = (which - skyShare) / (1 - skyShare);
   const std::size_t number = partOf(which);
@@ -107,18 +107,22 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   const std::uint64_t inObject = number - first_[part.object];
   Vec3 toLight;
   Vec3 at = part.origin;
+  Real distance;
   if (part.kind == Part::Kind::sphere) {
     const Vec3 to = part.origin - from;
     const Real away2 = dot(to, to), radius2 = part.size * part.size;
     if (!(away2 > radius2)) return {};  // from inside it is met by chance
     toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
+    const Real along = dot(to, toLight);
+    distance = along - std::sqrt(std::max(0.0, radius2 - (away2 - along * along)));
   } else {
     at = placeOn(part, u);
+    distance = length(at - from);
     toLight = normalize(at - from);
   }
   const Real density = (1 - skyShare) * part.share * part.density(from, at);
   if (!(density > 0)) return {};
-  return Place{part.object, inObject, toLight, density};
+  return Place{part.object, inObject, toLight, density, distance};
 }
 
 std::optional<Lamps::Start> Lamps::start(Real which, const Vec2& u) const {
@@ -176,6 +180,15 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces
     light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
   }
   return light.radiance(inside.passed(hit->t));
+}
+
+Color Lamps::sent(Tracer& tracer, const Ray& ray, const Place& place) const {
+  const World& world = tracer.world();
+  if (place.object == kNone) return world.outside().view(ray, RayKind::lamp).color;
+  const Ray last{ray.at(place.distance * kBefore), ray.direction};
+  const auto found = tracer.look(last, RayKind::lamp);
+  if (!found || found->object != place.object) return Color(0);
+  return whitted(*world.bsdfAt(last, *found)).emissive;
 }
 
 }  // namespace trace

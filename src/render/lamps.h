@@ -28,6 +28,7 @@ class Lamps {
     std::uint64_t part;    ///< the triangle of a mesh
     Vec3 toLight;          ///< unit
     Real density;          ///< of that direction, per solid angle
+    Real distance;         ///< infinite to what is around
   };
   /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
   std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
@@ -60,6 +61,10 @@ class Lamps {
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
   /// `chance` is Tracer::chance().
   Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const;
+  /// The radiance that the place sends along that ray to it, whatever is in the way.
+  Color sent(Tracer& tracer, const Ray& ray, const Place& place) const;
+  /// The part of the way to a place that ends before it.
+  static constexpr Real kBefore = 1 - 1e-6;
 
  private:
   /// A triangle, a parallelogram or a sphere, in world space.

@@ -25,6 +25,7 @@ constexpr std::array kTable{
     Row{"noise-target", "adaptive supersampling error grain variance threshold"},
     Row{"shutter", "motion blur moving speed exposure time streak"},
     Row{"moments", "motion blur steps time"},
+    Row{"lamp-samples", "emissive area light soft shadows glow luminous mesh image based lighting"},
     Row{"ambient-occlusion", "ao corners creases dirt soft sky dome ambient"},
     Row{"occlusion-reach", "ao distance"},
     Row{"smooth-terminator", "shadow facets polygons low poly lowpoly coarse mesh normals artifact"},

@@ -476,6 +476,18 @@ const std::array kTable{
                               .least = 1e-6,
                               .most = 1,
                               .integrators = "mlt"}),
+    row<&Settings::lampSamples>(
+        {.name = "lamp-samples",
+         .group = "Tracing",
+         .help =
+             "rays by which every place asks for the light of objects that shine, and of a sky that is not "
+             "the same all around; 0: they light nothing",
+         .source = "Cook, Porter and Carpenter 1984; docs/lights.md",
+         .least = 0,
+         .most = 4096,
+         .unit = "rays",
+         .integrators = "whitted",
+         .extra = true}),
     row<&Settings::ambientOcclusion>(
         {.name = "ambient-occlusion",
          .group = "Tracing",

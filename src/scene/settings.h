@@ -100,6 +100,7 @@ struct Settings {
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;
   Real moveSize = 0.01;
+  int lampSamples = 0;
   int ambientOcclusion = 0;
   Real occlusionReach = 0;
   int photons = 200000;

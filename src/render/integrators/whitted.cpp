@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/low_discrepancy.h"
 #include "render/fog.h"
 #include "render/footprint.h"
 #include "render/gather.h"
@@ -29,8 +30,8 @@ namespace {
 /// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
 /// rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
-/// The numbers by which a direction into a lobe is chosen, and those of the fog.
-constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu;
+/// The numbers by which a direction into a lobe is chosen, those of the fog, and those of the lamps.
+constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu, kLamps = 0x7ffffffau;
 /// And those of the ray that goes straight on where the surface is there in part only.
 constexpr std::uint32_t kStraight = 0x7ffffffbu;
 
@@ -47,6 +48,7 @@ Real spreadOf(int k) {
 
 void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
   caustics_ = causticMap(world, settings, nullptr, job);
+  if (settings.lampSamples > 0) lamps_ = Lamps(world, settings.threads);
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
@@ -77,6 +79,8 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   else
     sum.add(Term::Kind::ambient, ambient, world.ambient());
   at.addLights(sum, sampler);
+  const bool glossy = settings.glossy && isGlossy(at.bsdf());
+  if (!lamps_.empty()) addLamps(sum, at, glossy, sampler);
   if (!caustics_.empty()) at.addPhotons(sum, Term::Kind::caustic, caustics_, false);
 
   const auto worthwhile = [&](const Path& next) {
@@ -92,7 +96,6 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
     return Path{kind, path.depth + 1, path.weight * share * hit->opacity, path.spread};
   };
   sum.note(at.indices);
-  const bool glossy = settings.glossy && isGlossy(at.bsdf());
   if (glossy) {  // one ray into the lobe, in place of those that stand for its core
     Sampler numbers = sampler.branch(kLobe);
     const Real choose = numbers.next();
@@ -166,7 +169,32 @@ Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfac
   return along(tracer, ray, hit, path, inside, sampler);
 }
 
-/// What photons brought that were mirrored or refracted, as the surface scatters it evenly.
+/// Adds the light of places on lamps, filtered by the glass in between. `glossy`: a ray into the lobe finds
+/// what the lobe mirrors.
+void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sampler& sampler) const {
+  Tracer& tracer = at.tracer;
+  const int rays = tracer.settings().lampSamples;
+  Sampler numbers = sampler.branch(kLamps);
+  const Vec2 first = numbers.next2();
+  const Real which = numbers.next();
+  for (int n = 0; n < rays; ++n) {
+    const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
+    const auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
+    if (!place) continue;
+    const Scatter parts = scatter(at.bsdf(), at.frame, place->toLight, -at.ray.direction);
+    Color scattered =
+        (glossy ? parts.diffuse : parts.sum()) * ((1 - at.coat) / (kPi * place->density * rays));
+    const bool inward = dot(place->toLight, at.normal) < 0;
+    if (isBlack(scattered) || (!inward && at.isAstray(place->toLight))) continue;
+    const Ray toLamp = at.leaveToLight(place->toLight);
+    scattered *= lamps_.sent(tracer, toLamp, *place);
+    if (isBlack(scattered)) continue;
+    if (tracer.settings().fog > 0) scattered *= Color(Fog(tracer.settings()).left(toLamp, place->distance));
+    const Color passed = tracer.visible(at.hit, toLamp, place->distance * Lamps::kBefore, at.inside);
+    sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1});
+  }
+}
+
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
   path.spread = spreadOf(sampler.sample());

@@ -6,11 +6,12 @@
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
 // place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
 // is asked for. Extras: rough surfaces send a ray by chance, photons show caustics, ambient light is asked
-// for, and fog covers what is far.
+// for, objects that shine light others, and fog covers what is far.
 #pragma once
 
 #include "render/gather.h"
 #include "render/integrator.h"
+#include "render/lamps.h"
 #include "render/photon_map.h"
 
 namespace trace {
@@ -30,7 +31,10 @@ class Whitted : public Integrator {
   Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                const Sampler& sampler) const;
 
+  void addLamps(Gather& sum, const Interaction& at, bool glossy, const Sampler& sampler) const;
+
   PhotonMap caustics_;
+  Lamps lamps_;  ///< empty where they light nothing
 };
 
 }  // namespace trace
