@@ -59,6 +59,8 @@ constexpr std::array kTable{
     Extension{"smooth-terminator", "coarse meshes without hard edges where light grazes them",
               "smooth-terminator.ray", "--smooth-terminator off", "", ""},
     Extension{"caustics", "light that mirrors and glass gather", "caustics.ray", "--caustics 0", "", ""},
+    Extension{"caustic-texels", "caustics in texture maps of surfaces, as Arvo gathered them in 1986",
+              "caustics.ray", "--caustics 0", "--caustic-texels 1500", ""},
     Extension{"fog", "air that scatters light: beams from a window", "fog.ray", "--fog 0", "", ""},
     Extension{"threshold", "rays that would add less are not sent: faster, and nearly the same",
               "threshold.ray", "--threshold 0", "--threshold 0.3", ""},

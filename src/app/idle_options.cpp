@@ -60,6 +60,8 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
       warn("--smooth-terminator changes nothing: no mesh of the scene has normals at its points",
            "gennormals or crease in a mesh makes them");
   }
+  if (whitted && s.caustics == 0 && s.causticTexels > 0)
+    warn("--caustic-texels changes nothing: there are no photons to gather", "--caustics 200000 sends some");
   if (whitted && s.lampSamples > 0 && Lamps(world, s.threads).empty())
     warn("--lamp-samples changes nothing: no square, ball or mesh of the scene shines",
          "give an object an emissive color; other shapes that shine light nothing");

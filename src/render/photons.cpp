@@ -123,6 +123,12 @@ struct Source {
   std::int64_t count = 0;  ///< of them
 };
 
+/// What came to rest.
+struct Landed {
+  std::vector<Photon> photons{};
+  std::vector<std::pair<IlluminationMap::Place, Color>> onMaps{};
+};
+
 class Emitter {
  public:
   /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
@@ -135,10 +141,11 @@ class Emitter {
         targets_(std::move(targets)),
         onlyCaustics_(onlyCaustics),
         fog_(settings),
-        tracer_(world, settings) {}
+        tracer_(world, settings),
+        texels_(onlyCaustics ? settings.causticTexels : 0) {}
 
   /// Photon n of the source.
-  void send(const Source& source, std::uint32_t n, std::vector<Photon>& landed) {
+  void send(const Source& source, std::uint32_t n, Landed& landed) {
     const auto number = static_cast<std::uint64_t>(source.kind) << 32 | source.light;
     seed_ = mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(number + 1));
     n_ = n;
@@ -234,7 +241,7 @@ class Emitter {
     return Flight{aim->ray, std::move(inside), std::move(hit), power, true};
   }
 
-  void fly(Flight& flight, std::vector<Photon>& landed) {
+  void fly(Flight& flight, Landed& landed) {
     auto& [ray, inside, hit, power, fromInfinity] = flight;
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
       power *= inside.passed(hit->t);
@@ -243,8 +250,13 @@ class Emitter {
       const Interaction at(tracer_, ray, *hit, nullptr, inside, chance());
       const Vec3& normal = hit->surface.normal;
       const bool rests = scatters(at.bsdf());
-      if (rests && (bounces > 0 || !onlyCaustics_))
-        landed.push_back({hit->surface.point, ray.direction, at.facing() > 0 ? normal : -normal, power});
+      if (rests && (bounces > 0 || !onlyCaustics_)) {
+        if (const auto place = texels_.place(world_, ray, *hit))
+          landed.onMaps.emplace_back(*place, power);
+        else
+          landed.photons.push_back(
+              {hit->surface.point, ray.direction, at.facing() > 0 ? normal : -normal, power});
+      }
       if (bounces >= settings_.depth) return;
 
       const auto shares = at.shares();
@@ -309,6 +321,7 @@ class Emitter {
   bool onlyCaustics_;
   Fog fog_;
   Tracer tracer_;
+  IlluminationMap texels_;  // tells where on it a place is
   // Of the photon that is sent.
   std::uint64_t seed_ = 0;
   std::uint32_t n_ = 0;
@@ -355,14 +368,13 @@ std::vector<Source> sourcesOf(const World& world, const Lamps* lamps, const std:
 }
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
-std::vector<Photon> landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                                  const std::vector<Target>& targets, bool onlyCaustics, int photons,
-                                  Job& job) {
+Landed landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
+                     const std::vector<Target>& targets, bool onlyCaustics, int photons, Job& job) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     const Source& source;
     std::int64_t first, end;
-    std::vector<Photon> landed{};
+    Landed landed{};
   };
   std::vector<Chunk> chunks;
   const std::vector<Source> sources = sourcesOf(world, lamps, targets, photons);
@@ -379,9 +391,12 @@ std::vector<Photon> landedPhotons(const World& world, const Settings& settings, 
     work.reached(++sent);
   });
   job.done = 0;  // what comes next counts anew
-  std::vector<Photon> all;
+  Landed all;
   if (job.cancel) return all;
-  for (const Chunk& chunk : chunks) all.insert(all.end(), chunk.landed.begin(), chunk.landed.end());
+  for (const auto& [source, first, end, landed] : chunks) {
+    all.photons.insert(all.photons.end(), landed.photons.begin(), landed.photons.end());
+    all.onMaps.insert(all.onMaps.end(), landed.onMaps.begin(), landed.onMaps.end());
+  }
   return all;
 }
 
@@ -390,14 +405,22 @@ constexpr Real kFlatness = 10;
 
 }  // namespace
 
-PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job) {
+GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
+                                  Job& job) {
   const std::vector<Target> targets = targetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};
   constexpr Real kReach = 0.02;  // of the scene's size
   const Real reach =
       settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
-  return {landedPhotons(world, settings, lamps, targets, true, photons, job), reach, lamps ? kFlatness : 1};
+  Landed landed = landedPhotons(world, settings, lamps, targets, true, photons, job);
+  IlluminationMap texels(settings.causticTexels);
+  for (const auto& [place, power] : landed.onMaps) texels.add(place, power);
+  return {{std::move(landed.photons), reach, lamps ? kFlatness : 1}, std::move(texels)};
+}
+
+PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job) {
+  return gatheredCaustics(world, settings, lamps, job).photons;
 }
 
 PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job) {
@@ -405,7 +428,7 @@ PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& l
   if (settings.photons == 0 || box.empty()) return {};
   const std::vector<Target> everything{{box.center(), length(box.size()) / 2}};
   constexpr Real kReach = 0.1;  // of the scene's size
-  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job),
+  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job).photons,
           kReach * length(box.size()), kFlatness};
 }
 

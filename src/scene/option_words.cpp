@@ -30,6 +30,7 @@ constexpr std::array kTable{
     Row{"occlusion-reach", "ao distance"},
     Row{"smooth-terminator", "shadow facets polygons low poly lowpoly coarse mesh normals artifact"},
     Row{"caustics", "photon map mapping glass light focus concentrated"},
+    Row{"caustic-texels", "illumination map backward ray tracing light texture arvo"},
     Row{"caustic-radius", "photon map gather blur"},
     Row{"fog", "mist haze smoke dust volume volumetric god rays beams medium atmosphere"},
     Row{"fog-color", "mist haze smoke albedo colour"},

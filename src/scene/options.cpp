@@ -547,6 +547,17 @@ const std::array kTable{
          .most = 1e9,
          .unit = "units",
          .integrators = "whitted, photon"}),
+    row<&Settings::causticTexels>(
+        {.name = "caustic-texels",
+         .group = "Tracing",
+         .help = "caustics are gathered in a map of so many texels a side for each surface that has texture "
+                 "coordinates, as long ago; 0: what photons lie near tells",
+         .source = "Arvo 1986; docs/caustics.md",
+         .least = 0,
+         .most = 4096,
+         .unit = "texels",
+         .integrators = "whitted",
+         .extra = true}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
          .group = "Tracing",

@@ -107,6 +107,7 @@ struct Settings {
   bool smoothTerminator = false;
   int caustics = 0;
   Real causticRadius = 0;
+  int causticTexels = 0;
   NestedGlass nestedGlass = NestedGlass::byPriority;
   int wavelengths = 1;
   bool varnish = false;

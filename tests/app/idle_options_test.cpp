@@ -45,6 +45,7 @@ TEST(IdleOptions, AreToldWithTheirReason) {
       {{"caustics", "1000", {}}}, "nothing in the scene mirrors");
   about("point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { }",
         {{"ambient-occlusion", "4", {}}}, "no ambient light");
+  about(kLit, {{"caustic-texels", "256", {}}}, "--caustic-texels changes nothing");
   about("torus { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
         "--lamp-samples changes nothing");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");

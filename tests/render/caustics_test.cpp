@@ -126,6 +126,53 @@ TEST(Caustics, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, picture(scene, settings));
 }
 
+TEST(Caustics, MapsOfSurfacesGatherTheSameLightAsPhotonsNearby) {
+  Scene scene;  // a lens above a table, and a wall that is seen from behind
+  addObject(scene, Square{}, turned({1, 0, 0}, -kPi / 2) * Affine::scaling({4, 4, 1}), white());
+  addObject(scene, Sphere{}, Affine::translation({0, 2.4, 0}), glass(0));
+  scene.lights.push_back({DirectionalLight{.direction = {0, -1, 0}, .color = Color(1)}, {}});
+  Settings settings = causticSettings(100000);
+  const auto mean = [&](Real y) {  // over the whole table from above the ball or from below
+    scene.camera.position = {0, y, 0.1};
+    scene.camera.viewdir = {0, -y, -0.1};
+    scene.camera.updir = {0, 0, -1};
+    scene.camera.fov = 60;
+    settings.width = settings.height = 48;
+    Real sum = 0;
+    for (const Color& c : picture(scene, settings).pixels) sum += c.g;
+    return sum;
+  };
+  const Real above = mean(9), below = mean(-9);
+  settings.causticTexels = 64;
+  EXPECT_NEAR(mean(9) / above, 1, 0.01);
+  EXPECT_EQ(mean(-9), below) << "the other side of the table has a map of its own";
+  settings.caustics = 0;
+  EXPECT_LT(mean(9) / above, 0.995) << "caustics are a part of the picture";
+}
+
+TEST(Caustics, AMapHasWhatFellOnItPerArea) {
+  Scene scene;
+  addObject(scene, Square{}, Affine::scaling({3, 2, 1}), white());
+  const World world = build(scene);
+  IlluminationMap map(16);
+  std::uint64_t bits = 3;
+  const auto next = [&] { return unitFromBits(bits = mixBits(bits)); };
+  const auto met = [&](Real x, Real y) {
+    const Ray ray{{x, y, 5}, {0, 0, -1}};
+    Statistics statistics;
+    return Hit(world, ray, *world.closest(ray, Faces::both, statistics));
+  };
+  const int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const Hit hit = met(3 * next() - 1.5, 2 * next() - 1);
+    map.add(*map.place(world, {{}, {0, 0, -1}}, hit), Color(6.0 / count));
+  }
+  Real sum = 0;
+  for (int i = 0; i < 400; ++i)
+    sum += map.at(*map.place(world, {{}, {0, 0, -1}}, met(3 * next() - 1.5, 2 * next() - 1))).g;
+  EXPECT_NEAR(sum / 400, 1, 0.02) << "six units of power on an area of six";
+}
+
 TEST(Caustics, NearFindsTheNearestPhotons) {
   std::vector<Photon> photons;
   std::uint64_t bits = 1;

@@ -10,7 +10,6 @@
 #include "render/footprint.h"
 #include "render/gather.h"
 #include "render/interaction.h"
-#include "render/photons.h"
 #include "shading/dispersion.h"
 #include "shading/optics.h"
 
@@ -47,8 +46,9 @@ Real spreadOf(int k) {
 }  // namespace
 
 void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
-  caustics_ = causticMap(world, settings, nullptr, job);
   if (settings.lampSamples > 0) lamps_ = Lamps(world, settings.threads);
+  if (settings.caustics > 0)
+    caustics_ = gatheredCaustics(world, settings, lamps_.empty() ? nullptr : &lamps_, job);
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
@@ -81,7 +81,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   at.addLights(sum, sampler);
   const bool glossy = settings.glossy && isGlossy(at.bsdf());
   if (!lamps_.empty()) addLamps(sum, at, glossy, sampler);
-  if (!caustics_.empty()) at.addPhotons(sum, Term::Kind::caustic, caustics_, false);
+  if (settings.caustics > 0) addCaustics(sum, at);
 
   const auto worthwhile = [&](const Path& next) {
     if (next.depth > settings.depth)
@@ -167,6 +167,15 @@ Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfac
   const RayKind kind = path.kind == RayKind::camera ? RayKind::refraction : path.kind;
   const std::optional<Hit> hit = tracer.cast(ray, kind, inside);
   return along(tracer, ray, hit, path, inside, sampler);
+}
+
+/// Adds what mirrors and glass have gathered there, as the surface scatters it evenly.
+void Whitted::addCaustics(Gather& sum, const Interaction& at) const {
+  const IlluminationMap& texels = caustics_.texels;
+  const auto place = texels.place(at.tracer.world(), at.ray, at.hit);
+  if (!place) return at.addPhotons(sum, Term::Kind::caustic, caustics_.photons, false);
+  const Scatter parts = scatter(at.bsdf(), at.frame, at.normal, -at.ray.direction);
+  sum.add(Term::Kind::caustic, parts.diffuse * ((1 - at.coat) / kPi), texels.at(*place));
 }
 
 /// Adds the light of places on lamps, filtered by the glass in between. `glossy`: a ray into the lobe finds

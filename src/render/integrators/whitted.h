@@ -12,7 +12,7 @@
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
-#include "render/photon_map.h"
+#include "render/photons.h"
 
 namespace trace {
 
@@ -31,9 +31,10 @@ class Whitted : public Integrator {
   Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                const Sampler& sampler) const;
 
+  void addCaustics(Gather& sum, const Interaction& at) const;
   void addLamps(Gather& sum, const Interaction& at, bool glossy, const Sampler& sampler) const;
 
-  PhotonMap caustics_;
+  GatheredCaustics caustics_;
   Lamps lamps_;  ///< empty where they light nothing
 };
 
