@@ -1,6 +1,7 @@
 #include "shading/microfacet.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "shading/fresnel.h"
 
@@ -48,22 +49,25 @@ Real visibleSlope(Real cosine, Real u) {
   return (low + high) / 2;
 }
 
-/// Seen from a surface of width 1.
-Vec2 chosenSlopes(const Vec3& eye, Vec2 u) {
-  const Real along = visibleSlope(eye.z, u.x), across = inverseErf(2 * u.y - 1);
-  const Real r = std::sqrt(eye.x * eye.x + eye.y * eye.y);
-  const Real c = r > 0 ? eye.x / r : 1, s = r > 0 ? eye.y / r : 0;
-  return {c * along - s * across, s * along + c * across};
+/// From where a surface of width 1 is seen as one of these facets is from `eye`.
+Vec3 stretched(const Microfacets& facets, const Vec3& eye) {
+  return normalize(Vec3{facets.x * eye.x, facets.y * eye.y, eye.z});
+}
+
+/// The normal of slopes along the view and across it, of a surface of width 1 that is seen from v.
+Vec3 normalOf(const Microfacets& facets, const Vec3& v, Real along, Real across) {
+  const Real r = std::sqrt(v.x * v.x + v.y * v.y);
+  const Real c = r > 0 ? v.x / r : 1, s = r > 0 ? v.y / r : 0;
+  const Vec2 slope{c * along - s * across, s * along + c * across};
+  return normalize(Vec3{-slope.x * facets.x, -slope.y * facets.y, 1});
 }
 
 }  // namespace
 
 Vec3 Microfacets::chosen(const Vec3& eye, Vec2 u) const {
-  const Vec3 v = normalize(Vec3{x * eye.x, y * eye.y, eye.z});
-  if (kind == Distribution::beckmann) {
-    const Vec2 slope = chosenSlopes(v, u);
-    return normalize(Vec3{-slope.x * x, -slope.y * y, 1});
-  }
+  const Vec3 v = stretched(*this, eye);
+  if (kind == Distribution::beckmann)
+    return normalOf(*this, v, visibleSlope(v.z, u.x), inverseErf(2 * u.y - 1));
   // Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4), 2018.
   const Real across = v.x * v.x + v.y * v.y;
   const Vec3 t1 = across > 0 ? Vec3{-v.y, v.x, 0} / std::sqrt(across) : Vec3{1, 0, 0}, t2 = cross(v, t1);
@@ -73,115 +77,186 @@ Vec3 Microfacets::chosen(const Vec3& eye, Vec2 u) const {
   return normalize(Vec3{x * h.x, y * h.y, max(0, h.z)});
 }
 
-// --- tables of albedos
-// ----------------------------------------------------------------------------------------
+// --- tables of albedos ---
 
 namespace {
-
-constexpr int kSteps = 32;    // of the cosine and of the roughness
-constexpr int kSamples = 24;  // along each side of the square of numbers for a choice
-
-/// By the roots of cosine and width, where the albedo changes evenly.
-struct AlbedoTable {
-  MicrofacetAlbedo at[kSteps + 1][kSteps + 1];  ///< by width, cosine
-  MicrofacetAlbedo mean[kSteps + 1];
-
-  explicit AlbedoTable(Distribution kind) {
-    for (int w = 0; w <= kSteps; ++w) {
-      const Real roughness = 1.0 * w / kSteps;
-      const Microfacets facets = Microfacets::of(kind, roughness * kMostRoughness);
-      for (int c = 0; c <= kSteps; ++c) at[w][c] = albedo(facets, c);
-      mean[w] = {0, 0};
-      // Simpson's rule for 2 cos d cos with cos = t^2, d cos = 2 t dt.
-      for (int c = 0; c <= kSteps; ++c) {
-        const Real t = 1.0 * c / kSteps, weight = (c == 0 || c == kSteps ? 1
-                                                   : c % 2               ? 4
-                                                                         : 2) /
-                                                  (3.0 * kSteps);
-        mean[w].white += weight * 4 * t * t * t * at[w][c].white;
-        mean[w].schlick += weight * 4 * t * t * t * at[w][c].schlick;
-      }
-    }
-  }
-
-  static constexpr Real kMostRoughness = 1.8;  // of a width of 3.2, that of strong grain
-
- private:
-  static MicrofacetAlbedo albedo(const Microfacets& facets, int step) {
-    const Real root = max(1e-3, 1.0 * step / kSteps), cosine = root * root;
-    const Vec3 eye{std::sqrt(1 - cosine * cosine), 0, cosine};
-    MicrofacetAlbedo sum{0, 0};
-    for (int i = 0; i < kSamples; ++i)
-      for (int j = 0; j < kSamples; ++j) {
-        const Vec3 half = facets.chosen(eye, {(i + 0.5) / kSamples, (j + 0.5) / kSamples});
-        const Vec3 light = mirroredAt(half, eye);
-        if (!(light.z > 0)) continue;
-        const Real share = facets.seenAndLit(eye, light) / facets.seen(eye) / (kSamples * kSamples);
-        sum.white += share;
-        sum.schlick += share * schlickWeight(dot(eye, half));
-      }
-    return {min(1, sum.white), min(1, sum.schlick)};
-  }
-};
-
-const AlbedoTable& table(Distribution kind) {
-  if (kind == Distribution::ggx) {
-    static const AlbedoTable kGgx(Distribution::ggx);
-    return kGgx;
-  }
-  static const AlbedoTable kBeckmann(Distribution::beckmann);
-  return kBeckmann;
-}
-
-/// The two entries around a number from 0 to 1, and how far it is on the way between them.
-struct Between {
-  int low;
-  Real share;
-  explicit Between(Real x) {
-    const Real place = max(0, min(1, x)) * kSteps;
-    low = std::min(kSteps - 1, static_cast<int>(place));
-    share = place - low;
-  }
-};
 
 MicrofacetAlbedo lerp(Real t, const MicrofacetAlbedo& a, const MicrofacetAlbedo& b) {
   return {a.white + t * (b.white - a.white), a.schlick + t * (b.schlick - a.schlick)};
 }
 
+/// By mirrors at the middles of samples x samples cells of the numbers that choose them.
+MicrofacetAlbedo integrated(const Microfacets& facets, const Vec3& eye, int samples) {
+  const bool slopes = facets.kind == Distribution::beckmann;
+  const Vec3 v = stretched(facets, eye);
+  std::vector<Real> across;
+  for (int j = 0; slopes && j < samples; ++j) across.push_back(inverseErf(2 * ((j + 0.5) / samples) - 1));
+  MicrofacetAlbedo sum{0, 0};
+  for (int i = 0; i < samples; ++i) {
+    const Real along = slopes ? visibleSlope(v.z, (i + 0.5) / samples) : 0;  // which takes long
+    for (int j = 0; j < samples; ++j) {
+      const Vec3 half = slopes ? normalOf(facets, v, along, across[static_cast<std::size_t>(j)])
+                               : facets.chosen(eye, {(i + 0.5) / samples, (j + 0.5) / samples});
+      const Vec3 light = mirroredAt(half, eye);
+      if (!(light.z > 0)) continue;
+      const Real share = facets.seenAndLit(eye, light) / facets.seen(eye) / (samples * samples);
+      sum.white += share;
+      sum.schlick += share * schlickWeight(dot(eye, half));
+    }
+  }
+  return {min(1, sum.white), min(1, sum.schlick)};
+}
+
+/// The mean over the cosines t^2 of evenly spaced t from 0 to 1, weighed by the cosine: Simpson's rule for
+/// 2 cos d cos, with d cos = 2 t dt.
+template <class At>
+MicrofacetAlbedo meanOf(int steps, const At& at) {
+  MicrofacetAlbedo mean{0, 0};
+  for (int c = 0; c <= steps; ++c) {
+    const Real t = 1.0 * c / steps;
+    const Real weight = (c == 0 || c == steps ? 1 : c % 2 ? 4 : 2) / (3.0 * steps);
+    const MicrofacetAlbedo there = at(c);
+    mean.white += weight * 4 * t * t * t * there.white;
+    mean.schlick += weight * 4 * t * t * t * there.schlick;
+  }
+  return mean;
+}
+
+/// From that cosine, at an angle around the normal whose cosine is `along`.
+Vec3 seenFrom(int step, int steps, Real along = 1) {
+  const Real root = max(1e-3, 1.0 * step / steps), cosine = root * root,
+             sine = std::sqrt(1 - cosine * cosine);
+  return {sine * along, sine * std::sqrt(1 - along * along), cosine};
+}
+
+constexpr Real kMostRoughness = 1.8;  // of a width of 3.2, that of strong grain
+
+/// The two entries around a number from 0 to 1, and how far it is on the way between them.
+struct Between {
+  int low;
+  Real share;
+  Between(Real x, int steps) {
+    const Real place = max(0, min(1, x)) * steps;
+    low = std::min(steps - 1, static_cast<int>(place));
+    share = place - low;
+  }
+};
+
+/// Without grain: by the roots of cosine and width, where the albedo changes evenly.
+struct EvenTable {
+  static constexpr int kSteps = 32, kSamples = 24;
+  MicrofacetAlbedo at[kSteps + 1][kSteps + 1];  ///< by width, cosine
+  MicrofacetAlbedo mean[kSteps + 1];
+
+  explicit EvenTable(Distribution kind) {
+    for (int w = 0; w <= kSteps; ++w) {
+      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kSteps * kMostRoughness);
+      for (int c = 0; c <= kSteps; ++c) at[w][c] = integrated(facets, seenFrom(c, kSteps), kSamples);
+      mean[w] = meanOf(kSteps, [&](int c) { return at[w][c]; });
+    }
+  }
+};
+
+/// With grain: by the root of the mean width, the logarithm of how much longer it is along than across, and
+/// whence it is seen.
+struct GrainTable {
+  static constexpr int kWidths = 20, kGrains = 6, kCosines = 16, kAround = 6, kSamples = 16;
+  static constexpr Real kMostGrain = 10;  // Microfacets::of() gives no more
+  MicrofacetAlbedo at[kWidths + 1][kGrains + 1][kAround + 1][kCosines + 1];
+  MicrofacetAlbedo mean[kWidths + 1][kGrains + 1];
+
+  explicit GrainTable(Distribution kind) {
+    for (int w = 0; w <= kWidths; ++w)
+      for (int g = 0; g <= kGrains; ++g) {
+        const Real root = max(0.01, 1.0 * w / kWidths * kMostRoughness);
+        const Real aspect = std::pow(kMostGrain, 0.5 * g / kGrains);
+        const Microfacets facets{kind, root * root * aspect, root * root / aspect};
+        mean[w][g] = {0, 0};
+        for (int a = 0; a <= kAround; ++a) {
+          auto& row = at[w][g][a];
+          const Real along = 1.0 * a / kAround;
+          for (int c = 0; c <= kCosines; ++c)
+            row[c] = integrated(facets, seenFrom(c, kCosines, along), kSamples);
+          const MicrofacetAlbedo there = meanOf(kCosines, [&](int c) { return row[c]; });
+          mean[w][g].white += there.white * shareAround(a);
+          mean[w][g].schlick += there.schlick * shareAround(a);
+        }
+      }
+  }
+
+  /// How much of a mean over all angles the entry counts, if values between entries are on the line between
+  /// them.
+  static Real shareAround(int entry) {
+    const auto angle = [](int i) { return std::acos(1.0 * i / kAround) * 2 / kPi; };
+    const auto sine = [](int i) { return std::sqrt(1 - Real(i * i) / (kAround * kAround)) * 2 / kPi; };
+    // The integrals of 1 and of the cosine over the angles between two entries.
+    const auto all = [&](int i) { return angle(i) - angle(i + 1); };
+    const auto cosines = [&](int i) { return sine(i) - sine(i + 1); };
+    Real share = 0;
+    if (entry > 0) share += cosines(entry - 1) * kAround - (entry - 1) * all(entry - 1);
+    if (entry < kAround) share += (entry + 1) * all(entry) - cosines(entry) * kAround;
+    return share;
+  }
+
+  static Between width(const Microfacets& f) {
+    return {std::sqrt(std::sqrt(f.x * f.y)) / kMostRoughness, kWidths};
+  }
+  static Between grain(const Microfacets& f) {
+    return {std::abs(std::log(f.x / f.y)) / std::log(kMostGrain), kGrains};
+  }
+};
+
+template <class Table>
+const Table& table(Distribution kind) {
+  if (kind == Distribution::ggx) {
+    static const Table kGgx(Distribution::ggx);
+    return kGgx;
+  }
+  static const Table kBeckmann(Distribution::beckmann);
+  return kBeckmann;
+}
+
 }  // namespace
 
-MicrofacetAlbedo microfacetAlbedo(Distribution kind, Real cosine, Real width) {
-  const AlbedoTable& t = table(kind);
-  const Between w(std::sqrt(width) / AlbedoTable::kMostRoughness), c(std::sqrt(max(0, cosine)));
-  const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
+MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye) {
+  const Real root = std::sqrt(max(0, eye.z));
+  if (facets.x == facets.y) {
+    const auto& t = table<EvenTable>(facets.kind);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kSteps), c(root, t.kSteps);
+    const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
+    return lerp(w.share, row(w.low), row(w.low + 1));
+  }
+  const auto& t = table<GrainTable>(facets.kind);
+  const Real across2 = eye.x * eye.x + eye.y * eye.y;
+  const Real along = across2 > 0 ? std::abs(facets.x > facets.y ? eye.x : eye.y) / std::sqrt(across2) : 1;
+  const Between w = t.width(facets), g = t.grain(facets), a(along, t.kAround), c(root, t.kCosines);
+  const auto by = [](const Between& b, const auto& entry) {
+    return lerp(b.share, entry(b.low), entry(b.low + 1));
+  };
+  return by(w, [&](int i) {
+    return by(g, [&](int j) {
+      return by(a, [&](int k) { return by(c, [&](int l) { return t.at[i][j][k][l]; }); });
+    });
+  });
+}
+
+MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets) {
+  if (facets.x == facets.y) {
+    const auto& t = table<EvenTable>(facets.kind);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kSteps);
+    return lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
+  }
+  const auto& t = table<GrainTable>(facets.kind);
+  const Between w = t.width(facets), g = t.grain(facets);
+  const auto row = [&](int i) { return lerp(g.share, t.mean[i][g.low], t.mean[i][g.low + 1]); };
   return lerp(w.share, row(w.low), row(w.low + 1));
 }
 
-MicrofacetAlbedo meanMicrofacetAlbedo(Distribution kind, Real width) {
-  const AlbedoTable& t = table(kind);
-  const Between w(std::sqrt(width) / AlbedoTable::kMostRoughness);
-  return lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
-}
-
 MicrofacetLobe::MicrofacetLobe(const Microfacets& which, const Color& alongNormal) : facets(which) {
-  meanWhite = mean().white;
+  meanWhite = meanMicrofacetAlbedo(facets).white;
   const Color mean = alongNormal + (Color(1) + alongNormal * -1) / 21;  // of Schlick's formula
   const auto channel = [&](Real f) { return f * f * meanWhite / (1 - f * (1 - meanWhite)); };
   multiple = {channel(mean.r), channel(mean.g), channel(mean.b)};
-}
-
-MicrofacetAlbedo MicrofacetLobe::mean() const {
-  if (facets.x == facets.y) return meanMicrofacetAlbedo(facets.kind, facets.x);
-  constexpr int kAround = 8;
-  MicrofacetAlbedo sum{0, 0};
-  for (int i = 0; i < kAround; ++i) {
-    const Real phi = (i + 0.5) * kPi / 2 / kAround;
-    const MicrofacetAlbedo there =
-        meanMicrofacetAlbedo(facets.kind, widthTo({std::cos(phi), std::sin(phi), 0}));
-    sum.white += there.white / kAround;
-    sum.schlick += there.schlick / kAround;
-  }
-  return sum;
 }
 
 }  // namespace trace

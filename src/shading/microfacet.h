@@ -81,17 +81,17 @@ inline Vec3 refractedAt(const Vec3& half, const Vec3& eye, Real eta) {
   return normalize(half * (cosine / eta - behind) - eye / eta);
 }
 
-/// The share of light that microfacets give back, tabulated; isotropic, of reflectance 1, and of the part
-/// that Schlick's weight (1 - cos)^5 makes of it.
+/// The share of light that microfacets give back, tabulated; of reflectance 1, and of the part that Schlick's
+/// weight (1 - cos)^5 makes of it.
 struct MicrofacetAlbedo {
   Real white, schlick;
   /// Of facets that mirror `alongNormal` of light along their normal.
   Color of(const Color& alongNormal) const { return alongNormal * (white - schlick) + Color(schlick); }
 };
-/// Seen from that cosine; width is the root of x * y.
-MicrofacetAlbedo microfacetAlbedo(Distribution kind, Real cosine, Real width);
+/// Seen from a unit direction above the surface.
+MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye);
 /// The mean over all directions, weighed by the cosine.
-MicrofacetAlbedo meanMicrofacetAlbedo(Distribution kind, Real width);
+MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets);
 
 /// Microfacets that mirror by Schlick's formula or another, and what is lost in it for light that is mirrored
 /// several times (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017 course).
@@ -104,15 +104,7 @@ struct MicrofacetLobe {
   /// `alongNormal`: what they mirror of light along their normal.
   MicrofacetLobe(const Microfacets& facets, const Color& alongNormal);
 
-  /// The mean albedo over all directions.
-  MicrofacetAlbedo mean() const;
-  /// The width as it is met from the direction.
-  Real widthTo(const Vec3& v) const {
-    const Real s = v.x * v.x + v.y * v.y;
-    if (!(s > 0)) return std::sqrt(facets.x * facets.y);
-    return std::sqrt((facets.x * facets.x * v.x * v.x + facets.y * facets.y * v.y * v.y) / s);
-  }
-  Real white(const Vec3& v) const { return microfacetAlbedo(facets.kind, v.z, widthTo(v)).white; }
+  Real white(const Vec3& v) const { return microfacetAlbedo(facets, v).white; }
 
   /// f cos(light), where fresnel(cosine) is the reflectance of one facet.
   template <class Fresnel>
@@ -125,11 +117,11 @@ struct MicrofacetLobe {
   }
   /// What is given back of light to `eye`, by facets that mirror by Schlick's formula.
   Color albedo(const Vec3& eye, const Color& alongNormal) const {
-    const MicrofacetAlbedo once = microfacetAlbedo(facets.kind, eye.z, widthTo(eye));
+    const MicrofacetAlbedo once = microfacetAlbedo(facets, eye);
     return once.of(alongNormal) + multiple * (1 - once.white);
   }
   Color meanAlbedo(const Color& alongNormal) const {
-    const MicrofacetAlbedo once = mean();
+    const MicrofacetAlbedo once = meanMicrofacetAlbedo(facets);
     return once.of(alongNormal) + multiple * (1 - once.white);
   }
 

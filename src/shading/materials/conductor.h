@@ -2,8 +2,7 @@
 // by Fresnel's formula for conductors (exact, from measured indices) or Schlick's, and light that is mirrored
 // several times (shading/microfacet.h); with a thin film on it anodised titanium and tempered steel
 // (shading/thin_film.h). Variant: height-correlated masking; grain after Burley 2012.
-// Reciprocal. Energy: gives back what the metal's colour says, all of it if that is white; with grain within
-// a few percent.
+// Reciprocal. Energy: gives back what the metal's colour says, all of it if that is white.
 //
 // Under Whitted's equation the mirrored ray stands for the mirrors that lean less than 5 degrees.
 #pragma once
