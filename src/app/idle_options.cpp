@@ -68,6 +68,11 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 
+  if (whitted && s.lampSamples == 0 && world.lights().empty() && !Lamps(world, s.threads).empty() &&
+      anyObject(world, [](const WhittedTerms& terms) { return isBlack(terms.emissive); }))
+    warn("nothing lights the scene but objects that shine, and for --integrator whitted they light nothing",
+         "--lamp-samples 4 lets them; --integrator path follows their light further");
+
   const bool paths = s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
                      s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&

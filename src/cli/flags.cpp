@@ -408,6 +408,7 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},
                                                                        {"caustics", "200000"},
+                                                                       {"caustic-texels", "1000"},
                                                                        {"fog", "0.05"},
                                                                        {"shutter", "0.04"}};
   for (const auto& [name, value] : kUseful)

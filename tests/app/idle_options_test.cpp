@@ -18,7 +18,8 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
   std::string all;
   for (const Message& message : session.messages().all())
     if (message.what.find("changes nothing") != std::string::npos ||
-        message.what.find("finds no light") != std::string::npos)
+        message.what.find("finds no light") != std::string::npos ||
+        message.what.find("light nothing") != std::string::npos)
       all += message.what + "\n";
   return all;
 }
@@ -48,12 +49,17 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(kLit, {{"caustic-texels", "256", {}}}, "--caustic-texels changes nothing");
   about("torus { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
         "--lamp-samples changes nothing");
+  const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
+  about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
   about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit, {}), "");
+  const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
+  EXPECT_EQ(warnings(lamp, {}), "");
+  EXPECT_EQ(warnings(lamp + "box { material = { diffuse = (1, 1, 1); } }", {{"lamp-samples", "4", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"caustics", "1000", {}}, {"ambient-occlusion", "4", {}}, {"fog", "0.1", {}}}),
             "");
   const std::string mesh =
