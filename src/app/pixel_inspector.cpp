@@ -14,6 +14,7 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
     pixel.level.assign(rays.size(), 0);
     pixel.hasChildren.assign(rays.size(), 0);
     for (std::size_t i = 1; i < rays.size(); ++i) {
+      if (rays[i].parent < 0) continue;
       const auto parent = static_cast<std::size_t>(rays[i].parent);
       pixel.level[i] = pixel.level[parent] + 1;
       pixel.hasChildren[parent] = 1;

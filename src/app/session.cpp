@@ -34,7 +34,7 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings) {
-  const std::uint64_t splats = rowOf(settings).byChains ? SplatPlane::bytesPerPixel() : 0;
+  const std::uint64_t splats = rowOf(settings).throws ? SplatPlane::bytesPerPixel() : 0;
   return Film::bytesPerPixel(passesOf(settings).size()) + splats + 2 * sizeof(Color) + 16;
 }
 

@@ -160,6 +160,9 @@ class Writer {
     if (t.chance)
       json["chance"] = {
           {"density", t.chance->density}, {"other", t.chance->other}, {"share", t.chance->share}};
+    if (t.connection)
+      json["connection"] = {
+          {"s", t.connection->light}, {"t", t.connection->camera}, {"share", t.connection->share}};
     if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
     if (t.light) {
       const LightTerm& l = *t.light;

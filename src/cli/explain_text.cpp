@@ -44,11 +44,12 @@ class TreeText {
   TreeText(const PixelFacts& facts, bool color)
       : scene_(facts.scene), tree_(facts.explanation.tree), color_(color), children_(tree_.nodes.size()) {
     for (int i = 1; i < static_cast<int>(tree_.nodes.size()); ++i)
-      children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
+      if (at(i).parent >= 0) children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
   }
 
   std::string all() {
-    ray(0, "", "");
+    for (int i = 0; i < static_cast<int>(tree_.nodes.size()); ++i)
+      if (at(i).parent < 0) ray(i, i > 0 ? "\n" : "", "");
     return std::move(text_);
   }
 
@@ -75,9 +76,11 @@ class TreeText {
     if (node.hit) hit(node);
     if (node.kind == RayKind::shadow)
       shadow(node);
+    else if (node.kind == RayKind::light)
+      line("a place that paths from the camera are joined with");
     else
       terms(node);
-    line(printable("-> " + sentence(node, scene_)));
+    if (const std::string why = sentence(node, scene_); !why.empty()) line(printable("-> " + why));
     line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
 
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -149,6 +152,10 @@ class TreeText {
         if (chance.other > 0)
           words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
       }
+      if (term.connection)
+        words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) + " from the light, t = " +
+                 std::to_string(term.connection->camera) + " from the camera: counts " +
+                 text(term.connection->share);
       if (term.photons)
         words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
                  text(term.photons->radius);
@@ -243,6 +250,9 @@ std::string explainText(const PixelFacts& facts, bool color) {
   if (e.settled)
     text += "no more: the error of their mean is at most " + toText(facts.settings.noiseTarget) + "\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
+  if (facts.settings.integrator == IntegratorKind::bdpt)
+    text += "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
+            "see --camera-vertices 1\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
                          : "The rays above do NOT sum to the picture's pixel: please report this.\n";

@@ -40,6 +40,13 @@ class Gather {
                              LightTerm{tracer_.world().lightSource(light), arriving, scatter, share}});
   }
 
+  /// The same of a path that was put together.
+  void addWay(Term::Kind kind, const Color& factor, const Color& value, const ConnectionTerm& connection) {
+    sum_ += factor * value;
+    if (Tracer::recorded(node_))
+      tracer_.record(node_, {kind, factor, value, Tracer::kNoNode, {}, {}, {}, connection});
+  }
+
   /// The same of an estimate by photons.
   void add(Term::Kind kind, const Color& value, const PhotonTerm& photons) {
     sum_ += value;

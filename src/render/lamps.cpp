@@ -145,11 +145,27 @@ Lamps::SkyStart Lamps::startOfSky(const Vec2& u) const {
 }
 
 Real Lamps::density(const Vec3& from, const Hit& hit) const {
-  if (parts_.empty() || first_[hit.object] == kNone) return 0;
-  const std::size_t first = first_[hit.object];
-  const bool mesh = parts_[first].kind == Part::Kind::triangle;
-  const Part& part = parts_[mesh ? first + hit.part : first];
+  if (!isLamp(hit.object)) return 0;
+  const Part& part = partOf(hit.object, hit.part);
   return (1 - skyShare()) * part.share * part.density(from, hit.surface.point);
+}
+
+Real Lamps::Part::perArea() const {
+  return kind == Kind::sphere ? share / (kSphere * size * size) : size > 0 ? share / (2 * size) : 0;
+}
+
+Real Lamps::startDensity(std::uint32_t object, std::uint64_t part) const {
+  return isLamp(object) ? partOf(object, part).perArea() : 0;
+}
+
+Real Lamps::startDensity(const Hit& hit) const {
+  if (!isLamp(hit.object)) return 0;
+  const Part& part = partOf(hit.object, hit.part);
+  return part.kind == Part::Kind::sphere && hit.leaving ? 0 : part.perArea();  // nothing starts inward
+}
+
+Real Lamps::skyStartDensity(const Vec3& toLight) const {
+  return sky_.empty() ? 1 / kSphere : sky_.density(toLight);
 }
 
 bool Lamps::met(const Place& place, const Hit& hit) const {

@@ -49,6 +49,10 @@ class Lamps {
   };
   /// By three numbers from 0 up to 1. Nothing where no object shines.
   std::optional<Start> start(Real which, const Vec2& u) const;
+  /// With which start() gives a place of that part of a lamp, per area and side; 0 for what is no lamp.
+  Real startDensity(std::uint32_t object, std::uint64_t part) const;
+  /// The same of the place that was hit.
+  Real startDensity(const Hit& hit) const;
   /// What all of these objects send out: the luminance of their flux.
   Real power() const { return power_; }
   /// Where a photon of what is around comes from.
@@ -57,6 +61,8 @@ class Lamps {
     Real density;  ///< per solid angle
   };
   SkyStart startOfSky(const Vec2& u) const;
+  /// With which it gives that unit direction.
+  Real skyStartDensity(const Vec3& toLight) const;
 
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
   /// `chance` is Tracer::chance().
@@ -77,12 +83,19 @@ class Lamps {
     Real share;         ///< of all choices
     /// Of the direction to `at`, which lies on it, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
+    /// Per area and side, of all choices.
+    Real perArea() const;
   };
   void add(const Part& part, const Color& emissive);
   /// That of the number from 0 up to 1.
   std::size_t partOf(Real which) const;
   /// Where two numbers from 0 up to 1 lie on a flat part.
   static Vec3 placeOn(const Part& part, const Vec2& u);
+  const Part& partOf(std::uint32_t object, std::uint64_t part) const {
+    const bool mesh = parts_[first_[object]].kind == Part::Kind::triangle;
+    return parts_[first_[object] + (mesh ? part : 0)];
+  }
+  bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
   /// How often what is around is chosen.
   Real skyShare() const { return sky_.empty() ? 0 : parts_.empty() ? 1 : 0.5; }
   /// Whether the ray to the place met it.

@@ -117,9 +117,9 @@ Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Film::LayerKind> layers;
   for (const PassRow* row : passesOf(settings))
     layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
-  const bool chains = rowOf(settings).byChains;
-  Film film(width, height, samplesOf(settings), layers, chains ? 0 : settings.noiseTarget);
-  if (chains) film.takeSplats();
+  const IntegratorRow& row = rowOf(settings);
+  Film film(width, height, samplesOf(settings), layers, row.byChains ? 0 : settings.noiseTarget);
+  if (row.throws) film.takeSplats();
   return film;
 }
 

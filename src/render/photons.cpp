@@ -134,8 +134,9 @@ class Emitter {
   /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
   /// sent to the targets. Else every surface that scatters keeps them.
   Emitter(const World& world, const Settings& settings, const Lamps* lamps, std::vector<Target> targets,
-          bool onlyCaustics)
-      : world_(world),
+          bool onlyCaustics, int pass)
+      : seedOfPass_(mixBits(static_cast<std::uint64_t>(pass)) - mixBits(0)),
+        world_(world),
         settings_(settings),
         lamps_(lamps),
         targets_(std::move(targets)),
@@ -147,7 +148,7 @@ class Emitter {
   /// Photon n of the source.
   void send(const Source& source, std::uint32_t n, Landed& landed) {
     const auto number = static_cast<std::uint64_t>(source.kind) << 32 | source.light;
-    seed_ = mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(number + 1));
+    seed_ = mixBits((static_cast<std::uint64_t>(settings_.seed) + seedOfPass_) ^ mixBits(number + 1));
     n_ = n;
     chances_.bits = mixBits(mixBits(seed_ ^ 4) ^ n);
     holes_.bits = mixBits(mixBits(seed_ ^ 5) ^ n);
@@ -314,6 +315,7 @@ class Emitter {
     return std::min(std::abs(factor), 4.0);
   }
 
+  std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;
   const Settings& settings_;
   const Lamps* lamps_;
@@ -369,7 +371,7 @@ std::vector<Source> sourcesOf(const World& world, const Lamps* lamps, const std:
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
 Landed landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                     const std::vector<Target>& targets, bool onlyCaustics, int photons, Job& job) {
+                     const std::vector<Target>& targets, bool onlyCaustics, int photons, Job& job, int pass) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     const Source& source;
@@ -385,7 +387,7 @@ Landed landedPhotons(const World& world, const Settings& settings, const Lamps* 
   std::atomic<std::int64_t> sent{0};
   parallelChunks(std::ssize(chunks), settings.threads, job, [&](std::int64_t i, int) {
     Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-    Emitter emitter(world, settings, lamps, targets, onlyCaustics);
+    Emitter emitter(world, settings, lamps, targets, onlyCaustics, pass);
     for (std::int64_t n = chunk.first; n < chunk.end; ++n)
       emitter.send(chunk.source, static_cast<std::uint32_t>(n), chunk.landed);
     work.reached(++sent);
@@ -403,33 +405,53 @@ Landed landedPhotons(const World& world, const Settings& settings, const Lamps* 
 /// Of photons by which whole pictures are made (Jensen 2001, section 7.3: the sphere compressed to a disk).
 constexpr Real kFlatness = 10;
 
-}  // namespace
+/// Of the estimates of a pass; the fewest that an unbiased estimate takes are 2.
+std::size_t nearestOfPass(int pass) {
+  constexpr std::size_t kFewest = 2;
+  const Real count = areaOfPass(pass) * static_cast<Real>(PhotonMap::kNearest);
+  return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
+}
 
-GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
-                                  Job& job) {
+GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
+                          int pass) {
   const std::vector<Target> targets = targetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};
   constexpr Real kReach = 0.02;  // of the scene's size
-  const Real reach =
+  const Real widest =
       settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
-  Landed landed = landedPhotons(world, settings, lamps, targets, true, photons, job);
+  const Real reach = widest * std::sqrt(areaOfPass(pass));
+  Landed landed = landedPhotons(world, settings, lamps, targets, true, photons, job, pass);
   IlluminationMap texels(settings.causticTexels);
   for (const auto& [place, power] : landed.onMaps) texels.add(place, power);
-  return {{std::move(landed.photons), reach, lamps ? kFlatness : 1}, std::move(texels)};
+  return {{std::move(landed.photons), reach, lamps ? kFlatness : 1, nearestOfPass(pass)}, std::move(texels)};
 }
 
-PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job) {
-  return gatheredCaustics(world, settings, lamps, job).photons;
+}  // namespace
+
+Real areaOfPass(int pass) {
+  constexpr Real kAlpha = 2.0 / 3;
+  Real area = 1;
+  for (int n = 1; n <= pass; ++n) area *= (n + kAlpha) / (n + 1);
+  return area;
 }
 
-PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job) {
+GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
+                                  Job& job) {
+  return gathered(world, settings, lamps, job, 0);
+}
+
+PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job, int pass) {
+  return gathered(world, settings, lamps, job, pass).photons;
+}
+
+PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job, int pass) {
   const Box3& box = world.bounds();
   if (settings.photons == 0 || box.empty()) return {};
   const std::vector<Target> everything{{box.center(), length(box.size()) / 2}};
   constexpr Real kReach = 0.1;  // of the scene's size
-  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job).photons,
-          kReach * length(box.size()), kFlatness};
+  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job, pass).photons,
+          kReach * length(box.size()) * std::sqrt(areaOfPass(pass)), kFlatness, nearestOfPass(pass)};
 }
 
 }  // namespace trace

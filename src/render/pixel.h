@@ -29,6 +29,9 @@ class PixelTracer {
               RayTree* tree = nullptr)
       : PixelTracer(std::array{Moment{&world, &integrator}}, settings, size, tree) {}
 
+  /// From now on what samples throw at other places of the picture is left there; null: nowhere.
+  void collect(std::vector<Splat>* splats) { splats_ = splats; }
+
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
 
@@ -99,10 +102,17 @@ class PixelTracer {
     CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
                      differentials.get()};
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
+    if (splats_) camera.thrown = &thrown_;
     return use(camera);
   }
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
-    return moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    thrown_.clear();
+    const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    for (const Thrown& t : thrown_)
+      rules_.spread(t.place, [&](int x, int y, Real share) {
+        splats_->push_back({x, y, t.color * share});
+      });
+    return radiance;
   }
 
   /// The moment that a sample sees.
@@ -126,6 +136,8 @@ class PixelTracer {
   std::vector<Moment> moments_;
   std::vector<Tracer> tracers_;  ///< one for each
   RayTree* tree_;
+  std::vector<Splat>* splats_ = nullptr;
+  std::vector<Thrown> thrown_;  ///< by the sample
   std::size_t now_ = 0;
   SampleRules rules_;
 };

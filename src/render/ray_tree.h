@@ -120,6 +120,14 @@ struct PhotonTerm {
   Real radius = 0;
 };
 
+/// A path that was put together of `light` places from the light's end and `camera` places from the camera's,
+/// the camera itself among them. Each of its light + camera + 1 ways to be put together counts by how likely
+/// it was.
+struct ConnectionTerm {
+  int light = 0, camera = 0;
+  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 10.2)
+};
+
 /// factor * value, a summand of a ray's radiance.
 struct Term {
   enum class Kind {
@@ -132,14 +140,15 @@ struct Term {
     refraction,
     bounce,
     lamp,
+    joined,
     background,
     fog,
     hole,
     outline
   };
-  static constexpr std::array<std::string_view, 13> kNames{
-      "emissive", "ambient", "light",      "caustic", "photons", "reflection", "refraction",
-      "bounce",   "lamp",    "background", "fog",     "hole",    "outline"};
+  static constexpr std::array<std::string_view, 14> kNames{
+      "emissive", "ambient", "light",  "caustic",    "photons", "reflection", "refraction",
+      "bounce",   "lamp",    "joined", "background", "fog",     "hole",       "outline"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
@@ -151,6 +160,7 @@ struct Term {
   std::optional<LightTerm> light{};
   std::optional<ChanceTerm> chance{};
   std::optional<PhotonTerm> photons{};
+  std::optional<ConnectionTerm> connection{};
 };
 
 /// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of
@@ -201,7 +211,8 @@ struct RayNode {
 /// machine's memory.
 inline constexpr std::size_t kMostRecordedRays = 200000;
 
-/// nodes[0] is the camera ray; parents come before their children, in the order of tracing.
+/// nodes[0] is the camera ray; parents come before their children, in the order of tracing. Rays of a path
+/// from a light are roots, too, the first of them; they bring nothing back.
 struct RayTree {
   int x = 0, y = 0, sample = 0;
   int moment = -1;  ///< of those while the shutter is open; -1: there is but one

@@ -37,6 +37,7 @@ class TileRenderer {
         chains_(chains) {
     if (film.layers() != passes_.size()) passes_.clear();
     if (chains_) chainTracer_.emplace(chains_->tracer());
+    throws_ = film.takesSplats() && !chains_;
   }
 
   TileSamples take(std::int64_t tile, const Wave& wave) {
@@ -61,6 +62,7 @@ class TileRenderer {
     const Tile& area = samples.area;
     const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
     samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
+    tracer_.collect(throws_ ? &samples.splats : nullptr);
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) {
         if (film_.settled(x, y)) continue;
@@ -73,9 +75,13 @@ class TileRenderer {
           if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
           if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
           samples.colors.push_back(color);
+          samples.paths += throws_;
           if (!isFinite(color)) noteBad({x, y, k});
         }
       }
+    std::erase_if(samples.splats, [&](const Splat& s) {
+      return s.x < area_.x0 || s.x >= area_.x1 || s.y < area_.y0 || s.y >= area_.y1;
+    });
   }
 
   /// One chain of as many samples; of the tile's own pixels only the passes are seen.
@@ -115,6 +121,7 @@ class TileRenderer {
   const Film& film_;
   const Metropolis* chains_;
   std::optional<PixelTracer> chainTracer_;
+  bool throws_ = false;  ///< samples bring light to other pixels, too
   std::vector<BadSample> bad_;  ///< the first
   std::uint64_t badCount_ = 0;
 };
@@ -182,7 +189,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   RenderResult result;
   bool outOfMemory = false;
   try {
-    if (film.takesSplats())
+    if (film.takesSplats() && rowOf(settings).byChains)
       chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
     job.before = film.samplesDone();
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);

@@ -5,6 +5,8 @@
 // rendered.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "image/pixel_filter.h"
@@ -56,6 +58,22 @@ class SampleRules {
   FilmSample film(int x, int y, int k, const Vec2& u) const;
   /// What such a sample counts, where it is not a part of a mean: so much more.
   Real filterWeight() const { return filter_.weight(); }
+  /// Calls use(x, y, share) for each pixel that sees that place of the picture: light that falls there and is
+  /// spread evenly over the picture counts so much for the pixel.
+  template <class Use>
+  void spread(const Vec2& place, const Use& use) const {
+    const Real x = place.x * size_.width, y = place.y * size_.height, reach = filter_.radius();
+    const auto first = [&](Real at) { return static_cast<int>(std::ceil(std::max(at - reach, -1.0) - 0.5)); };
+    const auto last = [&](Real at, int pixels) {
+      return static_cast<int>(std::floor(std::min(at + reach, pixels + 1.0) - 0.5));
+    };
+    const Real all = Real{1} * size_.width * size_.height;
+    for (int row = std::max(0, first(y)); row <= std::min(size_.height - 1, last(y, size_.height)); ++row)
+      for (int column = std::max(0, first(x)); column <= std::min(size_.width - 1, last(x, size_.width));
+           ++column)
+        use(column, size_.height - 1 - row,
+            all * filter_.share(x - column - 0.5) * filter_.share(y - row - 0.5));
+  }
   /// The middle of the pixel, likewise.
   Vec2 middle(int x, int y) const {
     return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};

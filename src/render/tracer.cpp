@@ -7,7 +7,7 @@
 namespace trace {
 
 Faces Tracer::facesSeenBy(RayKind kind) const {
-  const bool seen = kind != RayKind::refraction && kind != RayKind::shadow;
+  const bool seen = kind != RayKind::refraction && kind != RayKind::light && kind != RayKind::shadow;
   if (settings_.backFaces == BackFaces::cullAll) return Faces::front;
   return settings_.backFaces == BackFaces::cullSeen && seen ? Faces::shadedFront : Faces::both;
 }

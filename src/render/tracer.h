@@ -45,6 +45,27 @@ class Tracer {
 
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);
+  /// While it lives, rays are roots of the tree, one after the other; then things are as before.
+  class Aside {
+   public:
+    explicit Aside(Tracer& tracer)
+        : tracer_(tracer),
+          current_(std::exchange(tracer.current_, kNoNode)),
+          last_(std::exchange(tracer.last_, kNoNode)) {}
+    ~Aside() {
+      tracer_.current_ = current_;
+      tracer_.last_ = last_;
+    }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+    /// The next ray is a child of the one cast last.
+    void goOn() { tracer_.enter(); }
+
+   private:
+    Tracer& tracer_;
+    int current_, last_;
+  };
+
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
   /// What fills the body that was hit, where its surface looks like `terms`.
@@ -105,8 +126,9 @@ class Tracer {
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
-  /// Photons bring the light that the glass lets through, from elsewhere.
+  /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere.
   bool gathers(const WhittedTerms& terms) const {
+    if (isBidirectional(settings_)) return true;
     const bool bring = settings_.integrator == IntegratorKind::photon ||
                        (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
     return bring && terms.passage != Passage::straight;

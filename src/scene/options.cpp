@@ -25,8 +25,10 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 8> kNames<IntegratorKind>{"whitted", "path",      "direct",  "mlt",
-                                                                 "photon",  "occlusion", "normals", "cost"};
+constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
+    "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<Chains>{"path", "bdpt"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -422,8 +424,8 @@ const std::array kTable{
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
                  "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; mlt is path, led by chains that look around where light was found; photon "
-                 "is path with one bounce, and photons tell what light it meets; occlusion "
+                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by chains that "
+                 "look around where light was found; photon is path with one bounce, and photons tell what light it meets; occlusion "
                  "shows how open places are, normals where surfaces face, cost how much work whitted has",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
@@ -452,6 +454,41 @@ const std::array kTable{
                                   .most = 1e9,
                                   .integrators = "path, direct, mlt, photon",
                                   .extra = true}),
+    row<&Settings::lightVertices>(
+        {.name = "light-vertices",
+         .group = "Tracing",
+         .help = "shows only paths of which so many places were chosen from the light's end; -1 shows all",
+         .source = "Veach 1997, chapter 10; docs/bidirectional.md",
+         .least = -1,
+         .most = 1000,
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::cameraVertices>(
+        {.name = "camera-vertices",
+         .group = "Tracing",
+         .help = "shows only paths of which so many places, the camera's among them, were chosen from its "
+                 "end; -1 shows all",
+         .source = "Veach 1997, chapter 10; docs/bidirectional.md",
+         .least = -1,
+         .most = 1000,
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::strategyWeights>(
+        {.name = "strategy-weights",
+         .group = "Tracing",
+         .help = "paths count by how well they were chosen; off shows what each way finds by itself, to look "
+                 "at with --light-vertices",
+         .source = "Veach 1997, chapter 9; docs/bidirectional.md",
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::chains>(
+        {.name = "chains",
+         .group = "Tracing",
+         .help = "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
+                 "its places",
+         .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; docs/metropolis.md",
+         .integrators = "mlt",
+         .extra = true}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",
@@ -518,6 +555,17 @@ const std::array kTable{
          .most = 50e6,
          .unit = "photons",
          .integrators = "photon"}),
+    row<&Settings::photonPasses>(
+        {.name = "photon-passes",
+         .group = "Tracing",
+         .help = "maps of as many photons each, among which the samples of a pixel are spread: in each later "
+                 "map fewer photons around a place count, so that their mean comes nearer to the truth",
+         .source = "Knaus and Zwicker 2011; docs/photons.md",
+         .least = 1,
+         .most = 1000,
+         .unit = "maps",
+         .integrators = "photon",
+         .extra = true}),
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
@@ -780,7 +828,7 @@ const std::array kTable{
                          .least = 0,
                          .most = 1e6,
                          .unit = "per unit",
-                         .integrators = "whitted, path, direct, mlt, photon",
+                         .integrators = "whitted, path, direct, bdpt, mlt, photon",
                          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -789,7 +837,7 @@ const std::array kTable{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path, direct, mlt, photon"}),
+         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogHeight>({.name = "fog-height",
                                .group = "Fog",
                                .help =
@@ -799,7 +847,7 @@ const std::array kTable{
                                .least = 0,
                                .most = 1e9,
                                .unit = "units",
-                               .integrators = "whitted, path, direct, mlt, photon"}),
+                               .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help =
@@ -808,7 +856,7 @@ const std::array kTable{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path, direct, mlt, photon"}),
+                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "places on every ray that ask for the lights",
@@ -816,7 +864,7 @@ const std::array kTable{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted, path, direct, mlt, photon"}),
+                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",

@@ -16,7 +16,9 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class IntegratorKind { whitted, path, direct, mlt, photon, occlusion, normals, cost };
+enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
+/// Which integrator's samples the chains of mlt move among.
+enum class Chains { path, bdpt };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -97,6 +99,9 @@ struct Settings {
   int depth = 5;
   Real threshold = 0;
   Real fireflyLimit = 0;
+  int lightVertices = -1, cameraVertices = -1;
+  bool strategyWeights = true;
+  Chains chains = Chains::path;
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;
   Real moveSize = 0.01;
@@ -104,6 +109,7 @@ struct Settings {
   int ambientOcclusion = 0;
   Real occlusionReach = 0;
   int photons = 200000;
+  int photonPasses = 1;
   bool smoothTerminator = false;
   int caustics = 0;
   Real causticRadius = 0;
@@ -173,6 +179,12 @@ struct Settings {
 /// When the moment of that number is, in seconds: while the shutter is open they lie evenly.
 inline Real timeOfMoment(const Settings& s, int moment) {
   return s.time + s.shutter * (moment + 0.5) / s.moments;
+}
+
+/// Paths start at lights, too: light through glass is found by them, and no shadow ray passes it.
+inline bool isBidirectional(const Settings& s) {
+  return s.integrator == IntegratorKind::bdpt ||
+         (s.integrator == IntegratorKind::mlt && s.chains == Chains::bdpt);
 }
 
 inline Optics opticsOf(const Settings& s) {

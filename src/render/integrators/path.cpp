@@ -20,6 +20,7 @@ struct PathTracer::Path {
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
   bool gathers = false;                          ///< photons tell what is scattered where it arrives
+  const Maps* maps = nullptr;                    ///< of these
 };
 
 namespace {
@@ -51,15 +52,20 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
 void PathTracer::prepare(const World& world, const Settings& settings, Job& job) {
   lamps_ = Lamps(world, settings.threads);
   depth_ = light_ == Light::straight ? 0 : settings.depth;
+  maps_.resize(light_ == Light::photons ? static_cast<std::size_t>(settings.photonPasses) : 1);
   if (light_ != Light::photons) return;
-  caustics_ = causticMap(world, settings, &lamps_, job);
-  if (!job.cancel) all_ = globalMap(world, settings, lamps_, job);
+  for (int pass = 0; pass < settings.photonPasses && !job.cancel; ++pass) {
+    Maps& maps = maps_[static_cast<std::size_t>(pass)];
+    maps.caustics = causticMap(world, settings, &lamps_, job, pass);
+    if (!job.cancel) maps.all = globalMap(world, settings, lamps_, job, pass);
+  }
 }
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
   path.differentials = camera.differentials;
   path.ink = camera.ink;
+  path.maps = &maps_[static_cast<std::size_t>(sampler.sample()) % maps_.size()];
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
@@ -76,7 +82,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       addFog(sum, tracer, ray, t, inside, Color(0), &lamps_, sampler.branch(kFog));
   };
   // Photons have brought what shines there.
-  const bool brought = path.gathers && path.kind != RayKind::bounce && !caustics_.empty();
+  const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
       const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
@@ -108,10 +114,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     return throughFog();
   }
   if (path.gathers) {
-    at.addPhotons(sum, Term::Kind::photons, all_, true);
+    at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
   } else {
     at.addLights(sum, sampler);
-    at.addPhotons(sum, Term::Kind::caustic, caustics_, true);
+    at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
@@ -151,7 +157,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (!stands) return;
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
-    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0, gathers};
+    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0, gathers, path.maps};
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
