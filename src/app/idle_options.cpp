@@ -81,6 +81,10 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--strategy-weights off: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");
 
+  if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && !world.media().empty())
+    warn("--integrator " + integrator + " sees the media that fill bodies, but light from its other end passes them undimmed",
+         "--integrator path follows light through them");
+
   const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
                      s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&

@@ -53,6 +53,33 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside
   return std::optional<Hit>(std::in_place, world_, ray, *found);
 }
 
+Hit Tracer::meet(const Ray& ray, RayKind kind, const Found& found) {
+  const Hit hit(world_, ray, found);
+  if (!records()) return hit;
+  begin(ray, kind, kInfinity, 0);
+  RayNode& node = finish();
+  node.hit = hit;
+  node.materials = sharesOf(hit.materials);
+  node.bsdf = *world_.shade(hit);
+  return hit;
+}
+
+void Tracer::drawFrom(const Vec3& from, const Vec3& to) {
+  RayNode& node = tree_->nodes.back();
+  const Real distance = length(to - from);
+  node.ray = {from, distance > 0 ? (to - from) / distance : node.ray.direction};
+  if (node.hit) node.hit->t = distance;
+}
+
+Color Tracer::veiled(const Color& passed, const Color& passes, std::uint32_t medium, Real distance) {
+  const Color color = passed * passes;
+  if (!records()) return color;
+  RayNode& node = tree_->nodes[static_cast<std::size_t>(last_)];
+  node.filters.push_back({medium, 0, distance, passes, {}});
+  node.radiance = color;
+  return color;
+}
+
 RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
   Statistics uncounted;
   if (facesSeenBy(kind) == Faces::both) return LeftScene{};

@@ -43,6 +43,13 @@ class Tracer {
     return behindHoles(ray, kind, statistics_);
   }
 
+  /// The ray met that place, which was found otherwise: it is recorded as one that was cast.
+  Hit meet(const Ray& ray, RayKind kind, const Found& found);
+  /// The ray recorded last is drawn from one place to the other.
+  void drawFrom(const Vec3& from, const Vec3& to);
+  /// What passes of the light of the shadow ray asked last, of which media on its way let `passes` through.
+  Color veiled(const Color& passed, const Color& passes, std::uint32_t medium, Real distance);
+
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);
   /// While it lives, rays are roots of the tree, one after the other; then things are as before.

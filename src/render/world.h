@@ -28,6 +28,7 @@
 #include "scene/scene.h"
 #include "shading/differentials.h"
 #include "shading/lights/light.h"
+#include "shading/medium.h"
 
 namespace trace {
 
@@ -92,6 +93,10 @@ class World {
     return crossAll({ray, tMost, faces, true, statistics, visit});
   }
 
+  /// Calls visit(Found) for every crossing of that object at 0 < t < tMost, in no particular order.
+  void crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
+                   VisitFound visit) const;
+
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
@@ -154,6 +159,19 @@ class World {
   Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
   /// What a ray that starts at the point is inside of.
   Interfaces interfacesAt(const Vec3& point, const Settings& settings) const;
+  /// A body that a medium fills. One without a surface is a cloud: light meets it nowhere.
+  struct MediumBody {
+    std::uint32_t object;
+    bool cloud;
+    MediumModel model;
+    Box3 bounds;
+  };
+  const std::vector<MediumBody>& media() const { return media_; }
+  /// The medium of that body at a point in it.
+  Medium mediumAt(const MediumBody& body, const Vec3& point) const;
+  /// Light goes into some body and comes out elsewhere (shading/materials/subsurface.h).
+  bool hasSubsurface() const { return hasSubsurface_; }
+
   /// No part of the object lets light through.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
@@ -297,7 +315,9 @@ class World {
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
   bool nestedGlass_ = false;
-  std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where they may be nested
+  std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where a ray may start in one
+  std::vector<MediumBody> media_;
+  bool hasSubsurface_ = false;
   Color ambient_;
   CameraFrame camera_;
   Outside outside_;

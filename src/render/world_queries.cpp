@@ -126,6 +126,12 @@ bool World::crossAll(const Across& query) const {
   return ended;
 }
 
+void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
+                        VisitFound visit) const {
+  checkBudget();
+  crossObject(object, {ray, tMost, Faces::both, false, statistics, visit});
+}
+
 inline bool World::crossObject(std::uint32_t object, const Across& query) const {
   const Instance& instance = objects_[object];
   const auto inItsSpace = [&](const Ray& ray) {

@@ -135,6 +135,8 @@ struct Settings {
   Real fogHeight = 0;
   Real fogForward = 0;
   int fogSamples = 8;
+  int mediumDepth = 100;
+  int subsurfaceSamples = 4;
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;
