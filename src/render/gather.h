@@ -59,11 +59,11 @@ class Gather {
   /// sum += factor * value of a medium, whose light may be chosen by chance.
   void add(const Color& factor, const Color& value, const MediumTerm& medium,
            const std::optional<ChanceTerm>& chance = {}) {
-    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, medium});
+    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
   }
   /// The same of light that comes out of a body; it was cast last where it goes in.
   void add(const Color& factor, const Color& value, const BodyTerm& body) {
-    add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, body});
+    add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, body});
   }
   /// What has been added counts so much, behind a medium.
   void dim(const Color& passes, const MediumTerm& medium) { add(Color(1) + passes * -1, sum_ * -1, medium); }

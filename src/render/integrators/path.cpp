@@ -211,7 +211,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (const auto in = entrance(at, *body, path.weight, sampler.branch(kBody))) {
       const Color factor = in->weight / toBody;
       const Path next{RayKind::refraction, path.depth, path.weight * factor, 0, nullptr, 0, path.gathers,
-                      path.scattered,      true};
+                      path.maps, path.scattered, true};
       sum.add(factor, along(tracer, in->ray, in->hit, next, inside, sampler.branch(kNext)), in->how);
     }
   } else if (share && passes > 0) {
@@ -253,7 +253,7 @@ Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, c
   const Vec3 direction = basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y));
   const Color factor = place.weight / goes;
   const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine),
-                  nullptr,         0,          path.gathers,         path.scattered + 1};
+                  nullptr, 0, path.gathers, path.maps, path.scattered + 1};
   const Ray onward{at.point, direction};
   Interfaces there = inside;
   const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));
