@@ -1,6 +1,7 @@
 #include "render/integrators/path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "image/srgb.h"
@@ -97,7 +98,9 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Sampler numbers = sampler.branch(kChoice);
   const Vec2 choice = numbers.next2();
-  const Interaction at(tracer, ray, *hit, footprint.get(), inside, choice.y);
+  // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
+  const Real wavelength = choice.y * tracer.settings().wavelengths;
+  const Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
   sum.note(at.bsdf());
   sum.note(at.raised());
   sum.note(at.indices);
