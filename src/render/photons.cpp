@@ -166,6 +166,7 @@ class Emitter {
     std::optional<Hit> hit;
     Color power;
     bool fromInfinity;  ///< whose light is what arrives, and loses nothing before
+    bool asked;         ///< shadow rays ask for it, which cross panes that bend nothing
   };
 
   struct Chances {
@@ -196,7 +197,7 @@ class Emitter {
     if (!arriving) return {};
     const Real away2 = point ? hit->t * hit->t : 1;
     const Color power = arriving->intensity() * (kPi * away2 * aim->share / static_cast<Real>(source.count));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, true};
   }
 
   std::optional<Flight> fromLamp(const Source& source) {
@@ -228,7 +229,7 @@ class Emitter {
     const Ray ray = place->leave(direction);
     auto hit = tracer_.cast(ray, RayKind::bounce, inside, hole());
     const Color power = whitted(*bsdf).emissive * (place->opacity * share / static_cast<Real>(source.count));
-    return Flight{ray, std::move(inside), std::move(hit), power, false};
+    return Flight{ray, std::move(inside), std::move(hit), power, false, false};
   }
 
   std::optional<Flight> fromSky(const Source& source) {
@@ -239,11 +240,12 @@ class Emitter {
     Interfaces inside = tracer_.interfacesAt(aim->ray.origin);
     auto hit = tracer_.cast(aim->ray, RayKind::bounce, inside, hole());
     const Color power = light * (aim->share / (sky.density * static_cast<Real>(source.count)));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, true};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, true, false};
   }
 
   void fly(Flight& flight, Landed& landed) {
-    auto& [ray, inside, hit, power, fromInfinity] = flight;
+    auto& [ray, inside, hit, power, fromInfinity, asked] = flight;
+    bool gathered = !asked;  // shadow rays do not bring it
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
       power *= inside.passed(hit->t);
       if (!(bounces == 0 && fromInfinity) && isInOpenAir(inside, world_))
@@ -251,7 +253,7 @@ class Emitter {
       const Interaction at(tracer_, ray, *hit, nullptr, inside, chance());
       const Vec3& normal = hit->surface.normal;
       const bool rests = scatters(at.bsdf());
-      if (rests && (bounces > 0 || !onlyCaustics_)) {
+      if (rests && ((bounces > 0 && gathered) || !onlyCaustics_)) {
         if (const auto place = texels_.place(world_, ray, *hit))
           landed.onMaps.emplace_back(*place, power);
         else
@@ -275,19 +277,23 @@ class Emitter {
       Interfaces there = inside;
       Vec3 direction;
       if (choice < mirrors) {
+        gathered = true;
         power *= mirror * (all / mirrors);
         direction = mirrored(ray.direction, at.normal);
       } else if (choice < mirrors + passes) {
         const auto refracted = at.through(*share);
         if (!refracted) return;
-        power *= through * (all / passes);
+        gathered = gathered || !at.straight;
+        // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
+        const Real ratio = at.ratio(*share);
+        power *= through * (ratio * ratio * all / passes);
         there = at.behind();
         there.wavelength = share->nanometres;
         direction = *refracted;
       } else if (choice < mirrors + passes + lobe) {
         const Real choose = chance();
         const Vec2 u{chance(), chance()};
-        const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, u, Transport::importance);
+        const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, u, Transport::radiance);
         if (!drawn) return;
         direction = drawn->toLight;
         const bool inward = dot(direction, at.normal) < 0;

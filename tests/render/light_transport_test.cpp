@@ -132,6 +132,21 @@ TEST(LightTransport, FurnaceOfTheSkyHidesWhatIsWhite) {
   }
 }
 
+TEST(LightTransport, GlassThatSplitsLightKeepsItsColour) {
+  for (const Row& row : rows()) {
+    Scene scene;
+    Phong glass;
+    glass.transmissive = glass.reflective = Color(1), glass.index = 1.6, glass.abbe = 30;
+    addObject(scene, Sphere{}, Affine::translation({0, 0, -3}), glass);
+    scene.background.gradient = {{Color(1), Color(1)}};
+    Settings settings = settingsOf(row, 200, 400);
+    settings.wavelengths = 3;
+    Color sum;
+    for (const Color& c : picture(scene, settings).pixels) sum += c / 256;
+    for (const Real channel : {sum.r, sum.g, sum.b}) EXPECT_NEAR(channel, 1, 1.5 * row.tolerance) << row.name;
+  }
+}
+
 TEST(LightTransport, TwoLampsGiveWhatTheyGiveAloneAndTwiceTheLightTwiceThePicture) {
   for (const Row& row : rows()) {
     const auto lit = [&](Real left, Real right) {

@@ -1,6 +1,7 @@
 #include "render/integrators/path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "image/srgb.h"
@@ -119,7 +120,9 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Sampler numbers = sampler.branch(kChoice);
   const Vec2 choice = numbers.next2();
-  Interaction at(tracer, ray, *hit, footprint.get(), inside, choice.y);
+  // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
+  const Real wavelength = choice.y * tracer.settings().wavelengths;
+  Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
   std::optional<SubsurfaceBsdf> body;
   if (path.within)
     at.letIn();
