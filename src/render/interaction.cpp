@@ -64,7 +64,7 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const Vec3& from = lightPlace();
   const bool foggy = tracer.settings().fog > 0;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto light = [&](const Vec2& place, Real share) {
+    const auto light = [&](const Vec2& place, Real share) __attribute__((always_inline)) {
       auto arriving = world.illuminate(i, from, place);
       if (!arriving) return;
       if (foggy)
