@@ -80,7 +80,7 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const bool foggy = tracer.settings().fog > 0;
   constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto light = [&](const Vec2& place, Real share, int n) {
+    const auto light = [&](const Vec2& place, Real share, int n) __attribute__((always_inline)) {
       auto arriving = world.illuminate(i, from, place);
       if (!arriving) return;
       if (foggy)

@@ -21,9 +21,8 @@ const Bsdf& World::clear() {
   return kClear;
 }
 
-MaterialMix World::materialMix(const Found& found) const {
+MaterialMix World::mixOfParts(const Found& found) const {
   const Instance& instance = objects_[found.object];
-  if (!instance.mixed) return MaterialMix::only(instance.material);
   if (instance.mesh) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];

@@ -116,7 +116,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     seeMedia();
     return sum.radiance();
   }
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Sampler numbers = sampler.branch(kChoice);
   const Vec2 choice = numbers.next2();

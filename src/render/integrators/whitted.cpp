@@ -68,7 +68,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
   std::optional<SubsurfaceBsdf> body;
