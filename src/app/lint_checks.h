@@ -42,6 +42,8 @@ void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
 void unlit(const LintScene& s, Findings& findings);
+void causticsMissing(const LintScene& s, Findings& findings);
+void lightReachesNothing(const LintScene& s, Findings& findings);
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);

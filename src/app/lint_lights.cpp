@@ -84,6 +84,8 @@ void lightInside(const LintScene& s, Findings& findings) {
 /// miss.
 void lightBehindGlass(const LintScene& s, Findings& findings) {
   constexpr int kFew = 10;
+  const bool whitted = s.settings.integrator == IntegratorKind::whitted;
+  if (s.settings.integrator == IntegratorKind::photon || (whitted && s.settings.caustics > 0)) return;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Survey::Lamp& lamp = s.survey.lights[i];
     if (!positionOf(s.scene.lights[i].light)) continue;
@@ -91,7 +93,10 @@ void lightBehindGlass(const LintScene& s, Findings& findings) {
     warn(findings, "light-behind-glass", s.scene.lights[i].place,
          "most of this light comes through " + quoted(s, lamp.glass) +
              ", which refracts: shadow rays run straight on, so light is neither bent nor gathered there",
-         "move the light out of the glass, or give what is around it index = 1");
+         std::string(whitted ? "--caustics 200000" : "--integrator photon") +
+             " sends photons from the light, which are bent and gathered; or move the light out of the "
+             "glass, or "
+             "give what is around it index = 1");
   }
 }
 
@@ -143,6 +148,65 @@ void lightBlocked(const LintScene& s, Findings& findings) {
              (around ? " is around everything and in its way" : " is in its way everywhere"),
          around ? "in place of an object as sky, `background` casts no shadow; or put the light inside"
                 : "put the light on the other side of it, or turn it round");
+  }
+}
+
+/// Paths by chance never meet a light without a size, so they bring nothing of its light by mirrors and
+/// glass.
+void causticsMissing(const LintScene& s, Findings& findings) {
+  const IntegratorKind kind = s.settings.integrator;
+  const bool direct = kind == IntegratorKind::direct;
+  if (kind != IntegratorKind::path && kind != IntegratorKind::mlt && !direct) return;
+  const auto gathers = [&](std::uint32_t object) {
+    constexpr Real kMuch = 0.3;
+    const WhittedTerms& terms = s.world.termsOf(object);
+    const Real refracted = terms.passage == Passage::straight ? 0 : maxComponent(terms.transmissive);
+    return std::max(maxComponent(terms.reflective), refracted) >= kMuch;
+  };
+  std::uint32_t object = 0;
+  while (object < s.scene.objects.size() && !(s.survey.objects[object].places > 0 && gathers(object)))
+    ++object;
+  if (object == s.scene.objects.size()) return;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
+    const Light& light = s.scene.lights[i].light;
+    const bool hasSize = match(light, [](const auto& l) { return l.hasSize(); });
+    if (s.survey.lights[i].places == 0 || (hasSize && !direct)) continue;
+    warn(findings, "caustics-missing", s.scene.lights[i].place,
+         "what " + quoted(s, object) + " throws of this light on other things is missing: " +
+             (direct ? "--integrator direct follows no light that bounces"
+                     : "the light has no size, so no path meets it by chance"),
+         "--integrator photon shows such caustics, and so does whitted with --caustics 200000" +
+             std::string(hasSize ? "; path finds them with many samples" : ""));
+    return;
+  }
+}
+
+/// After the checks that know a reason.
+void lightReachesNothing(const LintScene& s, Findings& findings) {
+  constexpr int kFew = 20;
+  int scattering = 0;
+  for (const Survey::Seen& seen : s.survey.objects) scattering += seen.couldBeLit;
+  if (scattering < kFew) return;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
+    const LightSource& source = s.scene.lights[i];
+    const Survey::Lamp& lamp = s.survey.lights[i];
+    if (!lamp.reached.empty() || isBlack(colorOf(source.light))) continue;
+    const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
+      return finding.message.place.line == source.place.line &&
+             finding.message.place.file == source.place.file;
+    });
+    if (isSaid || (lamp.places > 0 && lamp.blocked.empty())) continue;
+    Blockers blockers;
+    for (const auto& [pair, times] : lamp.blocked) blockers[pair.second] += times;
+    const bool away = blockers.empty();
+    warn(
+        findings, "light-reaches-nothing", source.place,
+        "this light reaches nothing that is seen: " +
+            (away ? "every surface faces away from it, or it shines elsewhere"
+                  : "something is always in its way, most often " + quoted(s, mostIn(blockers)->first)),
+        away
+            ? "move it to the side that is seen, or take it out: a light that reaches nothing only takes time"
+            : "move it, or what is in its way; or take it out: a light that reaches nothing only takes time");
   }
 }
 

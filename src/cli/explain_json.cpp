@@ -258,6 +258,8 @@ std::string explainJson(const PixelFacts& facts) {
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
   json["sampleWeights"] = Json::list();
   for (const Real weight : e.weights) json["sampleWeights"].add(weight);
+  if (!e.corners.empty()) json["corners"] = Json::list();
+  for (const Vec2& corner : e.corners) json["corners"].add(Json::list({corner.x, corner.y}));
   json["settled"] = e.settled;
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);

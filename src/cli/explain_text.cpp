@@ -264,14 +264,20 @@ std::string explainText(const PixelFacts& facts, bool color) {
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
+            (e.corners.empty() ? "" : "  at " + toText(e.corners[i].x) + "," + toText(e.corners[i].y)) +
             (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
             (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
   if (e.settled)
     text += "no more: the error of their mean is at most " + toText(facts.settings.noiseTarget) + "\n";
+  if (!e.corners.empty())
+    text +=
+        "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
+        "corner\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
     text += "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
             "see --camera-vertices 1\n";
+  if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
                          : "The rays above do NOT sum to the picture's pixel: please report this.\n";

@@ -146,6 +146,7 @@ void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& phot
   const PhotonMap::Near near = photons.near(hit.surface.point, facing() > 0 ? flat : -flat);
   Color light;
   std::size_t count = 0;
+  PhotonTerm counted;
   for (std::size_t i = 0; i < near.count; ++i) {
     const Vec3 toLight = -near.photons[i]->direction;
     const Real lit = dot(toLight, normal);
@@ -153,8 +154,11 @@ void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& phot
     const Scatter parts = scatter(*bsdf_, frame, toLight, -ray.direction);
     light += near.photons[i]->power * (all ? parts.sum() : parts.diffuse) * (near.perArea(i) / (kPi * lit));
     ++count;
+    if (tracer.records()) counted.photons.push_back(*near.photons[i]);
   }
-  if (count > 0) sum.add(kind, light * (1 - coat), PhotonTerm{count, std::sqrt(near.radius2)});
+  counted.count = count;
+  counted.radius = std::sqrt(near.radius2);
+  if (count > 0) sum.add(kind, light * (1 - coat), counted);
 }
 
 Real Interaction::mirroredShare(const SpectralShare& share) const {

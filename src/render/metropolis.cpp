@@ -57,6 +57,7 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     : moments_(moments), settings_(settings), size_(size), area_(areaOf(settings.region, size)) {
   settings_.sampling = SampleKind::random;  // no grid: a chain moves without steps
   settings_.noiseTarget = 0;
+  settings_.denoise = false;
   constexpr std::int64_t kChunk = 1024;
   const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
   sums_.resize(static_cast<std::size_t>(starts));

@@ -37,22 +37,26 @@ class PixelTracer {
 
   /// What the camera ray of sample 0 <= k < samples() brings; may be NaN or infinite. Row y = 0 is the top.
   Color sample(int x, int y, int k) {
-    return sample(x, y, k, [](const CameraRay&) {});
+    return sample(x, y, k, [](const CameraRay&, const Sampler&) {});
   }
-  /// The same; look(CameraRay) sees the ray before it is followed.
+  /// The same; look(CameraRay, Sampler) sees the ray after it was followed.
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    return withCamera(sampler, rules_.middle(x, y), sampler.film(), [&](const CameraRay& camera) {
-      look(camera);
-      return radiance(sampler, camera);
-    });
+    return follow(sampler, rules_.middle(x, y), sampler.film(), look);
+  }
+  /// What a corner sees, likewise.
+  template <class Look>
+  Color corner(const CornerPlace& place, Look&& look) {
+    const Sampler sampler(rules_, place);
+    return follow(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}, look);
   }
   /// The camera ray alone.
   template <class Look>
   void look(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    withCamera(sampler, rules_.middle(x, y), sampler.film(), look);
+    withCamera(sampler, rules_.middle(x, y), sampler.film(),
+               [&](const CameraRay& camera) { look(camera, sampler); });
   }
   /// Of a sample with these numbers, which choose its place in the area of the picture, too: what it brings,
   /// times what it counts, and where.
@@ -82,6 +86,14 @@ class PixelTracer {
   }
 
  private:
+  template <class Look>
+  Color follow(const Sampler& sampler, const Vec2& middle, const FilmSample& place, const Look& look) {
+    return withCamera(sampler, middle, place, [&](const CameraRay& camera) {
+      const Color color = radiance(sampler, camera);
+      look(camera, sampler);
+      return color;
+    });
+  }
   /// Calls use(CameraRay) for the ray of a place of the picture, which counts for the pixel of that middle.
   template <class Use>
   std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,

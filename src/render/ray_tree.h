@@ -20,6 +20,7 @@
 #include "render/hit.h"
 #include "render/interfaces.h"
 #include "render/outside.h"
+#include "render/photon_map.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
@@ -118,6 +119,7 @@ struct ChanceTerm {
 struct PhotonTerm {
   std::size_t count = 0;
   Real radius = 0;
+  std::vector<Photon> photons{};  ///< that they are, where a tree takes them
 };
 
 /// A path that was put together of `light` places from the light's end and `camera` places from the camera's,

@@ -80,8 +80,13 @@ class SampleRules {
   Vec2 middle(int x, int y) const {
     return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};
   }
+  /// The same of a corner of a pixel.
+  Vec2 corner(const CornerPlace& place) const;
   /// From a sample to the next on the right and above, on the average.
-  Vec2 spacing() const { return {1.0 / (size_.width * grid_), 1.0 / (size_.height * grid_)}; }
+  Vec2 spacing() const {
+    const int across = divides_ ? 1 : grid_;
+    return {1.0 / (size_.width * across), 1.0 / (size_.height * across)};
+  }
 
  private:
   Real place(int pixel, int cell, int pixels) const;
@@ -92,6 +97,7 @@ class SampleRules {
   int samples_, grid_;
   std::uint64_t seed_;
   bool onGrid_;
+  bool divides_;              ///< a sample is a corner
   bool toBorder_;             ///< the outermost rays go through the border of the picture
   std::vector<Real> places_;  ///< if they do not: of the cells of the grid within a pixel
 };
@@ -115,6 +121,10 @@ class Sampler {
 
   /// Of a sample whose numbers these are; they must outlive it, too.
   Sampler(const SampleRules& rules, SampleNumbers& numbers) : Sampler(rules, 0, 0, 0) { numbers_ = &numbers; }
+
+  /// Of a corner, whatever pixel it is said to be of: the numbers of the pixel whose lower left part it is
+  /// in, so that the first samples of a generator are the corners of the larger squares.
+  Sampler(const SampleRules& rules, const CornerPlace& place);
 
   /// Where in the picture the sample lies, and what it counts.
   FilmSample film() const {

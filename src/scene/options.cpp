@@ -77,7 +77,10 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 template <>
 constexpr std::array<std::string_view, 4> kNames<EnvironmentKind>{"auto", "lat-long", "angular", "cube"};
 template <>
-constexpr std::array<std::string_view, 6> kNames<Pass>{"depth", "normal", "id", "uv", "position", "samples"};
+constexpr std::array<std::string_view, 9> kNames<Pass>{"depth",   "normal", "id",        "uv",    "position",
+                                                       "samples", "albedo", "occlusion", "change"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<PassColors>{"grey", "heat"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
 template <>
@@ -359,6 +362,33 @@ const std::array kTable{
          .least = 0,
          .most = 1,
          .unit = "",
+         .extra = true}),
+    row<&Settings::subdivide>(
+        {.name = "subdivide",
+         .group = "Picture",
+         .help =
+             "rays go through the corners of pixels; a pixel whose corners differ falls into four squares, "
+             "and those again, at most so often: many rays at edges, one elsewhere; 0 takes spp",
+         .source = "Whitted 1980; docs/sampling.md",
+         .least = 0,
+         .most = 6,
+         .unit = "times",
+         .extra = true}),
+    row<&Settings::subdivideThreshold>(
+        {.name = "subdivide-threshold",
+         .group = "Picture",
+         .help = "corners of a square differ where red, green or blue do by more, as a part of white; 0 "
+                 "divides all that is not the same",
+         .source = "Austin: supersample threshold",
+         .least = 0,
+         .most = 1}),
+    row<&Settings::denoise>(
+        {.name = "denoise",
+         .group = "Picture",
+         .help =
+             "take noise out of the finished picture, by the mean of pixels that are alike; how much that "
+             "changed is told; needs 8 samples a pixel or more",
+         .source = "Rousselle, Manzi and Zwicker 2013; docs/denoising.md",
          .extra = true}),
     row<&Settings::time>({.name = "time",
                           .group = "Picture",
@@ -1046,6 +1076,13 @@ const std::array kTable{
                               .help = "files of passes are called NAME.PASS, or NAME_PASS",
                               .source = "underscore in British Columbia",
                               .repeats = Repeats::nothing}),
+    row<&Settings::passColors>(
+        {.name = "pass-colors",
+         .group = "Passes",
+         .help = "levels of the passes depth, samples and change: grey, or from black over violet, red and "
+                 "yellow to white (heat)",
+         .source = "",
+         .repeats = Repeats::tone}),
     row<&Settings::passDepth>({.name = "pass-depth",
                                .group = "Passes",
                                .help = "the pass depth measures along the view direction, or along the ray",

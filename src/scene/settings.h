@@ -42,11 +42,13 @@ enum class VertexNormals { unit, mean };
 enum class ShapeKind {};
 
 /// A picture beside the picture: a row of render/passes.cpp.
-enum class Pass { depth, normal, id, uv, position, samples };
+enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
 /// What is measured in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
 /// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
 enum class PassName { dot, underscore };
+/// What levels of passes that are numbers look like.
+enum class PassColors { grey, heat };
 /// The file format of passes; same: that of the picture.
 enum class PassFormat { exr, png, same };
 
@@ -70,6 +72,9 @@ struct Settings {
   Region region{};
   int spp = 1;
   Real noiseTarget = 0;
+  int subdivide = 0;
+  Real subdivideThreshold = 0.05;
+  bool denoise = false;
   Real time = 0;
   Real shutter = 0;
   int moments = 16;
@@ -166,6 +171,7 @@ struct Settings {
   EnumSet<Pass> passes{};
   PassFormat passFormat = PassFormat::exr;
   PassName passName = PassName::dot;
+  PassColors passColors = PassColors::grey;
   PassDepth passDepth = PassDepth::view;
   Real passNear = 0;
   Real passFar = 0;

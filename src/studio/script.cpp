@@ -116,6 +116,13 @@ View viewOf(const std::string& word) {
   return static_cast<View>(number);
 }
 
+Plane planeOf(const std::string& word) {
+  const int number = whole(word);
+  if (number < 0 || number >= static_cast<int>(std::size(kPlaneNames)))
+    throw Error(Fault::usage, "expected 0 to 3, found " + word);
+  return static_cast<Plane>(number);
+}
+
 Studio::Selected kindOf(const std::string& word) {
   const auto& names = Studio::kSelectedNames;
   const auto kind = std::find(std::begin(names), std::end(names), word);
@@ -177,6 +184,16 @@ constexpr std::array kTable{
               return true;
             },
             [](const Words& a) { viewOf(a[0]); }},
+    Command{"plane", "NUMBER", 1, 1,
+            "what is seen of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
+            [](Studio& s, const Words& a) { return s.picture.plane = planeOf(a[0]), true; },
+            [](const Words& a) { planeOf(a[0]); }},
+    Command{"samples", "NUMBER", 1, 1,
+            "until pixels have so many samples on the average, or the picture is finished",
+            [](Studio& s, const Words& a) {
+              return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
+            },
+            checkNumbers},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
             [](Studio& s, const Words& a) { return s.picture.goTo(whole(a[0]), whole(a[1])), true; },
             checkNumbers},

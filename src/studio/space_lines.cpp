@@ -100,6 +100,31 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
   }
 }
 
+/// What was counted at the place where a ray ended: each photon as it arrived, and the rim of their disk.
+void addPhotons(const RayNode& node, const Color& colour, Pen& pen) {
+  constexpr int kRim = 48;  // corners
+  if (!node.hit) return;
+  const Vec3 &middle = node.hit->surface.point, &normal = node.hit->surface.normal;
+  for (const Term& term : node.terms) {
+    if (!term.photons) continue;
+    const Real radius = term.photons->radius;
+    Real brightest = 0;
+    for (const Photon& p : term.photons->photons) brightest = std::max(brightest, maxComponent(p.power));
+    for (const Photon& p : term.photons->photons) {
+      const Color c = brightest > 0 ? p.power / brightest : Color(1);
+      pen.line(p.point - p.direction * (0.25 * radius), p.point, lerp(0.3, c, colour), 1, 1.5f);
+    }
+    const Basis basis = Frame{normal}.basis();
+    Vec3 last;
+    for (int i = 0; i <= kRim; ++i) {
+      const Real angle = 2 * kPi * i / kRim;
+      const Vec3 at = middle + basis.toWorld({std::cos(angle) * radius, std::sin(angle) * radius, 0});
+      if (i > 0) pen.line(last, at, colour, 1, 1.5f);
+      last = at;
+    }
+  }
+}
+
 }  // namespace
 
 Frustum frustumOf(const CameraFrame& f, Real distance) {
@@ -137,6 +162,9 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
   if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
     addRays(studio, *pinned, true, pen);
   if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
+  if (const TracedPixel* pixel = shownPixel(studio); pixel && view.selected >= 0)
+    addPhotons(pixel->tree().nodes[static_cast<std::size_t>(view.selected)],
+               toColor(studio.palette().changed), pen);
   if (view.hierarchyShown && view.boxesOf >= 0)
     for (int i = 0; i < view.box; ++i) {
       const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];
