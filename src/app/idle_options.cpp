@@ -74,15 +74,17 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
          "--lamp-samples 4 lets them; --integrator path follows their light further");
 
   if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
-    warn("--photon-passes " + std::to_string(s.photonPasses) + ": each sample of a pixel takes one map, and --spp gives " +
-             std::to_string(samplesOf(s)),
+    warn("--photon-passes " + std::to_string(s.photonPasses) +
+             ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
          "choose --spp at least as large: the other maps are made in vain");
-  if (s.integrator == IntegratorKind::bdpt && !s.strategyWeights && s.lightVertices < 0 && s.cameraVertices < 0)
+  if (s.integrator == IntegratorKind::bdpt && !s.strategyWeights && s.lightVertices < 0 &&
+      s.cameraVertices < 0)
     warn("--strategy-weights off: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");
 
-  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
-                     s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
+  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
+                     s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
+                     s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +

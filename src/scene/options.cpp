@@ -424,8 +424,10 @@ const std::array kTable{
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
                  "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by chains that "
-                 "look around where light was found; photon is path with one bounce, and photons tell what light it meets; occlusion "
+                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by "
+                 "chains that "
+                 "look around where light was found; photon is path with one bounce, and photons tell what "
+                 "light it meets; occlusion "
                  "shows how open places are, normals where surfaces face, cost how much work whitted has",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
@@ -484,8 +486,9 @@ const std::array kTable{
     row<&Settings::chains>(
         {.name = "chains",
          .group = "Tracing",
-         .help = "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
-                 "its places",
+         .help =
+             "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
+             "its places",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; docs/metropolis.md",
          .integrators = "mlt",
          .extra = true}),

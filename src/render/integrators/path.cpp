@@ -160,7 +160,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (!stands) return;
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
-    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0, gathers, path.maps};
+    const Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
+                    gathers, path.maps};
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
