@@ -232,7 +232,8 @@ void depthTooLow(const LintScene& s, Findings& findings) {
 
 /// Nothing but black, and nothing said of it.
 bool isBare(const Material& material) {
-  return material.name.empty() && material.textures.empty() && material.model == MaterialModel();
+  return material.name.empty() && material.textures.empty() && material.model == MaterialModel() &&
+         material.mediumDensity == 0;
 }
 
 /// Whether the shape, or a part of it, would be of that material and it is bare.
@@ -296,6 +297,9 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
       LintCheck{"glass-in-glass", "bodies of glass that overlap and are each taken to be in air",
                 glassInGlass},
+      LintCheck{"medium-unseen", "a medium in an opaque body, or in one that encloses nothing", mediumUnseen},
+      LintCheck{"medium-empty", "a medium that is nowhere dense, or does nothing with light", mediumEmpty},
+      LintCheck{"subsurface-open", "light that is to spread inside an open sheet", subsurfaceOpen},
       LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
       LintCheck{"no-material", "objects without a material", noMaterial},
       LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},

@@ -49,5 +49,10 @@ void blackReflection(const LintScene& s, Findings& findings);
 /// Of glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
+// Of media and bodies in which light spreads (lint_media.cpp).
+void mediumUnseen(const LintScene& s, Findings& findings);
+void mediumEmpty(const LintScene& s, Findings& findings);
+void subsurfaceOpen(const LintScene& s, Findings& findings);
+
 }  // namespace lint_checks
 }  // namespace trace

@@ -1,6 +1,7 @@
 #include "cli/explain_json.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "base/match.h"
@@ -164,6 +165,14 @@ class Writer {
       json["connection"] = {
           {"s", t.connection->light}, {"t", t.connection->camera}, {"share", t.connection->share}};
     if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
+    if (t.medium) {
+      constexpr std::array<std::string_view, 4> kWhat{"covers", "glows", "scatters", "follows"};
+      json["medium"] = {{"what", kWhat[static_cast<std::size_t>(t.medium->what)]},
+                        {"object", body(t.medium->object)},
+                        {"distance", t.medium->t},
+                        {"forward", t.medium->forward}};
+    }
+    if (t.body) json["body"] = {{"distance", t.body->distance}, {"steps", t.body->steps}};
     if (t.light) {
       const LightTerm& l = *t.light;
       const LightSource& source = scene_.lights[l.light];

@@ -156,6 +156,12 @@ class TreeText {
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
                  " from the light, t = " + std::to_string(term.connection->camera) +
                  " from the camera: counts " + text(term.connection->share);
+      if (term.medium) words += "\n" + margin_ + "    " + medium(term);
+      if (term.body)
+        words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
+                 (term.body->steps > 0
+                      ? ", and was scattered " + counted(static_cast<std::size_t>(term.body->steps), "time")
+                      : "");
       if (term.photons)
         words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
                  text(term.photons->radius);
@@ -163,6 +169,19 @@ class TreeText {
     }
     if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
     line("= " + text(node.radiance));
+  }
+
+  std::string medium(const Term& term) const {
+    const MediumTerm& m = *term.medium;
+    const bool air = m.object == Filling::kAir;
+    const std::string by = air ? "fog" : printable(objectName(scene_, m.object));
+    switch (m.what) {
+      case MediumTerm::What::covers: return "what media on the way take of it";
+      case MediumTerm::What::glows: return "given off on the way";
+      case MediumTerm::What::scatters: return "scattered by " + by + " at distance " + text(m.t);
+      case MediumTerm::What::follows: break;
+    }
+    return "scattered by " + by + " at distance " + text(m.t) + ", where it comes from";
   }
 
   void light(const Term& term, const RayNode& node) {

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "image/picture.h"
 #include "image/splat_plane.h"
 #include "image/srgb.h"
@@ -198,7 +199,7 @@ class Film {
   int width_, height_, tileSize_, columns_, rows_;
   double noise_;
   std::vector<Wave> waves_;
-  std::vector<PixelSum> pixels_;
+  HugeVector<PixelSum> pixels_;
   std::vector<Layer> layers_;
   std::unique_ptr<TileState[]> states_;
   std::unique_ptr<SplatPlane> splats_;  ///< null where none are taken

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/media.h"
+
 namespace trace {
 namespace {
 
@@ -36,12 +38,6 @@ Real Fog::distance(const Ray& ray, Real depth) const {
   return -std::log1p(-change / here) / thinner;
 }
 
-Real Fog::phase(const Vec3& direction, const Vec3& toLight) const {
-  const Real g = forward_, cosine = dot(direction, toLight);
-  const Real base = 1 + g * g - 2 * g * cosine;
-  return (1 - g * g) / (4 * kPi * base * std::sqrt(base));
-}
-
 void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside) {
   const Fog fog(tracer.settings());
   if (!fog.none() && isInOpenAir(inside, tracer.world()))
@@ -60,7 +56,6 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
   const Color scatters = settings.fogColor * stays;
   if (!isBlack(ambient)) sum.add(Term::Kind::fog, scatters, ambient);
 
-  constexpr std::uint32_t kLamp = 0x80000000u;  // the branch beside those of the lights
   const int places = settings.fogSamples;
   const Color share = scatters * (1.0 / places);
   for (int k = 0; k < places; ++k) {
@@ -69,27 +64,9 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
     const Real depth = -std::log1p(-stays * ((k + numbers.next()) / places));
     const Vec3 point = ray.at(fog.distance(ray, depth));
     if (!isFinite(point)) continue;
-    for (std::size_t i = 0; i < world.lights().size(); ++i) {
-      const Vec2 place =
-          world.lightHasSize(i) ? numbers.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
-      const auto arriving = world.illuminate(i, point, place);
-      // From beyond all numbers nothing comes.
-      if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) continue;
-      const Real left = fog.left({point, arriving->toLight}, arriving->distance);
-      // A light of colour 1 is one of irradiance pi.
-      const Color factor =
-          share * arriving->intensity() * (kPi * fog.phase(ray.direction, arriving->toLight) * left);
-      if (!isBlack(factor))
-        sum.add(Term::Kind::fog, factor,
-                tracer.visible(point, arriving->toLight, arriving->distance, inside));
-    }
-    if (!lamps || lamps->empty()) continue;
-    Sampler chances = numbers.branch(kLamp);
-    const Real which = chances.next();
-    if (const auto lamp = lamps->choose(point, which, chances.next2())) {
-      const Color seen = lamps->look(tracer, {point, lamp->toLight}, *lamp, inside, tracer.chance(chances));
-      sum.add(Term::Kind::fog, share * (fog.phase(ray.direction, lamp->toLight) / lamp->density), seen);
-    }
+    const ScatterPlace at{ray, point, share, fog.forward(), inside, {}};
+    addLightsAt(sum, tracer, at, numbers);
+    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "render/gather.h"
 #include "render/lamps.h"
 #include "render/sampler.h"
+#include "shading/medium.h"
 
 namespace trace {
 
@@ -30,17 +31,14 @@ class Fog {
   }
   /// The distance along the ray at which that depth is reached; may be infinite.
   Real distance(const Ray& ray, Real depth) const;
-  /// How much of what is scattered goes where a ray comes from that runs along `direction`, from a light in
-  /// the direction `toLight`: per solid angle, in all 1 (Henyey and Greenstein 1941).
-  Real phase(const Vec3& direction, const Vec3& toLight) const;
+  Real forward() const { return forward_; }  ///< the mean cosine of what is scattered
 
  private:
-  static constexpr Real kMostForward = 0.999;  ///< beyond it nothing is seen from aside
   Real densityAt(const Vec3& point) const;
 
   Real density_;  ///< scattered along a unit of length, at y = 0
   Real height_;   ///< above which it is thinner by e; 0: it is the same everywhere
-  Real forward_;  ///< the mean cosine of what is scattered
+  Real forward_;
 };
 
 /// A ray in there runs through air: it is in no body. An open sheet encloses nothing.

@@ -19,6 +19,8 @@ class Gather {
   Gather(const Gather&) = delete;
   Gather& operator=(const Gather&) = delete;
 
+  Tracer& tracer() const { return tracer_; }
+
   /// sum += factor * value. A ray that was cast for the value is the one cast last.
   void add(Term::Kind kind, const Color& factor, const Color& value) {
     sum_ += factor * value;
@@ -54,6 +56,18 @@ class Gather {
       tracer_.record(node_, {kind, Color(1), value, Tracer::kNoNode, {}, {}, photons});
   }
 
+  /// sum += factor * value of a medium, whose light may be chosen by chance.
+  void add(const Color& factor, const Color& value, const MediumTerm& medium,
+           const std::optional<ChanceTerm>& chance = {}) {
+    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
+  }
+  /// The same of light that comes out of a body; it was cast last where it goes in.
+  void add(const Color& factor, const Color& value, const BodyTerm& body) {
+    add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, body});
+  }
+  /// What has been added counts so much, behind a medium.
+  void dim(const Color& passes, const MediumTerm& medium) { add(Color(1) + passes * -1, sum_ * -1, medium); }
+
   /// Something covers so much of what has been added.
   void cover(Term::Kind kind, Real share) {
     if (share > 0) add(kind, Color(share), sum_ * -1);
@@ -87,6 +101,11 @@ class Gather {
   }
 
  private:
+  void add(const Term& term) {
+    sum_ += term.factor * term.value;
+    if (Tracer::recorded(node_)) tracer_.record(node_, term);
+  }
+
   Tracer& tracer_;
   int node_;
   Color sum_;

@@ -45,6 +45,8 @@ class PlaceBsdf {
   PlaceBsdf(const PlaceBsdf&) = delete;
   PlaceBsdf& operator=(const PlaceBsdf&) = delete;
 
+  void replace(Bsdf bsdf) { own_ = std::move(bsdf); }
+
   const Bsdf& operator*() const { return own_ ? *own_ : *only_; }
 
  private:

@@ -2,6 +2,7 @@
 
 #include "math/low_discrepancy.h"
 #include "render/fog.h"
+#include "render/media.h"
 #include "shading/fresnel.h"
 #include "shading/optics.h"
 
@@ -59,12 +60,27 @@ void Interaction::raise(bool turned) {
   if (!met || met->t > 1 + kRounding) raised_ = to;
 }
 
+std::optional<SubsurfaceBsdf> Interaction::takeBody() {
+  const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_);
+  if (!whole) return {};
+  const SubsurfaceBsdf body = *whole;
+  bsdf_.replace(body.only(SubsurfaceBsdf::Part::surface));
+  return body;
+}
+
+void Interaction::letIn() {
+  if (const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_))
+    bsdf_.replace(whole->only(SubsurfaceBsdf::Part::exit));
+  coat = 0;
+}
+
 void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
   const Vec3& from = lightPlace();
   const bool foggy = tracer.settings().fog > 0;
+  constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto light = [&](const Vec2& place, Real share) {
+    const auto light = [&](const Vec2& place, Real share, int n) __attribute__((always_inline)) {
       auto arriving = world.illuminate(i, from, place);
       if (!arriving) return;
       if (foggy)
@@ -77,20 +93,24 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
         Ray ray = leaveToLight(arriving->toLight);
         if (material.litThrough) ray.leaves = hit.object;  // it is not in its own way
         passed = tracer.visible(hit, ray, arriving->distance, inside);
+        if (!world.media().empty())
+          passed = throughBodies(
+              tracer, passed, ray, arriving->distance,
+              sampler.branch(kBodies + static_cast<std::uint32_t>(i)).branch(static_cast<std::uint32_t>(n)));
       }
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
       if (material.shadow < 1)
         sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
     };
     if (!world.lightHasSize(i)) {
-      light(kCenter, 1);
+      light(kCenter, 1, 0);
       continue;
     }
     Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
     const int rays = tracer.settings().lightSamples;
     const Vec2 first = numbers.next2();
     for (int n = 0; n < rays; ++n)
-      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays);
+      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays, n);
   }
 }
 

@@ -24,6 +24,10 @@ class Interaction {
   Interaction& operator=(const Interaction&) = delete;
 
   const Bsdf& bsdf() const { return *bsdf_; }
+  /// Takes what goes into the body out of bsdf(), and gives the whole: of a body in which light spreads.
+  std::optional<SubsurfaceBsdf> takeBody();
+  /// The place is one where light goes in that comes out elsewhere: bsdf() becomes how much.
+  void letIn();
   /// Above 0 if the surface's true normal is on the side where the ray comes from.
   Real facing() const { return -dot(ray.direction, hit.surface.normal); }
 

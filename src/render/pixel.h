@@ -98,7 +98,7 @@ class PixelTracer {
     if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
     Interfaces inside = tracer.interfacesAt(ray.origin);
     const bool weighs = moments_[now_].integrator->weighsHoles();
-    const Real chance = weighs ? 0 : tracer.chance(sampler.branch(Sampler::kHole));
+    const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Sampler::kHole).next();
     CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
                      differentials.get()};
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
@@ -126,9 +126,8 @@ class PixelTracer {
     const Vec2 step = rules_.spacing();
     const Ray x = camera.ray({film.x + step.x, film.y}, lens),
               y = camera.ray({film.x, film.y + step.y}, lens);
-    return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
-                                                               x.direction - ray.direction,
-                                                               y.direction - ray.direction});
+    return Differentials{x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
+                         y.direction - ray.direction};
   }
 
   std::vector<Moment> moments_;

@@ -128,6 +128,20 @@ struct ConnectionTerm {
   Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 10.2)
 };
 
+/// What a medium does with light, and where.
+struct MediumTerm {
+  enum class What { covers, glows, scatters, follows } what = What::covers;
+  std::uint32_t object = 0;  ///< index into Scene::objects; Filling::kAir for fog
+  Real t = 0;                ///< along the ray, of what is scattered
+  Real forward = 0;          ///< the mean cosine there
+};
+
+/// Where light that comes out of a body went in.
+struct BodyTerm {
+  Real distance = 0;  ///< from the place where it comes out
+  int steps = 0;      ///< so often it was scattered; 0 where a profile tells how much arrives
+};
+
 /// factor * value, a summand of a ray's radiance.
 struct Term {
   enum class Kind {
@@ -143,16 +157,19 @@ struct Term {
     joined,
     background,
     fog,
+    medium,
+    subsurface,
     hole,
     outline
   };
-  static constexpr std::array<std::string_view, 14> kNames{
-      "emissive", "ambient", "light",  "caustic",    "photons", "reflection", "refraction",
-      "bounce",   "lamp",    "joined", "background", "fog",     "hole",       "outline"};
+  static constexpr std::array<std::string_view, 16> kNames{
+      "emissive", "ambient", "light",  "caustic",    "photons", "reflection", "refraction", "bounce",
+      "lamp",     "joined",  "background", "fog",    "medium",  "subsurface", "hole",       "outline"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
-                        kind == Kind::hole);
+                        kind == Kind::subsurface || kind == Kind::hole ||
+                        (medium && medium->what == MediumTerm::What::follows));
   }
   Kind kind;
   Color factor, value;
@@ -161,6 +178,8 @@ struct Term {
   std::optional<ChanceTerm> chance{};
   std::optional<PhotonTerm> photons{};
   std::optional<ConnectionTerm> connection{};
+  std::optional<MediumTerm> medium{};
+  std::optional<BodyTerm> body{};
 };
 
 /// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of

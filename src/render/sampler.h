@@ -36,6 +36,8 @@ struct GeneratorRow {
   bool continues;
   /// Two numbers from 0 up to 1: of all samples of a pixel they fill the square evenly.
   Vec2 (*pair)(const Draw& draw);
+  /// The first of the two alone, where that takes less; else null.
+  Real (*first)(const Draw& draw) = nullptr;
 };
 std::span<const GeneratorRow> generators();
 const GeneratorRow& generatorOf(const Settings& settings);
@@ -106,7 +108,10 @@ class Sampler {
  public:
   /// Of sample 0 <= k < rules.samples(); the rules must outlive it.
   Sampler(const SampleRules& rules, int x, int y, int k)
-      : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {}
+      : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {
+    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
+    pixel_ = mixBits(bits(x) << 32 | bits(y));
+  }
 
   /// Of a sample whose numbers these are; they must outlive it, too.
   Sampler(const SampleRules& rules, SampleNumbers& numbers) : Sampler(rules, 0, 0, 0) { numbers_ = &numbers; }
@@ -120,13 +125,15 @@ class Sampler {
   int sample() const { return k_; }
 
   /// The next number, from 0 up to 1; the next two.
-  Real next() { return next2().x; }
+  Real next() {
+    const Draw draw = nextDraw();
+    if (numbers_) return numbers_->pair(draw.branch).x;
+    const GeneratorRow& row = rules_->generator();
+    return row.first ? row.first(draw) : row.pair(draw).x;
+  }
   Vec2 next2() {
-    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
-    if (numbers_) return numbers_->pair(branch);
-    const std::uint64_t pixel = mixBits(branch ^ mixBits(bits(x_) << 32 | bits(y_)));
-    return rules_->generator().pair({*rules_, x_, y_, k_, branch, pixel});
+    const Draw draw = nextDraw();
+    return numbers_ ? numbers_->pair(draw.branch) : rules_->generator().pair(draw);
   }
 
   /// Numbers of its own for the n-th ray that is sent from here, whatever has been drawn here and elsewhere:
@@ -143,9 +150,15 @@ class Sampler {
                                  kHole = 0xf0000003u;
 
  private:
+  Draw nextDraw() {
+    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
+    return {*rules_, x_, y_, k_, branch, mixBits(branch ^ pixel_)};
+  }
+
   const SampleRules* rules_;
   int x_, y_, k_;
   std::uint64_t branch_;
+  std::uint64_t pixel_;  ///< a hash of the pixel
   std::uint32_t dimension_ = 0;
   SampleNumbers* numbers_ = nullptr;
 };

@@ -43,6 +43,13 @@ class Tracer {
     return behindHoles(ray, kind, statistics_);
   }
 
+  /// The ray met that place, which was found otherwise: it is recorded as one that was cast.
+  Hit meet(const Ray& ray, RayKind kind, const Found& found);
+  /// The ray recorded last is drawn from one place to the other.
+  void drawFrom(const Vec3& from, const Vec3& to);
+  /// What passes of the light of the shadow ray asked last, of which media on its way let `passes` through.
+  Color veiled(const Color& passed, const Color& passes, std::uint32_t medium, Real distance);
+
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);
   /// While it lives, rays are roots of the tree, one after the other; then things are as before.
@@ -76,8 +83,8 @@ class Tracer {
   /// Does the camera ray meet something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;
 
-  /// The query of a recorded ray once more, for its statistics.
-  void retrace(const RayNode& node);
+  /// The query of a recorded ray once more, for someone who watches it.
+  void retrace(const RayNode& node, const NodeWatch& watch);
 
   const World& world() const { return world_; }
   const Settings& settings() const { return settings_; }
@@ -119,8 +126,10 @@ class Tracer {
   /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
   std::optional<Found> behindHoles(const Ray& ray, RayKind kind, Statistics& statistics) const;
-  void collect(const Ray& ray, Real tMost, Faces faces);
-  bool occluded(const Ray& ray, Real tMost);
+  template <class Nodes>
+  void collect(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts);
+  template <class Nodes>
+  bool occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts);
   void sortCrossed();
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);

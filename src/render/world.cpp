@@ -21,9 +21,8 @@ const Bsdf& World::clear() {
   return kClear;
 }
 
-MaterialMix World::materialMix(const Found& found) const {
+MaterialMix World::mixOfParts(const Found& found) const {
   const Instance& instance = objects_[found.object];
-  if (!instance.mixed) return MaterialMix::only(instance.material);
   if (instance.mesh) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
@@ -95,6 +94,13 @@ Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings
   return filled(whitted(*shade(hit.object, hit.part, inside, hit.surface, nullptr)), inside.material[0]);
 }
 
+Medium World::mediumAt(const MediumBody& body, const Vec3& point) const {
+  if (body.model.uniform()) return body.model.most();
+  TexturePlace place{};
+  place.point = objects_[body.object].placement.inFromOut() * point;
+  return body.model.at(place);
+}
+
 Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) const {
   Interfaces inside(settings.airIndex, nestedGlass_);
   const auto mayHold = [&](std::uint32_t object) {
@@ -114,6 +120,7 @@ Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) cons
   std::set<std::uint32_t> met;
   std::vector<Filling> around;
   for (const Found& found : all) {
+    if (std::find(glass_.begin(), glass_.end(), found.object) == glass_.end()) continue;
     if (opaque(found.object) || !solid(found.object) || !met.insert(found.object).second) continue;
     const Hit hit(*this, ray, found);
     const PlaceBsdf bsdf = shade(hit);
@@ -316,10 +323,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const std::vector<Material> materials = shownAs(scene.materials, settings);
   for (const Material& material : materials) {
     const bool hasHoles = material.opacity < 1 || textureOf(material.textures, kOpacity);
+    Material textured = material;
+    std::erase_if(textured.textures, [](const FieldTexture& t) { return MediumModel::has(t.field); });
+    const bool plain = textured.textures.empty();
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
-                               material.textures.empty() ? nullptr : std::make_shared<Material>(material), 0,
+                               plain ? nullptr : std::make_shared<Material>(std::move(textured)), 0,
                                material.opacity, hasHoles});
     world.hasHoles_ |= hasHoles;
+    world.hasSubsurface_ |= std::holds_alternative<Subsurface>(material.model);
   }
   world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
                        (settings.nestedGlass == NestedGlass::byPriority &&
@@ -331,7 +342,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   }
   for (const Material& material : materials)
     for (const FieldTexture& t : material.textures) {
-      if (t.field == "displacement") continue;  // asked for at points, before there are rays
+      if (t.field == "displacement" || MediumModel::has(t.field)) continue;  // asked for at points
       const bool footprint = wantsFootprint(t.texture);
       world.wantsFootprints_ |= footprint;
       world.footprintsInUv_ |= footprint && wantsUv(t.texture);
@@ -422,9 +433,19 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
                                    : instance.shape.solid();
-    if (world.nestedGlass_ && instance.solid && !instance.opaque)
-      world.glass_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
-    if (!flat) {
+    const auto number = static_cast<std::uint32_t>(world.objects_.size());
+    const Material& material = materials[object.material];
+    const bool fills = material.mediumDensity > 0 && !flat && !box.unbounded();
+    const bool encloses = !instance.opaque && (world.nestedGlass_ || fills || settings.fog > 0) &&
+                          (instance.mesh ? closed(instance.mesh->data()) : instance.shape.solid());
+    const bool cloud = fills && encloses && material.opacity == 0 &&
+                       std::all_of(used.begin(), used.end(), [&](auto m) { return m == object.material; });
+    if (fills && encloses)
+      world.media_.push_back({number, cloud, MediumModel(material), instance.placement.outFromIn() * box});
+    if (encloses && !cloud) world.glass_.push_back(number);
+    if (cloud) {  // it is met nowhere
+      world.bounds_.extend(world.media_.back().bounds);
+    } else if (!flat) {
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
       else

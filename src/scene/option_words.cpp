@@ -37,6 +37,8 @@ constexpr std::array kTable{
     Row{"fog-height", "mist ground layer"},
     Row{"fog-forward", "phase anisotropy henyey greenstein"},
     Row{"fog-samples", "noise steps march volume"},
+    Row{"medium-depth", "volume volumetric scattering bounces cloud smoke"},
+    Row{"subsurface-samples", "sss skin marble milk wax translucent noise"},
     Row{"seed", "noise random"},
     Row{"filter", "reconstruction sharp"},
     Row{"filter-radius", "reconstruction"},

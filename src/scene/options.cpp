@@ -475,11 +475,12 @@ const std::array kTable{
          .most = 1000,
          .integrators = "bdpt",
          .extra = true}),
-    row<&Settings::strategyWeights>(
-        {.name = "strategy-weights",
+    row<&Settings::unweighted>(
+        {.name = "unweighted",
          .group = "Tracing",
-         .help = "paths count by how well they were chosen; off shows what each way finds by itself, to look "
-                 "at with --light-vertices",
+         .help =
+             "a way to put paths together shows all that it finds by itself, and not what it counts beside "
+             "the others: to look at with --light-vertices",
          .source = "Veach 1997, chapter 9; docs/bidirectional.md",
          .integrators = "bdpt",
          .extra = true}),
@@ -862,12 +863,31 @@ const std::array kTable{
                                 .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
-                                .help = "places on every ray that ask for the lights",
+                                .help = "places on every ray that ask for the lights, in fog and media",
                                 .source = "",
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+                                .integrators = "whitted, bdpt"}),
+    row<&Settings::mediumDepth>(
+        {.name = "medium-depth",
+         .group = "Fog",
+         .help = "how often light is scattered in fog, smoke, clouds and milk at most",
+         .source = "docs/media.md",
+         .least = 1,
+         .most = 10000,
+         .unit = "times",
+         .integrators = "path, mlt"}),
+    row<&Settings::subsurfaceSamples>(
+        {.name = "subsurface-samples",
+         .group = "Fog",
+         .help = "places at which light goes into a body of marble, milk or skin, for every place where it "
+                 "comes out",
+         .source = "docs/subsurface.md",
+         .least = 1,
+         .most = 10000,
+         .unit = "places",
+         .integrators = "whitted"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",

@@ -100,7 +100,7 @@ struct Settings {
   Real threshold = 0;
   Real fireflyLimit = 0;
   int lightVertices = -1, cameraVertices = -1;
-  bool strategyWeights = true;
+  bool unweighted = false;
   Chains chains = Chains::path;
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;
@@ -135,6 +135,8 @@ struct Settings {
   Real fogHeight = 0;
   Real fogForward = 0;
   int fogSamples = 8;
+  int mediumDepth = 100;
+  int subsurfaceSamples = 4;
   // Conventions
   Like like = Like::uw;
   Highlight highlight = Highlight::blinn;

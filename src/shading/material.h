@@ -25,6 +25,7 @@
 #include "shading/materials/principled.h"
 #include "shading/materials/rough_glass.h"
 #include "shading/materials/schlick_brdf.h"
+#include "shading/materials/subsurface.h"
 #include "shading/materials/thin_glass.h"
 #include "shading/materials/velvet.h"
 #include "shading/materials/ward.h"
@@ -32,9 +33,9 @@
 
 namespace trace {
 
-using MaterialModel =
-    std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance, Ward, SchlickModel,
-                 AshikhminShirley, Velvet, Hair, Marschner, RoughGlass, ThinGlass, Cel, Gooch, Hatching>;
+using MaterialModel = std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
+                                   Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
+                                   ThinGlass, Cel, Gooch, Hatching, Subsurface>;
 
 /// The model of that keyword, with its defaults; null if there is none.
 inline std::optional<MaterialModel> modelCalled(std::string_view keyword) {
@@ -65,6 +66,10 @@ struct Material {
   Real opacity = 1;                      ///< share of the surface that is there
   Real displacement = 0;                 ///< moves the points of meshes (scene/displacement.h)
   int displacementLevels = 0;            ///< so often each triangle is cut in four before
+  // What fills the body (shading/medium.h).
+  Real mediumDensity = 0;
+  Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};
+  Real mediumForward = 0;
 
   /// What a material has whatever its model.
   static constexpr auto fields() {
@@ -77,7 +82,16 @@ struct Material {
               "how far the points of a mesh move along their normals; a texture of heights "
               "scales it"},
         Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
-              "so often each triangle of a mesh is cut in four before its points move"}};
+              "so often each triangle of a mesh is cut in four before its points move"},
+        Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
+              "of what fills the body: smoke, cloud, flame, milk; 0: nothing. A texture counts from 0 to 1"},
+        Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
+              "how much light is scattered along a unit of length where the density is 1"},
+        Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
+              "how much is swallowed there: soot, ink"},
+        Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "light that is given off there: fire"},
+        Field{"medium_forward", &Material::mediumForward, "", -1, 1,
+              "how much more light is scattered on than back; a cloud has 0.85, smoke 0.5"}};
   }
   bool operator==(const Material&) const = default;
 };

@@ -77,9 +77,29 @@ constexpr std::array kTable{
     Substance{"moissanite", "gem", 2.648, 0, kGems},
 };
 
+constexpr std::string_view kJensen = "Jensen, Marschner, Levoy and Hanrahan, SIGGRAPH 2001, figure 5",
+                           kByEye = "by eye";
+
+constexpr std::array kTranslucents{
+    Translucent{"apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}, 1.3, 0.4, kJensen},
+    Translucent{"chicken", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}, 1.3, 0.4, kJensen},
+    Translucent{"cream", {7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}, 1.3, 0.1, kJensen},
+    Translucent{"ketchup", {0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}, 1.3, 0.2, kJensen},
+    Translucent{"marble", {2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}, 1.5, 0.2, kJensen},
+    Translucent{"potato", {0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}, 1.3, 0.5, kJensen},
+    Translucent{"skim milk", {0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}, 1.3, 0.1, kJensen},
+    Translucent{"milk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}, 1.3, 0.1, kJensen},
+    Translucent{"skin", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}, 1.3, 0.5, kJensen},
+    Translucent{"pale skin", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}, 1.3, 0.5, kJensen},
+    Translucent{"spectralon", {11.6, 20.4, 14.9}, {0, 0, 0}, 1.3, 0.6, kJensen},
+    Translucent{"jade", {0.62, 0.84, 0.66}, {0.024, 0.0045, 0.017}, 1.66, 0.15, kByEye},
+    Translucent{"wax", {1.1, 1.05, 0.95}, {0.0015, 0.0045, 0.016}, 1.44, 0.35, kByEye},
+};
+
 }  // namespace
 
 std::span<const Substance> substances() { return kTable; }
+std::span<const Translucent> translucents() { return kTranslucents; }
 
 std::optional<Material> libraryMaterial(std::string_view name) {
   for (const Substance& substance : kTable) {
@@ -94,12 +114,22 @@ std::optional<Material> libraryMaterial(std::string_view name) {
     clear.attenuationColor = substance.color;
     return Material{std::string(name), clear, {}};
   }
+  for (const Translucent& t : kTranslucents) {
+    if (t.name != name) continue;
+    Subsurface body;
+    body.scatters = t.scatters;
+    body.absorbs = t.absorbs;
+    body.index = t.index;
+    body.roughness = t.roughness;
+    return Material{std::string(name), body, {}};
+  }
   return {};
 }
 
 std::vector<std::string_view> libraryNames() {
   std::vector<std::string_view> names;
   for (const Substance& substance : kTable) names.push_back(substance.name);
+  for (const Translucent& t : kTranslucents) names.push_back(t.name);
   return names;
 }
 

@@ -24,7 +24,20 @@ struct Substance {
 
 std::span<const Substance> substances();
 
-/// The material of that name: clear, polished, with a highlight. It mirrors as the rules say (--fresnel).
+/// Light spreads in these: coefficients of reduced scattering and of absorption for red, green and blue, per
+/// millimetre (shading/materials/subsurface.h).
+struct Translucent {
+  std::string_view name;
+  Color scatters, absorbs;
+  Real index;
+  Real roughness;  ///< of its surface, by eye
+  std::string_view source;
+};
+
+std::span<const Translucent> translucents();
+
+/// The material of that name: translucent, or clear, polished, with a highlight. It mirrors as the rules say
+/// (--fresnel).
 std::optional<Material> libraryMaterial(std::string_view name);
 std::vector<std::string_view> libraryNames();
 

@@ -23,6 +23,7 @@
 #include "base/match.h"
 #include "math/transform.h"
 #include "shading/texture_place.h"
+#include "shading/textures/blackbody.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/cells.h"
 #include "shading/textures/checker.h"
@@ -41,7 +42,7 @@
 namespace trace {
 
 using TextureModel = std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
-                                  Clouds, Cells, Ramp, Mix, Formula>;
+                                  Clouds, Cells, Ramp, Mix, Formula, Blackbody>;
 
 /// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
 /// and v is moved there, as if they were x and y.

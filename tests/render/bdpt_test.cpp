@@ -79,7 +79,7 @@ void expectTheSameByAllWays(const Scene& scene, const Settings& settings, int pl
   Moments first;
   for (int s = from; s <= to; ++s) {
     Settings one = settings;
-    one.lightVertices = s, one.cameraVertices = places - s, one.strategyWeights = false;
+    one.lightVertices = s, one.cameraVertices = places - s, one.unweighted = true;
     const Moments found = meansOf(scene, one);
     if (s == from) first = found;
     EXPECT_GT(found.mean, 0) << "s = " << s << " of " << places;
@@ -156,7 +156,7 @@ TEST(Bidirectional, EveryWayShowsTheLightOfTheSky) {
   // Places that the sky is not asked for: paths from both ends find it.
   for (const int s : {0, 2}) {
     Settings one = settingsOf(200);
-    one.lightVertices = s, one.cameraVertices = 3 - s, one.strategyWeights = false;
+    one.lightVertices = s, one.cameraVertices = 3 - s, one.unweighted = true;
     static Moments first;
     const Moments found = meansOf(even, one);
     if (s == 0) first = found;
@@ -245,7 +245,7 @@ TEST(Bidirectional, WaterKeepsTheLightBothWays) {
   Settings settings = settingsOf(256, 6);
   Moments found[2];
   for (const int i : {0, 1}) {
-    settings.lightVertices = 3 * i, settings.cameraVertices = 6 - 3 * i, settings.strategyWeights = false;
+    settings.lightVertices = 3 * i, settings.cameraVertices = 6 - 3 * i, settings.unweighted = true;
     found[i] = meansOf(scene, settings);
     EXPECT_GT(found[i].mean, 0);
     EXPECT_LT(std::sqrt(found[i].variance / found[i].count), 0.06 * found[i].mean);

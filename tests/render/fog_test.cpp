@@ -109,12 +109,10 @@ TEST(Fog, ScattersAllLightSomewhere) {
     Settings settings = fogSettings(1);
     settings.fogForward = forward;
     const Fog fog(settings);
-    const Real sum = integral(-1, 1, [&](Real cosine) {
-      return 2 * kPi * fog.phase({0, 0, 1}, {std::sqrt(1 - cosine * cosine), 0, cosine});
-    });
+    const Real sum = integral(-1, 1, [&](Real cosine) { return 2 * kPi * phase(fog.forward(), cosine); });
     const Real mean = integral(-1, 1, [&](Real cosine) {
       // The light goes on with this cosine: from `direction` it is seen against the ray.
-      return 2 * kPi * cosine * fog.phase({0, 0, 1}, {std::sqrt(1 - cosine * cosine), 0, cosine});
+      return 2 * kPi * cosine * phase(fog.forward(), cosine);
     });
     EXPECT_NEAR(sum, 1, 1e-4);
     EXPECT_NEAR(mean, forward, 1e-4);
@@ -132,7 +130,7 @@ TEST(Fog, IsLitByObjectsThatShine) {
   settings.integrator = IntegratorKind::path;
   settings.sampling = SampleKind::sobol;
   settings.spp = 4096;
-  settings.depth = 1;
+  settings.depth = settings.mediumDepth = 1;
   const Real expected = integral(0, 60, [&](Real s) {
     const Real away2 = 1 + (s - 3) * (s - 3);
     const Real angle = 2 * kPi * (1 - std::sqrt(1 - radius * radius / away2));

@@ -78,6 +78,16 @@ TEST(Sampler, NumbersAreFunctionsOfWhereTheyAreDrawn) {
 
 // What a pixel's samples estimate: the area of a quarter disk, over many pixels. Chance has a variance of
 // 0.1685 / n.
+TEST(Sampler, ASingleNumberIsTheFirstOfTwo) {
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, 16), {10, 5});
+    for (int k = 0; k < rules.samples(); ++k) {
+      Sampler one = Sampler(rules, 3, 1, k).branch(7), two = one;
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(one.next(), two.next2().x) << row.name;
+    }
+  }
+}
+
 TEST(Sampler, EvenPairsEstimateBetterThanChance) {
   constexpr int kSamples = 16, kPixels = 1000;
   for (const GeneratorRow& row : generators()) {

@@ -42,6 +42,7 @@ TEST(Substances, AreMaterialsOfTheirIndexAndDispersion) {
                   0.02);
     }
   }
+  for (const Translucent& t : translucents()) EXPECT_TRUE(names.insert(t.name).second) << t.name;
   EXPECT_EQ(libraryNames().size(), names.size());
   EXPECT_FALSE(libraryMaterial("kryptonite"));
 }

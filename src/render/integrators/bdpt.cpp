@@ -7,6 +7,7 @@
 #include "render/fog.h"
 #include "render/footprint.h"
 #include "render/interaction.h"
+#include "render/media.h"
 #include "render/onward.h"
 
 namespace trace {
@@ -107,7 +108,7 @@ void Bidirectional::prepare(const World& world, const Settings& settings, Job&) 
   depth_ = settings.depth;
   if (!multiplexed_) {
     ways_ = {settings.lightVertices, settings.cameraVertices, 1};
-    weighs_ = settings.strategyWeights;
+    weighs_ = !settings.unweighted;
   }
   lands_ = camera_.known() && !(settings.outlines > 0);
 }
@@ -230,12 +231,12 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
   const int t = path.depth + 2;
-  const auto seeFog = [&](Real far) {
-    if (!(tracer.settings().fog > 0)) return;
+  const auto seeMedia = [&](Real far) {
+    if (!isThick(tracer)) return;
     if (path.depth > depth_)  // it was sent for what shines only
-      coverWithFog(sum, tracer, ray, far, inside);
+      coverWithMedia(sum, throughMedia(tracer, ray, far, inside, 0, path.weight, sampler.branch(kFog)));
     else
-      addFog(sum, tracer, ray, far, inside, Color(0), &lamps_, sampler.branch(kFog));
+      addMedia(sum, tracer, ray, far, inside, Color(0), &lamps_, sampler.branch(kFog));
   };
   /// s = 0: what shines there was met with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
@@ -249,7 +250,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
     if (world.outside().isSeenBy(path.kind))
       met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray.direction),
           starts_.ofSky(ray.direction));
-    seeFog(kInfinity);
+    seeMedia(kInfinity);
     sum.draw(path.ink);
     return sum.radiance();
   }
@@ -264,14 +265,14 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   if (!isBlack(at.material.emissive))
     met(Term::Kind::emissive, at.material.emissive, lamps_.density(ray.origin, *hit) * cosine / distance2,
         starts_.ofLamp(*hit) * cosine);
-  const auto throughFog = [&] {
-    seeFog(hit->t);
+  const auto throughMedium = [&] {
+    seeMedia(hit->t);
     sum.draw(path.ink);
     return sum.radiance(inside.passed(hit->t));
   };
   if (path.depth > depth_) {  // it was sent for what shines only
     sum.stop(DepthLimit{RayKind::bounce, depth_});
-    return throughFog();
+    return throughMedium();
   }
   if (scatters(at.bsdf())) {
     askLights(sum, at, path, sampler, sample);
@@ -279,7 +280,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
     int s = 2;
     for (const Place& place : sample.lights) join(sum, at, path, place, s++, sample);
   }
-  if (sample.ways.camera == t) return throughFog();
+  if (sample.ways.camera == t) return throughMedium();
 
   const Onward onward(at, sample.spectrum);
   Sampler numbers = sampler.branch(kChoice);
@@ -287,7 +288,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   const auto next = onward.choose(choice, sampler.branch(kLobe));
   if (!next) {
     if (onward.totallyReflected(choice)) sum.stop(TotalInternalReflection{});
-    return throughFog();
+    return throughMedium();
   }
   const bool splits = inside.wavelength == 0 && next->there.wavelength != 0;
   const Color weight = splits ? next->weight * onward.response() : next->weight;
@@ -321,7 +322,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
                                                                 : Term::Kind::refraction;
     sum.add(term, weight * (1 / goes), arriving, ChanceTerm{next->density, 0, 1});
   }
-  return throughFog();
+  return throughMedium();
 }
 
 /// s = 1: each of the scene's lights.

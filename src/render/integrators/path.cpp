@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "image/srgb.h"
-#include "render/fog.h"
 #include "render/footprint.h"
 #include "render/interaction.h"
+#include "render/media.h"
 #include "render/photons.h"
+#include "render/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -22,13 +23,16 @@ struct PathTracer::Path {
   Real ink = 0;                                  ///< how much of it an outline covers
   bool gathers = false;                          ///< photons tell what is scattered where it arrives
   const Maps* maps = nullptr;                    ///< of these
+  int scattered = 0;                             ///< so often by media
+  bool within = false;                           ///< it runs in a body, from where light comes out
 };
 
 namespace {
 
 /// Branches of a place's numbers: its lights by their number, and these.
 constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
-                        kFog = 0x80000004u, kHole = 0x80000005u;
+                        kMedium = 0x80000004u, kHole = 0x80000005u, kBody = 0x80000006u,
+                        kToLamp = 0x80000007u;
 /// Paths of fewer bounces are not ended by chance.
 constexpr int kSurely = 3;
 
@@ -54,6 +58,7 @@ void PathTracer::prepare(const World& world, const Settings& settings, Job& job)
   lamps_ = Lamps(world, settings.threads);
   depth_ = light_ == Light::straight ? 0 : settings.depth;
   maps_.resize(light_ == Light::photons ? static_cast<std::size_t>(settings.photonPasses) : 1);
+  mostScattered_ = light_ == Light::bounced ? settings.mediumDepth : 1;
   if (light_ != Light::photons) return;
   for (int pass = 0; pass < settings.photonPasses && !job.cancel; ++pass) {
     Maps& maps = maps_[static_cast<std::size_t>(pass)];
@@ -75,12 +80,30 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
-  const auto seeFog = [&](Real t) {
-    if (!(tracer.settings().fog > 0)) return;
-    if (path.depth > depth_)  // it was sent for what shines only
-      coverWithFog(sum, tracer, ray, t, inside);
-    else
-      addFog(sum, tracer, ray, t, inside, Color(0), &lamps_, sampler.branch(kFog));
+  const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
+  std::optional<MediumWay> media;
+  if (isThick(tracer) && !path.within) {
+    Sampler numbers = sampler.branch(kMedium);
+    media = throughMedia(tracer, ray, hit ? hit->t : kInfinity, inside, onlyShines ? 0 : 1, path.weight,
+                         numbers.branch(0));
+    if (!media->places.empty()) {
+      const auto counts = [&](const Color& weight) {
+        const Color c = path.weight * weight;
+        return c.r + c.g + c.b;
+      };
+      MediumWay::Place& place = media->places.front();
+      const Real scatters = counts(place.weight), passes = counts(media->passes);
+      const Real share = scatters / (scatters + passes);
+      if (numbers.next() < share) {
+        place.weight = place.weight / share;
+        return scattered(sum, ray, *media, path, inside, sampler);
+      }
+      media->passes = media->passes / (1 - share);
+    }
+  }
+  const auto seeMedia = [&] {
+    if (media) coverWithMedia(sum, *media);
+    sum.draw(path.ink);
   };
   // Photons have brought what shines there.
   const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
@@ -90,31 +113,35 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
-    seeFog(kInfinity);
-    sum.draw(path.ink);
+    seeMedia();
     return sum.radiance();
   }
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Sampler numbers = sampler.branch(kChoice);
   const Vec2 choice = numbers.next2();
   // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
   const Real wavelength = choice.y * tracer.settings().wavelengths;
-  const Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
+  Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
+  std::optional<SubsurfaceBsdf> body;
+  if (path.within)
+    at.letIn();
+  else if (world.hasSubsurface() && light_ != Light::photons)
+    body = at.takeBody();
   sum.note(at.bsdf());
   sum.note(at.raised());
   sum.note(at.indices);
 
   const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.origin, *hit) : 0);
-  if (!brought) sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
-  const auto throughFog = [&] {
-    seeFog(hit->t);
-    sum.draw(path.ink);
-    return sum.radiance(inside.passed(hit->t));
+  if (!brought && !path.within)
+    sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
+  const auto throughMedium = [&] {
+    seeMedia();
+    return sum.radiance(path.within ? Color(1) : inside.passed(hit->t));
   };
-  if (path.depth > depth_) {  // it was sent for what shines only
-    sum.stop(DepthLimit{RayKind::bounce, depth_});
-    return throughFog();
+  if (onlyShines) {
+    sum.stop(DepthLimit{RayKind::bounce, path.depth > depth_ ? depth_ : mostScattered_});
+    return throughMedium();
   }
   if (path.gathers) {
     at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
@@ -135,9 +162,11 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const bool follows = scatters(at.bsdf()) && !path.gathers;
-  const Real scattered = follows ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
-  const Real all = scattered + mirrors + passes;
-  const Real toLobe = all > 0 ? scattered / all : 0, toMirror = all > 0 ? mirrors / all : 0;
+  const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
+  const Real inBody = body ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
+  const Real all = intoLobe + mirrors + passes + inBody;
+  const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
+  const Real toBody = all > 0 ? inBody / all : 0;
   if (toLobe > 0) addLamp(sum, at, toLobe, sampler);
 
   /// Whether a ray of that weight goes on, and for how many it then stands.
@@ -161,7 +190,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
     const Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
-                    gathers, path.maps};
+                    gathers, path.maps,      path.scattered};
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
@@ -181,6 +210,13 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   } else if (all > 0 && choice.x < toLobe + toMirror) {
     follow(RayKind::reflection, Term::Kind::reflection, mirrored(ray.direction, at.normal), mirror / toMirror,
            0, inside, mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal));
+  } else if (toBody > 0 && choice.x < toLobe + toMirror + toBody) {
+    if (const auto in = entrance(at, *body, path.weight, sampler.branch(kBody))) {
+      const Color factor = in->weight / toBody;
+      const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
+                      path.gathers,        path.maps,  path.scattered,       true};
+      sum.add(factor, along(tracer, in->ray, in->hit, next, inside, sampler.branch(kNext)), in->how);
+    }
   } else if (share && passes > 0) {
     if (const auto direction = at.through(*share)) {
       Interfaces behind = at.behind();
@@ -192,7 +228,42 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       sum.stop(TotalInternalReflection{});
     }
   }
-  return throughFog();
+  return throughMedium();
+}
+
+/// The radiance along the ray where a medium on its way scatters light to it.
+Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, const Path& path,
+                            const Interfaces& inside, const Sampler& sampler) const {
+  Tracer& tracer = sum.tracer();
+  const MediumWay::Place& place = way.places.front();
+  const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
+  if (!isBlack(way.glows)) sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows});
+  const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
+  const Sampler numbers = sampler.branch(kMedium).branch(1);
+  addLightsAt(sum, tracer, at, numbers);
+  addLampAt(sum, tracer, at, lamps_, true, numbers);
+
+  Sampler lobe = sampler.branch(kLobe);
+  const Real most = maxComponent(path.weight * place.weight);
+  const Real goes = path.depth + path.scattered < kSurely ? 1 : std::min(1.0, most);
+  if (!(most > 0) || !(lobe.next() < goes)) {
+    sum.stop(Roulette{RayKind::bounce, goes});
+    return sum.radiance();
+  }
+  const Vec2 u = lobe.next2();
+  const Real cosine = phaseCosine(place.forward, u.x);
+  const Basis basis = Frame{ray.direction}.basis();
+  const Vec3 direction = basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y));
+  const Color factor = place.weight / goes;
+  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine), nullptr, 0,
+                  path.gathers,    path.maps,  path.scattered + 1};
+  const Ray onward{at.point, direction};
+  Interfaces there = inside;
+  const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));
+  const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
+  sum.add(factor * allowed(tracer, RayKind::bounce, path.weight * factor * arriving), arriving,
+          {MediumTerm::What::follows, place.object, place.t, place.forward}, ChanceTerm{next.density, 0, 1});
+  return sum.radiance();
 }
 
 /// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is
@@ -210,10 +281,13 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   if (isBlack(scattered) || (!inward && at.isAstray(place->toLight))) return;
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
   const ChanceTerm chance = weighed(place->density, other);
-
-  const Color seen = lamps_.look(at.tracer, at.leaveToLight(place->toLight), *place,
-                                 inward && at.transmits ? at.behind() : at.inside, at.tracer.chance(numbers));
-  sum.add(Term::Kind::lamp, scattered * (chance.share / place->density), seen, chance);
+  const Ray toLamp = at.leaveToLight(place->toLight);
+  const Color seen = lamps_.look(at.tracer, toLamp, *place, inward && at.transmits ? at.behind() : at.inside,
+                                 at.tracer.chance(numbers));
+  Color factor = scattered * (chance.share / place->density);
+  if (!at.tracer.world().media().empty() && !isBlack(seen))
+    factor *= passedByBodies(at.tracer, toLamp, place->distance, sampler.branch(kToLamp));
+  sum.add(Term::Kind::lamp, factor, seen, chance);
 }
 
 }  // namespace trace

@@ -22,6 +22,7 @@
 namespace trace {
 
 class Interaction;
+struct MediumWay;
 
 class PathTracer : public Integrator {
  public:
@@ -35,10 +36,13 @@ class PathTracer : public Integrator {
   struct Path;
   Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
               const Interfaces& inside, const Sampler& sampler) const;
+  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const Path& path,
+                  const Interfaces& inside, const Sampler& sampler) const;
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
 
   Light light_;
-  int depth_ = 0;  ///< the most bounces
+  int depth_ = 0;          ///< the most bounces
+  int mostScattered_ = 1;  ///< the most times that media scatter
   Lamps lamps_;
   struct Maps {
     PhotonMap all, caustics;

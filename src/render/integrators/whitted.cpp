@@ -10,6 +10,8 @@
 #include "render/footprint.h"
 #include "render/gather.h"
 #include "render/interaction.h"
+#include "render/media.h"
+#include "render/subsurface.h"
 #include "shading/dispersion.h"
 #include "shading/optics.h"
 
@@ -33,6 +35,8 @@ constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu, kLamps = 0x7ffffffau;
 /// And those of the ray that goes straight on where the surface is there in part only.
 constexpr std::uint32_t kStraight = 0x7ffffffbu;
+/// And those of bodies in which light spreads, and of media on the way to a lamp.
+constexpr std::uint32_t kBody = 0x7ffffff9u, kToLamp = 0x7ffffff8u;
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
@@ -59,15 +63,16 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
-    if (tracer.settings().fog > 0)
-      addFog(sum, tracer, ray, kInfinity, inside, world.ambient(), nullptr, sampler.branch(kFog));
+    seeMedia(sum, tracer, ray, kInfinity, inside, sampler);
     sum.draw(path.ink);
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
-  const Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
+  Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
+  std::optional<SubsurfaceBsdf> body;
+  if (world.hasSubsurface()) body = at.takeBody();
   sum.note(at.bsdf());
   sum.note(at.raised());
   const WhittedTerms& material = at.material;
@@ -81,6 +86,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   at.addLights(sum, sampler);
   const bool glossy = settings.glossy && isGlossy(at.bsdf());
   if (!lamps_.empty()) addLamps(sum, at, glossy, sampler);
+  if (body) addBody(sum, at, *body, path, sampler);
   if (settings.caustics > 0) addCaustics(sum, at);
 
   const auto worthwhile = [&](const Path& next) {
@@ -154,8 +160,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
               follow(tracer, hit->leave(ray.direction), next, inside, sampler.branch(kStraight)));
     }
   }
-  if (settings.fog > 0)
-    addFog(sum, tracer, ray, hit->t, inside, world.ambient(), nullptr, sampler.branch(kFog));
+  seeMedia(sum, tracer, ray, hit->t, inside, sampler);
   sum.draw(path.ink);
   return sum.radiance(inside.passed(hit->t));
 }
@@ -167,6 +172,40 @@ Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfac
   const RayKind kind = path.kind == RayKind::camera ? RayKind::refraction : path.kind;
   const std::optional<Hit> hit = tracer.cast(ray, kind, inside);
   return along(tracer, ray, hit, path, inside, sampler);
+}
+
+/// Adds the light that comes out of the body, of lights and lamps where it goes in.
+void Whitted::addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& body, const Path& path,
+                      const Sampler& sampler) const {
+  const int places = at.tracer.settings().subsurfaceSamples;
+  const Sampler numbers = sampler.branch(kBody);
+  for (int n = 0; n < places; ++n) {
+    const Sampler own = numbers.branch(static_cast<std::uint32_t>(n));
+    const auto in = entrance(at, body, path.weight, own.branch(0));
+    if (!in) continue;
+    Color light;
+    {
+      Gather there(at.tracer, path.depth);
+      Interaction entering(at.tracer, in->ray, in->hit, nullptr, at.inside, path.spread);
+      entering.letIn();
+      there.note(entering.bsdf());
+      entering.addLights(there, own);
+      if (!lamps_.empty()) addLamps(there, entering, false, own);
+      light = there.radiance();
+    }
+    sum.add(in->weight * (1.0 / places), light, in->how);
+  }
+}
+
+/// Covers the sum with fog and other media that the ray ran through up to t.
+void Whitted::seeMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+                       const Sampler& sampler) const {
+  const World& world = tracer.world();
+  if (!world.media().empty())
+    addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps_.empty() ? nullptr : &lamps_,
+             sampler.branch(kFog));
+  else if (tracer.settings().fog > 0)
+    addFog(sum, tracer, ray, t, inside, world.ambient(), nullptr, sampler.branch(kFog));
 }
 
 /// Adds what mirrors and glass have gathered there, as the surface scatters it evenly.
@@ -199,7 +238,10 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
     scattered *= lamps_.sent(tracer, toLamp, *place);
     if (isBlack(scattered)) continue;
     if (tracer.settings().fog > 0) scattered *= Color(Fog(tracer.settings()).left(toLamp, place->distance));
-    const Color passed = tracer.visible(at.hit, toLamp, place->distance * Lamps::kBefore, at.inside);
+    Color passed = tracer.visible(at.hit, toLamp, place->distance * Lamps::kBefore, at.inside);
+    if (!tracer.world().media().empty())
+      passed = throughBodies(tracer, passed, toLamp, place->distance,
+                             sampler.branch(kToLamp).branch(static_cast<std::uint32_t>(n)));
     sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1});
   }
 }

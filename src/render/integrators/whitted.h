@@ -31,6 +31,10 @@ class Whitted : public Integrator {
   Color follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                const Sampler& sampler) const;
 
+  void addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& body, const Path& path,
+               const Sampler& sampler) const;
+  void seeMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+                const Sampler& sampler) const;
   void addCaustics(Gather& sum, const Interaction& at) const;
   void addLamps(Gather& sum, const Interaction& at, bool glossy, const Sampler& sampler) const;
 

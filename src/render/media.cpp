@@ -1,0 +1,343 @@
+#include "render/media.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/fog.h"
+
+namespace trace {
+namespace {
+
+/// A medium begins or ends there.
+struct Border {
+  Real t;
+  const World::MediumBody* body;  ///< null where the fog scatters
+  bool begins;
+};
+
+/// The stretch of the ray's line that may lie in the box: from first to second, if that is not less.
+std::pair<Real, Real> stretchIn(const Box3& box, const Ray& ray) {
+  Real near = -kInfinity, far = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real slope = 1 / ray.direction[axis];
+    const Real a = (box.low[axis] - ray.origin[axis]) * slope,
+               b = (box.high[axis] - ray.origin[axis]) * slope;
+    near = std::max(near, std::min(a, b));  // NaN, along a face, changes nothing
+    far = std::min(far, std::max(a, b));
+  }
+  return {near, far};
+}
+
+/// The body's stretches of the ray up to t. `whole`: all of it lies in the body.
+void addBorders(std::vector<Border>& borders, Tracer& tracer, const World::MediumBody& body, const Ray& ray,
+                Real t, bool whole) {
+  if (whole) {
+    borders.push_back({0, &body, true});
+    return;
+  }
+  // Crossings on the whole ray tell whether it starts inside. A box that it misses saves asking.
+  if (ray.leaves == body.object) return;
+  const auto [near, far] = stretchIn(body.bounds, ray);
+  if (near > far || near > t || far < 0) return;
+  struct At {
+    Real t;
+    std::uint64_t part;
+  };
+  std::vector<At> crossed;
+  tracer.world().crossingsOf(body.object, ray, kInfinity, tracer.statistics(), [&](const Found& found) {
+    crossed.push_back({found.t, found.part});
+    return false;
+  });
+  std::sort(crossed.begin(), crossed.end(),
+            [](const At& a, const At& b) { return a.t != b.t ? a.t < b.t : a.part < b.part; });
+  crossed.erase(std::unique(crossed.begin(), crossed.end(),
+                            [](const At& a, const At& b) { return a.t == b.t && a.part == b.part; }),
+                crossed.end());
+  bool inside = crossed.size() % 2 == 1;
+  if (inside) borders.push_back({0, &body, true});
+  for (const At& at : crossed) {
+    if (at.t >= t) break;
+    inside = !inside;
+    borders.push_back({at.t, &body, inside});
+  }
+}
+
+Real mean(const Color& c) { return (c.r + c.g + c.b) / 3; }
+Color less(const Color& c) { return {std::exp(-c.r), std::exp(-c.g), std::exp(-c.b)}; }
+
+/// Walks along a ray from stretch to stretch.
+class Walk {
+ public:
+  Walk(Tracer& tracer, const Ray& ray, const Color& importance, bool wantsPlaces, Sampler& numbers)
+      : tracer_(tracer),
+        ray_(ray),
+        fog_(tracer.settings()),
+        importance_(importance),
+        wantsPlaces_(wantsPlaces),
+        numbers_(numbers) {}
+
+  void begin(const World::MediumBody* body) { active_.push_back(body); }
+  void end(const World::MediumBody* body) {
+    const auto found = std::find(active_.begin(), active_.end(), body);
+    if (found != active_.end()) active_.erase(found);
+  }
+  void go(Real from, Real to) {
+    if (active_.empty() || !(to > from) || isBlack(passes)) return;
+    const bool uniform = std::all_of(active_.begin(), active_.end(),
+                                     [](const World::MediumBody* body) { return body->model.uniform(); });
+    uniform ? byLaw(from, to) : byChance(from, to);
+  }
+  void add(Real t, const Color& weight, Real forward, std::uint32_t object) {
+    if (wantsPlaces_ && !isBlack(weight)) places.push_back({t, weight, forward, object});
+  }
+  /// In fog before the bodies.
+  bool foggy = false;
+
+  Color passes{1}, glows;
+  std::vector<MediumWay::Place> places;
+
+ private:
+  Real fogPasses(Real t) const { return foggy ? fog_.passes(ray_, t) : 1; }
+
+  Medium total(const Vec3* point) {
+    Medium sum;
+    Real all = 0;
+    for (const World::MediumBody* body : active_) {
+      const Medium m = point ? tracer_.world().mediumAt(*body, *point) : body->model.most();
+      sum.scatters += m.scatters;
+      sum.absorbs += m.absorbs;
+      sum.glows += m.glows;
+      // Of several that scatter one is chosen, to say which way.
+      const Real part = mean(m.scatters);
+      all += part;
+      if (part > 0 && (part == all || numbers_.next() * all < part)) {
+        sum.forward = m.forward;
+        object_ = body->object;
+      }
+    }
+    return sum;
+  }
+
+  void byLaw(Real from, Real to) {
+    const Medium medium = total(nullptr);
+    const Color loses = medium.loses();
+    const Real length = to - from;
+    const auto sent = [&](Real s) { return s > 0 ? -std::expm1(-s * length) / s : length; };
+    if (!foggy) glows += passes * medium.glows * Color(sent(loses.r), sent(loses.g), sent(loses.b));
+    const bool asks = wantsPlaces_ && !isBlack(medium.scatters);
+    if (asks || (foggy && !isBlack(medium.glows))) {
+      const Color counts = importance_ * passes;
+      const Real all = counts.r + counts.g + counts.b;
+      Real which = numbers_.next() * all;
+      const Real u = numbers_.next();
+      const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
+      const Real gone = -std::expm1(-of * length);
+      const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
+      const auto density = [&](Real s) {
+        return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
+      };
+      const Real chosen =
+          (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
+      const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / chosen);
+      if (foggy) glows += arrives * medium.glows;
+      if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_);
+    }
+    passes *= less(loses * length);
+  }
+
+  void byChance(Real from, Real to) {
+    constexpr Real kLeastSteps = 4;
+    Color most;
+    for (const World::MediumBody* body : active_) most += body->model.most().loses();
+    const Real rate = std::max(maxComponent(most), kLeastSteps / (to - from));
+    for (Real t = from;;) {
+      checkBudget();
+      t += -std::log1p(-numbers_.next()) / rate;
+      if (!(t < to)) return;
+      const Vec3 point = ray_.at(t);
+      const Medium medium = total(&point);
+      const Color loses = medium.loses();
+      if (isBlack(loses) && isBlack(medium.glows)) continue;
+      const Color arrives = passes * (fogPasses(t) / rate);
+      glows += arrives * medium.glows;
+      add(t, arrives * medium.scatters, medium.forward, object_);
+      passes *= Color(1) + loses * (-1 / rate);
+      // What hardly anything is left of ends by chance, or goes on for more.
+      constexpr Real kLittle = 0.05, kGoesOn = 0.5;
+      if (maxComponent(passes) < kLittle) {
+        if (!(numbers_.next() < kGoesOn)) passes = Color(0);
+        passes = passes / kGoesOn;
+      }
+      if (isBlack(passes)) return;
+    }
+  }
+
+  Tracer& tracer_;
+  const Ray& ray_;
+  Fog fog_;
+  Color importance_;
+  bool wantsPlaces_;
+  Sampler& numbers_;
+  std::vector<const World::MediumBody*> active_;
+  std::uint32_t object_ = Filling::kAir;
+};
+
+void follow(Walk& walk, std::vector<Border>& borders, Real t, const Color& ofFog, Real forwardOfFog) {
+  std::stable_sort(borders.begin(), borders.end(),
+                   [](const Border& a, const Border& b) { return a.t < b.t; });
+  Real from = 0;
+  for (const Border& border : borders) {
+    walk.go(from, border.t);
+    from = border.t;
+    if (!border.body)
+      walk.add(border.t, walk.passes * ofFog, forwardOfFog, Filling::kAir);
+    else
+      border.begins ? walk.begin(border.body) : walk.end(border.body);
+  }
+  walk.go(from, t);
+}
+
+/// So many of the places, each as often as it weighs.
+std::vector<MediumWay::Place> chosen(const std::vector<MediumWay::Place>& places, int count,
+                                     const Color& importance, Sampler& numbers) {
+  std::vector<MediumWay::Place> few;
+  Real all = 0;
+  for (const MediumWay::Place& place : places) all += mean(place.weight * importance);
+  if (!(all > 0)) return few;
+  const Real step = all / count;
+  Real sum = 0;
+  std::size_t next = 0;
+  for (int k = 0; k < count; ++k) {
+    const Real goal = (k + numbers.next()) * step;
+    while (next + 1 < places.size() && sum + mean(places[next].weight * importance) <= goal)
+      sum += mean(places[next++].weight * importance);
+    const Real own = mean(places[next].weight * importance);
+    if (!(own > 0)) continue;
+    few.push_back(places[next]);
+    few.back().weight = few.back().weight * (step / own);
+  }
+  return few;
+}
+
+}  // namespace
+
+MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside, int places,
+                       const Color& importance, Sampler numbers) {
+  MediumWay way;
+  const World& world = tracer.world();
+  const Settings& settings = tracer.settings();
+  const bool open = isInOpenAir(inside, world);
+  const std::uint32_t around = inside.around().object;
+  std::vector<Border> borders;
+  for (const World::MediumBody& body : world.media()) {
+    if (body.cloud ? !open : body.object != around) continue;
+    addBorders(borders, tracer, body, ray, t, !body.cloud);
+  }
+  const Fog fog(settings);
+  const bool foggy = open && !fog.none();
+  if (borders.empty() && !foggy) return way;
+  Walk walk(tracer, ray, importance, places > 0, numbers);
+  walk.foggy = foggy;
+  Color ofFog;
+  if (foggy && places > 0) {
+    const Real stays = -std::expm1(-fog.depth(ray, t));
+    const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * numbers.next())) : kInfinity;
+    if (isFinite(ray.at(at)) && at <= t) {
+      borders.push_back({at, nullptr, true});
+      ofFog = settings.fogColor * stays;
+    }
+  }
+  follow(walk, borders, t, ofFog, fog.forward());
+  way.passes = foggy ? walk.passes * fog.passes(ray, t) : walk.passes;
+  way.glows = walk.glows;
+  if (places > 0) way.places = chosen(walk.places, places, importance, numbers);
+  return way;
+}
+
+void coverWithMedia(Gather& sum, const MediumWay& way) {
+  if (!(way.passes == Color(1))) sum.dim(way.passes, {MediumTerm::What::covers, Filling::kAir, 0, 0});
+  if (!isBlack(way.glows))
+    sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows, Filling::kAir, 0, 0});
+}
+
+Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numbers, std::uint32_t* first) {
+  std::vector<Border> borders;
+  for (const World::MediumBody& body : tracer.world().media())
+    addBorders(borders, tracer, body, ray, distance, false);
+  if (borders.empty()) return Color(1);
+  if (first) *first = borders.front().body->object;
+  Walk walk(tracer, ray, Color(1), false, numbers);
+  follow(walk, borders, distance, {}, 0);
+  return walk.passes;
+}
+
+Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Real distance, Sampler numbers) {
+  if (tracer.world().media().empty() || isBlack(passed)) return passed;
+  std::uint32_t first = 0;
+  const Color passes = passedByBodies(tracer, toLight, distance, numbers, &first);
+  return passes == Color(1) ? passed : tracer.veiled(passed, passes, first, distance);
+}
+
+void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {
+  constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
+  const World& world = tracer.world();
+  const Fog fog(tracer.settings());
+  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    const auto number = static_cast<std::uint32_t>(i);
+    const Vec2 where = world.lightHasSize(i) ? numbers.branch(number).next2() : kCenter;
+    const auto arriving = world.illuminate(i, place.point, where);
+    // From beyond all numbers nothing comes.
+    if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) continue;
+    const Ray toLight{place.point, arriving->toLight};
+    const Real left = fog.left(toLight, arriving->distance);
+    // A light of colour 1 is one of irradiance pi.
+    const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
+    const Color factor = place.share * arriving->intensity() * (kPi * scattered * left);
+    if (isBlack(factor)) continue;
+    const Color passed = throughBodies(
+        tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
+        arriving->distance, numbers.branch(kBodies + number));
+    if (place.medium)
+      sum.add(factor, passed, *place.medium);
+    else
+      sum.add(Term::Kind::fog, factor, passed);
+  }
+}
+
+void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
+               const Sampler& numbers) {
+  constexpr std::uint32_t kLamp = 0x80000000u, kBodies = 0x80000001u;  // branches beside those of lights
+  if (lamps.empty()) return;
+  Sampler chances = numbers.branch(kLamp);
+  const Real which = chances.next();
+  const auto lamp = lamps.choose(place.point, which, chances.next2());
+  if (!lamp) return;
+  const Ray toLamp{place.point, lamp->toLight};
+  const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));
+  const Real scattered = phase(place.forward, dot(place.ray.direction, lamp->toLight));
+  Color factor = place.share * (scattered / lamp->density);
+  if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
+  if (!tracer.world().media().empty() && !isBlack(seen))
+    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(kBodies));
+  const Real other = met ? scattered : 0, square = lamp->density * lamp->density;
+  const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
+  sum.add(factor * chance.share, seen, *place.medium, chance);
+}
+
+void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+              const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
+  const MediumWay way = throughMedia(tracer, ray, t, inside, tracer.settings().fogSamples, Color(1), sampler);
+  coverWithMedia(sum, way);
+  std::uint32_t number = 0;
+  for (const MediumWay::Place& place : way.places) {
+    const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
+    if (!isBlack(ambient)) sum.add(place.weight, ambient, term);
+    const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
+    const Sampler numbers = sampler.branch(number++);
+    addLightsAt(sum, tracer, at, numbers);
+    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
+  }
+}
+
+}  // namespace trace

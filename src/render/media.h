@@ -1,0 +1,77 @@
+// What light meets between surfaces: fog in the air, and bodies that a medium fills. The light that is left
+// of what comes along a ray, what the media give off on the way, and the places where they scatter light to
+// it.
+//
+// Media that are the same everywhere are worked out by Beer's law. Where a density changes, the way is cut by
+// chance into steps as short as its greatest density asks, and each step takes its part (ratio tracking:
+// Novak, Selle and Jarosz, Residual Ratio Tracking, SIGGRAPH Asia 2014; delta tracking: Woodcock and others
+// 1965). Every step is also a place that might scatter; of all these some are chosen by what they weigh.
+// Where nothing is absorbed, that is what delta tracking chooses: weights of 1. Colours are chosen from
+// together, by what each would choose (Chiang and others, Practical and Controllable Subsurface Scattering,
+// SIGGRAPH 2016 talks), so no weight grows out of bounds.
+#pragma once
+
+#include <vector>
+
+#include "render/gather.h"
+#include "render/lamps.h"
+#include "render/sampler.h"
+
+namespace trace {
+
+/// Some medium may lie on a ray's way.
+inline bool isThick(const Tracer& tracer) {
+  return !tracer.world().media().empty() || tracer.settings().fog > 0;
+}
+
+/// The way of a ray through media.
+struct MediumWay {
+  Color passes{1};  ///< of what comes from its end
+  Color glows;      ///< what arrives of the light that they give off
+  /// Where light is scattered to the ray.
+  struct Place {
+    Real t;
+    Color weight;  ///< of the light there, from all sides
+    Real forward;
+    std::uint32_t object;  ///< whose medium it is; Filling::kAir for fog
+  };
+  std::vector<Place> places;
+};
+
+/// Of the ray up to t, which may be infinite, in `inside`. So many places are chosen; of light to lamps none
+/// are wanted. `importance` says how much each colour counts.
+MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside, int places,
+                       const Color& importance, Sampler numbers);
+
+/// Adds what `way` lets pass and gives off to the sum of what comes from its end.
+void coverWithMedia(Gather& sum, const MediumWay& way);
+
+/// Of `passed` of the light of the shadow ray asked last, what the bodies that media fill let through. Fog is
+/// known already.
+Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Real distance, Sampler numbers);
+/// The same of a ray to a place that shines; `first` becomes the first body on the way.
+Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numbers,
+                     std::uint32_t* first = nullptr);
+
+/// How light that is scattered at a point of the ray is asked for.
+struct ScatterPlace {
+  const Ray& ray;
+  Vec3 point;
+  Color share;  ///< of that light in the sum
+  Real forward;
+  const Interfaces& inside;
+  std::optional<MediumTerm> medium;  ///< none in fog alone
+};
+/// Adds the light of the scene's lights.
+void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
+/// Adds the light of one place on objects that shine. `met`: a ray that is scattered there may meet them,
+/// too.
+void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
+               const Sampler& numbers);
+
+/// Covers what has been summed with the media before it and adds the light that is scattered there once, of
+/// the lights and of what comes from everywhere: Whitted's equation.
+void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+              const Color& ambient, const Lamps* lamps, const Sampler& sampler);
+
+}  // namespace trace

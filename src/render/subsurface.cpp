@@ -1,0 +1,187 @@
+#include "render/subsurface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "shading/fresnel.h"
+#include "shading/optics.h"
+
+namespace trace {
+namespace {
+
+using PerColor = std::array<Real, 3>;
+PerColor channels(const Color& c) { return {c.r, c.g, c.b}; }
+Color color(const PerColor& c) { return {c[0], c[1], c[2]}; }
+
+/// The parts of all that each colour counts; equal where none counts.
+PerColor shares(const Color& counts) {
+  const Real all = counts.r + counts.g + counts.b;
+  return all > 0 ? channels(counts / all) : PerColor{1. / 3, 1. / 3, 1. / 3};
+}
+std::size_t chosen(const PerColor& shares, Real u) {
+  return u < shares[0] ? 0 : u < shares[0] + shares[1] ? 1 : 2;
+}
+
+/// Coefficients along a unit of the scene.
+PerColor perUnit(const Color& perMillimetre, const Subsurface& said) {
+  return channels(perMillimetre * said.millimetres);
+}
+
+/// What the tracer has met there, seen from outside.
+std::optional<Entrance> seen(Tracer& tracer, const Vec3& from, const Ray& foundOn, const Found& found,
+                             const Color& weight, const BodyTerm& how) {
+  const SurfacePoint place = tracer.world().surface(foundOn, found);
+  const Vec3 outward = place.normal;
+  // Recorded is the way from the one place to the other.
+  Hit hit = tracer.meet(foundOn, RayKind::refraction, found);
+  if (tracer.records()) tracer.drawFrom(from, place.point);
+  hit.leaving = false;
+  return Entrance{hit, {place.point + outward, -outward}, weight, how};
+}
+
+// --- profiles -----------------------------------------------------------------------------------------
+
+template <class Profile>
+std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profile, 3>& profiles,
+                                  const Color& importance, Sampler& numbers) {
+  Tracer& tracer = at.tracer;
+  const World& world = tracer.world();
+  const SurfacePoint& here = at.hit.surface;
+  PerColor counts = channels(importance);
+  for (std::size_t c = 0; c < 3; ++c) counts[c] *= profiles[c].albedo;
+  const PerColor share = shares(color(counts));
+
+  const Basis basis = Frame{here.normal}.basis();
+  const std::array<Vec3, 3> axes{basis.z, basis.x, basis.y};
+  constexpr std::array<Real, 3> kShareOfAxis{0.5, 0.25, 0.25};
+  const Real u = numbers.next();
+  const std::size_t axis = u < 0.5 ? 0 : u < 0.75 ? 1 : 2;
+  const Vec3 &along = axes[axis], &across = axes[(axis + 1) % 3], &aside = axes[(axis + 2) % 3];
+  const std::size_t channel = chosen(share, numbers.next());
+  const Vec2 place = numbers.next2();
+  const Real r = profiles[channel].distance(place.x), phi = 2 * kPi * place.y;
+  const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
+
+  // The line from one side of the body to the other; of one without end, as far as light gets.
+  const Box3& box = world.boundsOf(at.hit.object);
+  Real half = 0;
+  if (box.empty()) {
+    for (const Profile& profile : profiles) half = std::max(half, profile.distance(1 - 1e-6));
+  } else {
+    half = length(box.size()) + length(middle - box.center());
+  }
+  const Ray probe{middle - along * half, along};
+  std::vector<Found> met;
+  world.crossingsOf(at.hit.object, probe, 2 * half, tracer.statistics(), [&](const Found& found) {
+    met.push_back(found);
+    return false;
+  });
+  if (met.empty()) return {};
+  std::sort(met.begin(), met.end(), [](const Found& a, const Found& b) { return a.before(b); });
+  met.erase(std::unique(met.begin(), met.end(),
+                        [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); }),
+            met.end());
+  const auto count = static_cast<Real>(met.size());
+  const Found& found = met[static_cast<std::size_t>(numbers.next() * count)];
+  const SurfacePoint there = world.surface(probe, found);
+
+  const Vec3 away = there.point - here.point;
+  const Real distance = length(away);
+  Real density = 0;  // of the place, per area, by all axes and colours
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Vec3 flat = away - axes[a] * dot(away, axes[a]);
+    const Real facing = std::abs(dot(there.normal, axes[a])), from = length(flat);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (share[c] > 0)
+        density += kShareOfAxis[a] * share[c] * facing * profiles[c].profile(from) / profiles[c].albedo;
+  }
+  if (!(density > 0)) return {};
+  PerColor weight;
+  for (std::size_t c = 0; c < 3; ++c) weight[c] = profiles[c].profile(distance) * count / density;
+  const Color all = color(weight);
+  if (isBlack(all) || !isFinite(all)) return {};
+  return seen(tracer, here.point, probe, found, all, {distance, 0});
+}
+
+// --- the walk -----------------------------------------------------------------------------------------
+
+std::optional<Entrance> byWalk(const Interaction& at, const Subsurface& said, const Color& importance,
+                               Sampler& numbers) {
+  constexpr int kMostSteps = 100000, kSurely = 16;
+  Tracer& tracer = at.tracer;
+  const World& world = tracer.world();
+  const Vec3 outward = at.hit.surface.normal;
+  const PerColor scatters = perUnit(said.scatters, said), absorbs = perUnit(said.absorbs, said);
+  PerColor loses;
+  for (std::size_t c = 0; c < 3; ++c) loses[c] = scatters[c] + absorbs[c];
+
+  const auto inward = refracted(at.ray.direction, at.normal, 1 / said.index);
+  if (!inward || !(dot(*inward, outward) < 0)) return {};
+  Ray ray = spawnRay(at.hit.surface, *inward);
+  Color weight(1);
+  for (int steps = 0; steps < kMostSteps; ++steps) {
+    std::optional<Found> wall;
+    world.crossingsOf(at.hit.object, ray, kInfinity, tracer.statistics(), [&](const Found& found) {
+      if (!wall || found.before(*wall)) wall = found;
+      return false;
+    });
+    if (!wall) return {};  // the body is open there
+    const PerColor share = shares(importance * weight);
+    const std::size_t channel = chosen(share, numbers.next());
+    const Real s = -std::log1p(-numbers.next()) / loses[channel], t = std::min(s, wall->t);
+    PerColor passes;
+    Real all = 0;
+    const bool scattered = s < wall->t;
+    for (std::size_t c = 0; c < 3; ++c) {
+      passes[c] = std::exp(-loses[c] * t);
+      all += share[c] * passes[c] * (scattered ? loses[c] : 1);
+    }
+    if (!(all > 0)) return {};
+    weight = weight * color(passes) * (scattered ? color(scatters) : Color(1)) / all;
+    if (scattered) {
+      if (steps > kSurely) {
+        const Real goes = std::min(1.0, maxComponent(importance * weight) / maxComponent(importance));
+        if (!(numbers.next() < goes)) return {};
+        weight = weight / goes;
+      }
+      const Vec2 u = numbers.next2();
+      ray = {ray.at(s), sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y)};
+      continue;
+    }
+    const SurfacePoint place = world.surface(ray, *wall);
+    const Real cosine = std::abs(dot(ray.direction, place.normal));
+    if (!(numbers.next() < fresnelDielectric(cosine, said.index, 1)))
+      return seen(tracer, at.hit.surface.point, ray, *wall, weight,
+                  {length(place.point - at.hit.surface.point), steps});
+    ray = spawnRay(place, mirrored(ray.direction, place.normal));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
+                                 Sampler numbers) {
+  const Subsurface& said = body.said;
+  const Color out = body.passes(at.cosine);
+  std::optional<Entrance> found;
+  if (said.spreading == Spreading::walk) {
+    found = byWalk(at, said, importance, numbers);
+  } else {
+    const PerColor scatters = perUnit(said.scatters, said), absorbs = perUnit(said.absorbs, said);
+    std::array<Dipole, 3> dipoles;
+    std::array<NormalizedDiffusion, 3> others;
+    for (std::size_t c = 0; c < 3; ++c) {
+      dipoles[c] = {scatters[c], absorbs[c], said.index};
+      others[c] = {scatters[c], absorbs[c], dipoles[c].albedo};
+    }
+    found = said.spreading == Spreading::dipole ? byProfile(at, dipoles, importance, numbers)
+                                                : byProfile(at, others, importance, numbers);
+  }
+  if (found) found->weight *= out;
+  return found;
+}
+
+}  // namespace trace

@@ -1,0 +1,32 @@
+// Where light that comes out of a body went in: marble, milk, skin (shading/materials/subsurface.h).
+//
+// Profiles are looked up by probes: a line through the body, along the normal or one of two tangents, at a
+// distance that the profile chooses; one of the places where it crosses the surface is taken, and weighed by
+// all ways to come upon it (King, Kulla, Conty and Fajardo, BSSRDF Importance Sampling, SIGGRAPH 2013 talks;
+// pbrt, 3rd ed., section 15.4). The line has no end, so nothing is lost at the brim of a disk.
+//
+// A walk goes step by step, as light does, from where the eye's ray is refracted into the body until the
+// surface lets it out (Chiang, Kutz and Burley, Practical and Controllable Subsurface Scattering, SIGGRAPH
+// 2016 talks). By similarity light is scattered evenly, as often as the reduced coefficient says.
+#pragma once
+
+#include <optional>
+
+#include "render/interaction.h"
+
+namespace trace {
+
+/// Where light goes in.
+struct Entrance {
+  Hit hit;       ///< seen from outside
+  Ray ray;       ///< on which it is so seen
+  Color weight;  ///< of the light there in that which comes out and goes to the eye
+  BodyTerm how;
+};
+
+/// Of the light that goes to the eye of `at`, whose body that is. `importance` says how much each colour
+/// counts. Nothing where no way was found. The place is the one that the Tracer has met last.
+std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
+                                 Sampler numbers);
+
+}  // namespace trace

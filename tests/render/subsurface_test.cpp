@@ -1,0 +1,182 @@
+// Bodies in which light spreads: three ways against one another and against closed forms.
+#include "render/subsurface.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/shapes/cube.h"
+#include "geometry/shapes/sphere.h"
+#include "render/explain.h"
+#include "support/half_space.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+constexpr std::array kWays{Spreading::dipole, Spreading::diffusion, Spreading::walk};
+
+Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
+
+Settings small(IntegratorKind integrator, int spp) {
+  Settings settings;
+  settings.width = settings.height = 4;
+  settings.integrator = integrator;
+  settings.sampling = SampleKind::sobol;
+  settings.spp = spp;
+  return settings;
+}
+Color mean(const Scene& scene, const Settings& settings) {
+  Color sum;
+  const Picture all = picture(scene, settings);
+  for (const Color& c : all.pixels) sum += c;
+  return sum / static_cast<Real>(all.pixels.size());
+}
+void add(Scene& scene, const Shape& shape, const Affine& place, const Subsurface& model) {
+  scene.materials.push_back({"", model, {}});
+  scene.objects.push_back({"", shape, place, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
+}
+/// A camera that looks at a thick flat body, straight down or aslant.
+Scene overSlab(const Subsurface& model, const Vec3& from = {0, 0, 10}) {
+  Scene scene;
+  scene.camera.position = from, scene.camera.viewdir = -from, scene.camera.fov = 1e-4;
+  scene.camera.updir = {0, 1, 0};
+  add(scene, Cube{}, Affine::translation({0, 0, -500}) * scaled(1000), model);
+  return scene;
+}
+Subsurface matched(Real albedo, Spreading spreading) {
+  Subsurface model;
+  model.scatters = Color(albedo), model.absorbs = Color(1 - albedo);
+  model.millimetres = 1, model.index = 1, model.roughness = 0;
+  model.spreading = spreading;
+  return model;
+}
+
+TEST(Subsurface, TheWalkInAHalfSpaceIsChandrasekhars) {
+  for (const Real albedo : {0.5, 0.9, 0.98}) {
+    const HalfSpace half(albedo);
+    for (const Real cosine : {1.0, 0.5}) {
+      Scene scene =
+          overSlab(matched(albedo, Spreading::walk), Vec3{std::sqrt(1 - cosine * cosine), 0, cosine} * 10);
+      scene.background.gradient = {Color(1), Color(1)};
+      const Real mirrored = schlickWeight(cosine);  // what its surface mirrors, though its index is 1
+      const Real expected = mirrored + (1 - mirrored) * half.reflects(cosine);
+      EXPECT_NEAR(mean(scene, small(IntegratorKind::path, 400)).g / expected, 1, 0.02)
+          << albedo << " " << cosine;
+    }
+  }
+}
+
+TEST(Subsurface, ProfilesGiveBackTheAlbedoOfTheirSurface) {
+  for (const Real albedo : {0.6, 0.9, 0.99})
+    for (const Real index : {1.0, 1.5}) {
+      const Dipole dipole(albedo, 1 - albedo, index);
+      for (const Spreading spreading : {Spreading::dipole, Spreading::diffusion}) {
+        Subsurface model = matched(albedo, spreading);
+        model.index = index;
+        Scene scene = overSlab(model);
+        scene.background.gradient = {Color(1), Color(1)};
+        const Real mirrored = mirroredAlongNormal(index);
+        EXPECT_NEAR(mean(scene, small(IntegratorKind::path, 400)).g,
+                    mirrored + (1 - mirrored) * dipole.albedo, 0.02)
+            << albedo << " " << index;
+      }
+    }
+}
+
+/// Diffusion is an approximation: the better, the less is swallowed (Jensen and others 2001, section 2.4).
+TEST(Subsurface, TheThreeAgreeWhereLittleIsSwallowed) {
+  for (const Real index : {1.0, 1.3, 1.5}) {
+    std::vector<Real> found;
+    for (const Spreading spreading : kWays) {
+      Subsurface model = matched(0.995, spreading);
+      model.index = index;
+      Scene scene = overSlab(model);
+      scene.background.gradient = {Color(1), Color(1)};
+      found.push_back(mean(scene, small(IntegratorKind::path, 400)).g);
+    }
+    EXPECT_NEAR(found[0] / found[2], 1, 0.06) << index;
+    EXPECT_NEAR(found[1] / found[2], 1, 0.06) << index;
+  }
+}
+
+TEST(Subsurface, WhatSwallowsNothingVanishesInAnEvenSky) {
+  for (const Spreading spreading : kWays) {
+    Subsurface model;
+    model.scatters = {3, 5, 8}, model.absorbs = Color(0);
+    model.millimetres = 1, model.spreading = spreading;
+    Scene scene;
+    // To profiles a body that curves is flat: a large one nearly is.
+    const Real radius = spreading == Spreading::walk ? 3 : 60;
+    scene.camera.position = {0, 0, 5 * radius}, scene.camera.viewdir = {0, 0, -1}, scene.camera.fov = 15;
+    scene.background.gradient = {Color(1), Color(1)};
+    add(scene, Sphere{}, scaled(radius), model);
+    Settings settings = small(IntegratorKind::path, 256);
+    settings.depth = 100;
+    const Color seen = mean(scene, settings);
+    EXPECT_NEAR((seen.r + seen.g + seen.b) / 3, 1, spreading == Spreading::walk ? 0.002 : 0.03)
+        << static_cast<int>(spreading);
+    EXPECT_NEAR(seen.r, 1, 0.06) << static_cast<int>(spreading);
+    EXPECT_NEAR(seen.b, 1, 0.06) << static_cast<int>(spreading);
+  }
+}
+
+TEST(Subsurface, WhittedAndThePathTracerGiveTheSameLightOfALamp) {
+  for (const Spreading spreading : kWays) {
+    Subsurface model = matched(0.95, spreading);
+    model.index = 1.4, model.roughness = 0.3;
+    Scene scene = overSlab(model);
+    scene.lights.push_back({DirectionalLight{.direction = {0.6, 0, -0.8}, .color = Color(1)}, {}});
+    Settings whitted = small(IntegratorKind::whitted, 256), path = small(IntegratorKind::path, 1024);
+    whitted.depth = path.depth = 0;
+    const Real a = mean(scene, whitted).g, b = mean(scene, path).g;
+    EXPECT_GT(a, 0.2);
+    EXPECT_NEAR(a / b, 1, 0.03) << static_cast<int>(spreading);
+  }
+}
+
+TEST(Subsurface, LightComesOutBesideWhereItGoesIn) {
+  for (const Spreading spreading : kWays) {
+    Subsurface model = matched(0.99, spreading);
+    Scene scene = overSlab(model, {0, 0.1, 10});
+    // A spot of light on one side of an edge, which the camera looks at from the dark side.
+    Phong black;
+    addObject(scene, Cube{}, Affine::translation({-5, 0, 2}) * Affine::scaling({10, 20, 0.1}), black);
+    scene.camera.position = {-0.5, 0, 1.5}, scene.camera.viewdir = {0, 0, -1};
+    scene.lights.push_back({DirectionalLight{.direction = {0, 0, -1}, .color = Color(1)}, {}});
+    const Real near = mean(scene, small(IntegratorKind::path, 400)).g;
+    scene.camera.position = {-6, 0, 1.5};
+    const Real far = mean(scene, small(IntegratorKind::path, 400)).g;
+    EXPECT_GT(near, 0.05) << static_cast<int>(spreading);
+    EXPECT_LT(far, near / 3) << static_cast<int>(spreading);
+  }
+}
+
+TEST(Subsurface, IsTheSameForAnyThreadsAndAsExplained) {
+  for (const Spreading spreading : kWays)
+    for (const IntegratorKind integrator : {IntegratorKind::whitted, IntegratorKind::path}) {
+      Subsurface model = matched(0.95, spreading);
+      model.index = 1.4, model.roughness = 0.3;
+      Scene scene;
+      scene.camera.position = {0, 0, 12}, scene.camera.viewdir = {0, 0, -1}, scene.camera.fov = 20;
+      scene.background.gradient = {Color(0.1), Color(0.4)};
+      add(scene, Sphere{}, scaled(3), model);
+      scene.lights.push_back({DirectionalLight{.direction = {0.6, 0, -0.8}, .color = Color(1)}, {}});
+      Settings settings = small(integrator, 2);
+      settings.width = settings.height = 20;
+      settings.threads = 1;
+      const Picture one = picture(scene, settings);
+      for (const int threads : {2, 7}) {
+        settings.threads = threads;
+        EXPECT_EQ(picture(scene, settings).pixels, one.pixels) << threads;
+      }
+      const World world = build(scene, settings);
+      for (const int x : {7, 10, 13}) {
+        const Explanation e = explain(world, *integratorOf(world, settings), settings,
+                                      pictureSize(settings, scene.camera), x, 9, 1);
+        EXPECT_TRUE(sumsUp(e.tree)) << x;
+        EXPECT_EQ(e.pixel, one.at(x, 9)) << x;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace trace::test
