@@ -129,19 +129,21 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
          "--lamp-samples 4 lets them; --integrator path follows their light further");
 
   if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
-    warn("--photon-passes " + std::to_string(s.photonPasses) + ": each sample of a pixel takes one map, and --spp gives " +
-             std::to_string(samplesOf(s)),
+    warn("--photon-passes " + std::to_string(s.photonPasses) +
+             ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
          "choose --spp at least as large: the other maps are made in vain");
-  if (s.integrator == IntegratorKind::bdpt && !s.strategyWeights && s.lightVertices < 0 && s.cameraVertices < 0)
-    warn("--strategy-weights off: all light counts as often as there are ways to find it",
+  if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
+    warn("--unweighted: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");
 
   if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && !world.media().empty())
-    warn("--integrator " + integrator + " sees the media that fill bodies, but light from its other end passes them undimmed",
+    warn("--integrator " + integrator +
+             " sees the media that fill bodies, but light from its other end passes them undimmed",
          "--integrator path follows light through them");
 
-  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
-                     s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
+  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
+                     s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
+                     s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +

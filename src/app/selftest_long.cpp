@@ -30,14 +30,17 @@ translate(1, 1, 0, rotate(0, 1, 0, -1.5707963267948966, scale(2, 2, 1, square { 
 translate(-0.5, 1, 0.2, rotate(0, 1, 0, 1.3, scale(0.05, 1.99, 1.2, box { material = "white"; })))
 translate(-0.75, 1.9, -0.6, rotate(1, 0, 0, 1.5707963267948966, scale(0.4, 0.4, 1, square { material = { emissive = (60, 60, 60); diffuse = (0.5, 0.5, 0.5); } })))
 )"
-                 : R"(
+               : R"(
 translate(0, 1.99, 0, rotate(1, 0, 0, 1.5707963267948966, scale(0.7, 0.7, 1, square { material = { emissive = (8, 8, 8); diffuse = (0.5, 0.5, 0.5); } })))
 translate(-0.4, 0.45, -0.4, rotate(0, 1, 0, 0.3, scale(0.5, 0.9, 0.5, box { material = "white"; })))
 )";
   if (room == Room::diffuse)
-    text += "translate(0.4, 0.3, 0.3, rotate(0, 1, 0, -0.3, scale(0.5, 0.6, 0.5, box { material = \"white\"; })))\n";
+    text +=
+        "translate(0.4, 0.3, 0.3, rotate(0, 1, 0, -0.3, scale(0.5, 0.6, 0.5, box { material = \"white\"; "
+        "})))\n";
   else if (room == Room::mirror)
-    text += "translate(0.4, 0.36, 0.3, scale(0.35, sphere { material = { reflective = (0.9, 0.9, 0.9); } }))\n";
+    text +=
+        "translate(0.4, 0.36, 0.3, scale(0.35, sphere { material = { reflective = (0.9, 0.9, 0.9); } }))\n";
   else if (room == Room::glass)
     text +=
         "translate(0.4, 0.36, 0.3, scale(0.35, sphere { material = { transmissive = (1, 1, 1); reflective = "
@@ -62,17 +65,14 @@ std::vector<Choice> choices(std::initializer_list<std::pair<const char*, const c
   return list;
 }
 
-const std::vector<Choice> kPath = choices({{"integrator", "path"}, {"spp", "96"}}),
-                          kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}}),
-                          kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}}),
-                          kMltBdpt = choices({{"integrator", "mlt"},
-                                              {"chains", "bdpt"},
-                                              {"spp", "192"},
-                                              {"chain-starts", "400000"}}),
-                          kPhoton = choices({{"integrator", "photon"},
-                                             {"photons", "200000"},
-                                             {"photon-passes", "8"},
-                                             {"spp", "16"}});
+const std::vector<Choice>
+    kPath = choices({{"integrator", "path"}, {"spp", "96"}}),
+    kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}}),
+    kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}}),
+    kMltBdpt =
+        choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}}),
+    kPhoton =
+        choices({{"integrator", "photon"}, {"photons", "200000"}, {"photon-passes", "8"}, {"spp", "16"}});
 constexpr int kSeeds = 8;
 
 /// The p-value of all tiles' p-values together.
@@ -101,13 +101,13 @@ constexpr double kMiddle = 0.505, kAround = 0.495;
 constexpr double kErrors = 2.8;
 
 constexpr std::array kTable{
-    SelfCheck{"bdpt and path: a room", kWelch, kMiddle, kAround,
-              [] { return alike(Room::diffuse, kBdpt); }},
+    SelfCheck{"bdpt and path: a room", kWelch, kMiddle, kAround, [] { return alike(Room::diffuse, kBdpt); }},
     SelfCheck{"bdpt and path: with a mirror", kWelch, kMiddle, kAround,
               [] { return alike(Room::mirror, kBdpt); }},
     SelfCheck{"bdpt and path: with a ball of glass", kWelch, kMiddle, kAround,
               [] { return alike(Room::glass, kBdpt); }},
-    SelfCheck{"bdpt and path: a door ajar", kWelch, kMiddle, kAround, [] { return alike(Room::door, kBdpt); }},
+    SelfCheck{"bdpt and path: a door ajar", kWelch, kMiddle, kAround,
+              [] { return alike(Room::door, kBdpt); }},
     SelfCheck{"mlt and path: a room", kMeans, 0, kErrors, [] { return brighter(Room::diffuse, kMlt); }},
     SelfCheck{"mlt and path: with a mirror", kMeans, 0, kErrors, [] { return brighter(Room::mirror, kMlt); }},
     SelfCheck{"mlt and path: with a ball of glass", kMeans, 0, kErrors,

@@ -153,9 +153,9 @@ class TreeText {
           words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
       }
       if (term.connection)
-        words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) + " from the light, t = " +
-                 std::to_string(term.connection->camera) + " from the camera: counts " +
-                 text(term.connection->share);
+        words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
+                 " from the light, t = " + std::to_string(term.connection->camera) +
+                 " from the camera: counts " + text(term.connection->share);
       if (term.medium) words += "\n" + margin_ + "    " + medium(term);
       if (term.body)
         words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
@@ -275,8 +275,9 @@ std::string explainText(const PixelFacts& facts, bool color) {
         "corner\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
-    text += "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
-            "see --camera-vertices 1\n";
+    text +=
+        "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
+        "see --camera-vertices 1\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"

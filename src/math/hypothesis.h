@@ -14,7 +14,8 @@ struct Moments {
 };
 Moments momentsOf(std::span<const double> values);
 
-/// Whether two kinds of values have the same mean, whatever their variances (Welch 1947): both ways off count.
+/// Whether two kinds of values have the same mean, whatever their variances (Welch 1947): both ways off
+/// count.
 double welch(const Moments& a, const Moments& b);
 
 /// Whether values are spread evenly from 0 to 1 (Kolmogorov 1933, Smirnov 1948; for few of them as in

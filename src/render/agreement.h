@@ -1,5 +1,5 @@
-// Do two integrators show the same picture? Each makes several by other seeds; of every tile the two means are
-// compared by Welch's test, and the p-values of all tiles have to be spread evenly.
+// Do two integrators show the same picture? Each makes several by other seeds; of every tile the two means
+// are compared by Welch's test, and the p-values of all tiles have to be spread evenly.
 #pragma once
 
 #include <vector>

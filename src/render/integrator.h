@@ -29,7 +29,7 @@ struct CameraRay {
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
   const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
   Real ink = 0;                                  ///< how much of the sample is an outline, which is black
-  std::vector<Thrown>* thrown = nullptr;  ///< takes what lands elsewhere; null where nobody wants that
+  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null where nobody wants that
 };
 
 /// There is one for a render; it never changes once it is prepared.

@@ -15,9 +15,13 @@ namespace {
 constexpr std::uint32_t kChoice = 0, kPlace = 1, kDirection = 2, kHole = 3;
 
 template <class L>
-constexpr bool kIsPoint = requires(const L& l) { l.position, l.radius; };
+constexpr bool kIsPoint = requires(const L& l) {
+  l.position, l.radius;
+};
 template <class L>
-constexpr bool kIsPanel = requires(const L& l) { l.twoSided; };
+constexpr bool kIsPanel = requires(const L& l) {
+  l.twoSided;
+};
 
 Real solidAngle(Real cosine) { return 2 * kPi * (1 - cosine); }
 
@@ -61,7 +65,8 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
         if (sine2 < 1 && !(l.radius > 0)) source.cosine = std::sqrt(1 - sine2);
         if constexpr (requires { l.angle; }) {
           const Real cosine = std::cos(l.angle * kPi / 180);
-          if (cosine > source.cosine && !(l.radius > 0)) source.cosine = cosine, source.axis = normalize(l.direction);
+          if (cosine > source.cosine && !(l.radius > 0))
+            source.cosine = cosine, source.axis = normalize(l.direction);
         }
       }
     });
@@ -210,7 +215,8 @@ std::optional<LightStarts::Start> LightStarts::fromLamp(Tracer& tracer, Real whi
   follow(tracer, start, sampler);
   if (!start.hit) return start;
   const Real pdf = density * local.z / kPi;
-  start.asked = lamps_->density(start.hit->surface.point, place) * local.z / (start.hit->t * start.hit->t * pdf);
+  start.asked =
+      lamps_->density(start.hit->surface.point, place) * local.z / (start.hit->t * start.hit->t * pdf);
   start.met = local.z / pdf;
   return start;
 }
@@ -237,17 +243,19 @@ Real LightStarts::overAsked(const World& world, std::size_t light, const Illumin
   const auto ball = ballOf(world.lights()[light]);
   const Real away2 = arriving.distance * arriving.distance;
   return source.share * match(world.lights()[light], [&](const auto& l) -> Real {
-    using Kind = std::remove_cvref_t<decltype(l)>;
-    if constexpr (kIsPanel<Kind>) {
-      const Real facing = std::abs(dot(arriving.toLight, normalize(cross(l.u, l.v))));
-      return facing / (kPi * away2) * (l.twoSided ? 0.5 : 1);
-    } else if constexpr (kIsPoint<Kind>) {
-      if (ball) return ball->angleFrom(at) / (ball->area() * kPi);
-      return dot(-arriving.toLight, source.axis) >= source.cosine ? 1 / (solidAngle(source.cosine) * away2) : 0;
-    } else {
-      return diskDensity();
-    }
-  });
+           using Kind = std::remove_cvref_t<decltype(l)>;
+           if constexpr (kIsPanel<Kind>) {
+             const Real facing = std::abs(dot(arriving.toLight, normalize(cross(l.u, l.v))));
+             return facing / (kPi * away2) * (l.twoSided ? 0.5 : 1);
+           } else if constexpr (kIsPoint<Kind>) {
+             if (ball) return ball->angleFrom(at) / (ball->area() * kPi);
+             return dot(-arriving.toLight, source.axis) >= source.cosine
+                        ? 1 / (solidAngle(source.cosine) * away2)
+                        : 0;
+           } else {
+             return diskDensity();
+           }
+         });
 }
 
 Real LightStarts::overAsked(const Lamps::Place& place) const {

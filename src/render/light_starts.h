@@ -1,6 +1,6 @@
-// Where paths from lights start: at a light of the scene, at a lamp (an object that shines), or far away where
-// the sky is; and how likely each start was, which weighs paths against those that reach the same place from
-// the other end (Veach 1997, section 10.2; Pharr, Jakob and Humphreys 2023, section 12.1.2).
+// Where paths from lights start: at a light of the scene, at a lamp (an object that shines), or far away
+// where the sky is; and how likely each start was, which weighs paths against those that reach the same place
+// from the other end (Veach 1997, section 10.2; Pharr, Jakob and Humphreys 2023, section 12.1.2).
 //
 // Whitted's lights keep their own rules: the light that arrives at the first surface is what the light says
 // arrives there, whatever its law of distance. Lights with an extra highlight start no paths.
@@ -50,8 +50,8 @@ class LightStarts {
  private:
   /// Of a light of the world, how its starts are spread.
   struct Source {
-    Real share = 0;      ///< of all starts
-    Vec3 axis;           ///< of a point: directions lie in a cone
+    Real share = 0;  ///< of all starts
+    Vec3 axis;       ///< of a point: directions lie in a cone
     Real cosine = -1;
   };
   std::optional<Start> fromLight(Tracer& tracer, std::size_t light, const Sampler& sampler) const;

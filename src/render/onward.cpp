@@ -70,12 +70,8 @@ std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLi
     const Color light = fromLight ? scatteredOn(at_, to, from, lit) : scattered(at_, from, to);
     if (isBlack(light)) return {};
     const bool inward = dot(to, at_.normal) < 0;
-    return Ray{RayKind::bounce,
-               to,
-               light / (drawn->density * toLobe_),
-               drawn->density,
-               1,
-               inward && at_.transmits ? at_.behind() : at_.inside};
+    return Ray{RayKind::bounce, to, light / (drawn->density * toLobe_),
+               drawn->density,  1,  inward && at_.transmits ? at_.behind() : at_.inside};
   }
   // Light loses or gains by the angle between the two normals what paths from the camera do not.
   const auto narrowed = [&](const Vec3& to) {

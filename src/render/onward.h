@@ -26,11 +26,11 @@ class Onward {
 
   /// A ray that goes on.
   struct Ray {
-    RayKind kind;        ///< bounce, reflection or refraction
+    RayKind kind;  ///< bounce, reflection or refraction
     Vec3 direction;
-    Color weight;        ///< over the chance of the choice
-    Real density = 0;    ///< of a direction in the lobe, per solid angle; 0: there was one only
-    Real ratio = 1;      ///< of the indices before and behind
+    Color weight;      ///< over the chance of the choice
+    Real density = 0;  ///< of a direction in the lobe, per solid angle; 0: there was one only
+    Real ratio = 1;    ///< of the indices before and behind
     Interfaces there;
   };
   /// Of a path from the camera, or of one `fromLight`, which carries light itself; `lit`: light that

@@ -284,7 +284,8 @@ class Emitter {
         const auto refracted = at.through(*share);
         if (!refracted) return;
         gathered = gathered || !at.straight;
-        // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
+        // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do
+        // photons.
         const Real ratio = at.ratio(*share);
         power *= through * (ratio * ratio * all / passes);
         there = at.behind();

@@ -18,7 +18,8 @@ namespace trace {
 /// `pass` is the number of one of several maps of other photons: in later ones fewer of them, nearer to a
 /// place, count, so that the mean of many is without the blur of one (Knaus and Zwicker, Progressive Photon
 /// Mapping: A Probabilistic Approach, 2011).
-PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job, int pass = 0);
+PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
+                     int pass = 0);
 
 /// The same with Settings::causticTexels, for places that have a map; photons tell of the others.
 struct GatheredCaustics {

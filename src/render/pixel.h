@@ -121,9 +121,7 @@ class PixelTracer {
     thrown_.clear();
     const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
     for (const Thrown& t : thrown_)
-      rules_.spread(t.place, [&](int x, int y, Real share) {
-        splats_->push_back({x, y, t.color * share});
-      });
+      rules_.spread(t.place, [&](int x, int y, Real share) { splats_->push_back({x, y, t.color * share}); });
     return radiance;
   }
 

@@ -152,7 +152,7 @@ class TileRenderer {
   const Film& film_;
   const Metropolis* chains_;
   std::optional<PixelTracer> chainTracer_;
-  bool throws_ = false;  ///< samples bring light to other pixels, too
+  bool throws_ = false;         ///< samples bring light to other pixels, too
   std::vector<BadSample> bad_;  ///< the first
   std::uint64_t badCount_ = 0;
 };

@@ -454,8 +454,10 @@ const std::array kTable{
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
                  "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by chains that "
-                 "look around where light was found; photon is path with one bounce, and photons tell what light it meets; occlusion "
+                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by "
+                 "chains that "
+                 "look around where light was found; photon is path with one bounce, and photons tell what "
+                 "light it meets; occlusion "
                  "shows how open places are, normals where surfaces face, cost how much work whitted has",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
@@ -503,19 +505,21 @@ const std::array kTable{
          .most = 1000,
          .integrators = "bdpt",
          .extra = true}),
-    row<&Settings::strategyWeights>(
-        {.name = "strategy-weights",
+    row<&Settings::unweighted>(
+        {.name = "unweighted",
          .group = "Tracing",
-         .help = "paths count by how well they were chosen; off shows what each way finds by itself, to look "
-                 "at with --light-vertices",
+         .help =
+             "a way to put paths together shows all that it finds by itself, and not what it counts beside "
+             "the others: to look at with --light-vertices",
          .source = "Veach 1997, chapter 9; docs/bidirectional.md",
          .integrators = "bdpt",
          .extra = true}),
     row<&Settings::chains>(
         {.name = "chains",
          .group = "Tracing",
-         .help = "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
-                 "its places",
+         .help =
+             "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
+             "its places",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; docs/metropolis.md",
          .integrators = "mlt",
          .extra = true}),

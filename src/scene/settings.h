@@ -105,7 +105,7 @@ struct Settings {
   Real threshold = 0;
   Real fireflyLimit = 0;
   int lightVertices = -1, cameraVertices = -1;
-  bool strategyWeights = true;
+  bool unweighted = false;
   Chains chains = Chains::path;
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;

@@ -1,5 +1,5 @@
-// Integrators against one another, tile by tile: rooms with an open lamp, a mirror, glass, and a lamp behind a
-// door. `ray selftest` does the same with more.
+// Integrators against one another, tile by tile: rooms with an open lamp, a mirror, glass, and a lamp behind
+// a door. `ray selftest` does the same with more.
 #include "render/agreement.h"
 
 #include <gtest/gtest.h>
@@ -54,9 +54,10 @@ std::vector<Case> cases() {
   addObject(all[0].scene, Cube{}, ball * turned({0, 1, 0}, 0.1), diffuse(Color(0.6)));
   addObject(all[1].scene, Sphere{}, ball, mirror);
   addObject(all[2].scene, Sphere{}, ball, glass);
-  addObject(all[3].scene, Cube{},
-            Affine::translation({-0.5, 0, 0.1}) * turned({0, 1, 0}, 0.42) * Affine::scaling({0.05, 1.98, 1.3}),
-            diffuse(Color(0.6)));
+  addObject(
+      all[3].scene, Cube{},
+      Affine::translation({-0.5, 0, 0.1}) * turned({0, 1, 0}, 0.42) * Affine::scaling({0.05, 1.98, 1.3}),
+      diffuse(Color(0.6)));
   addLamp(all[3].scene, {-0.75, 0.8, -0.5}, 0.4, 40);
   return all;
 }
@@ -76,8 +77,8 @@ Settings settingsOf(IntegratorKind integrator, int spp, Chains chains = Chains::
 
 TEST(Agreement, BidirectionalPathsShowWhatPathsShowInEveryTile) {
   for (const Case& c : cases()) {
-    const Agreement a = agreement(c.scene, settingsOf(IntegratorKind::path, 64),
-                                  settingsOf(IntegratorKind::bdpt, 24), 8, 4);
+    const Agreement a =
+        agreement(c.scene, settingsOf(IntegratorKind::path, 64), settingsOf(IntegratorKind::bdpt, 24), 8, 4);
     EXPECT_EQ(a.p.size(), 16u);
     EXPECT_GT(a.uniform, 0.01) << c.name << " " << a.meanA << " " << a.meanB;
     EXPECT_NEAR(a.meanA, a.meanB, 3.5 * a.error) << c.name;

@@ -79,12 +79,12 @@ void expectTheSameByAllWays(const Scene& scene, const Settings& settings, int pl
   Moments first;
   for (int s = from; s <= to; ++s) {
     Settings one = settings;
-    one.lightVertices = s, one.cameraVertices = places - s, one.strategyWeights = false;
+    one.lightVertices = s, one.cameraVertices = places - s, one.unweighted = true;
     const Moments found = meansOf(scene, one);
     if (s == from) first = found;
     EXPECT_GT(found.mean, 0) << "s = " << s << " of " << places;
-    EXPECT_GT(welch(first, found), 1e-4) << "s = " << s << " of " << places << ": " << found.mean << ", not "
-                                         << first.mean;
+    EXPECT_GT(welch(first, found), 1e-4)
+        << "s = " << s << " of " << places << ": " << found.mean << ", not " << first.mean;
     EXPECT_LT(std::sqrt(found.variance / found.count), known * found.mean) << "s = " << s << " of " << places;
   }
 }
@@ -116,16 +116,26 @@ TEST(Bidirectional, EveryWayShowsTheLightsOfTheScene) {
   const std::vector<std::pair<const char*, Light>> lights{
       {"point", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1)}},
       {"another law of distance",
-       PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1), .constant = 0.5, .linear = 0.3, .quadratic = 0}},
+       PointLight{
+           .position = {0.5, 1.5, 0.8}, .color = Color(1), .constant = 0.5, .linear = 0.3, .quadratic = 0}},
       {"far point", PointLight{.position = {4, 15, 12}, .color = Color(300)}},
       {"ball", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1), .radius = 0.3}},
-      {"spot", SpotLight{.position = {0.5, 1.8, 0.8}, .direction = {-0.4, -1, -0.5}, .color = Color(1),
-                         .angle = 40, .fullAngle = 20, .exponent = 3}},
+      {"spot", SpotLight{.position = {0.5, 1.8, 0.8},
+                         .direction = {-0.4, -1, -0.5},
+                         .color = Color(1),
+                         .angle = 40,
+                         .fullAngle = 20,
+                         .exponent = 3}},
       {"sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1)}},
       {"broad sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1), .size = 20}},
-      {"panel", RectangleLight{.position = {0.2, 1.6, 0.3}, .u = {1, 0, 0}, .v = {0, 0, 1}, .color = Color(3)}},
-      {"round panel", RectangleLight{.position = {0.2, 1.2, 0.3}, .u = {1, 0, 0}, .v = {0, 0.6, 0.6},
-                                     .color = Color(3), .round = true, .twoSided = true}}};
+      {"panel",
+       RectangleLight{.position = {0.2, 1.6, 0.3}, .u = {1, 0, 0}, .v = {0, 0, 1}, .color = Color(3)}},
+      {"round panel", RectangleLight{.position = {0.2, 1.2, 0.3},
+                                     .u = {1, 0, 0},
+                                     .v = {0, 0.6, 0.6},
+                                     .color = Color(3),
+                                     .round = true,
+                                     .twoSided = true}}};
   for (const auto& [name, light] : lights) {
     SCOPED_TRACE(name);
     Scene scene = corner();
@@ -146,7 +156,7 @@ TEST(Bidirectional, EveryWayShowsTheLightOfTheSky) {
   // Places that the sky is not asked for: paths from both ends find it.
   for (const int s : {0, 2}) {
     Settings one = settingsOf(200);
-    one.lightVertices = s, one.cameraVertices = 3 - s, one.strategyWeights = false;
+    one.lightVertices = s, one.cameraVertices = 3 - s, one.unweighted = true;
     static Moments first;
     const Moments found = meansOf(even, one);
     if (s == 0) first = found;
@@ -202,8 +212,8 @@ TEST(Bidirectional, NormalsBetweenVerticesAndRoughGlassKeepTheLight) {
   Random random(3);
   Scene scene = corner();
   addPanel(scene);
-  addObject(scene, Mesh{ballMesh(8, random)}, Affine::translation({0.6, 0.5, 0.2}) * Affine::scaling({0.5, 0.5, 0.5}),
-            diffuse(0.7));
+  addObject(scene, Mesh{ballMesh(8, random)},
+            Affine::translation({0.6, 0.5, 0.2}) * Affine::scaling({0.5, 0.5, 0.5}), diffuse(0.7));
   expectTheSameByAllWays(scene, settingsOf(64), 3, 1, 2);
   expectTheSameByAllWays(scene, settingsOf(64), 4, 1, 3);
 }
@@ -219,21 +229,23 @@ TEST(Bidirectional, RoughGlassKeepsTheLightBothWays) {
 }
 
 TEST(Bidirectional, WaterKeepsTheLightBothWays) {
-  // A floor and a wall under water: lamp, water, wall or floor, the other, water, camera. By chance, or joined
-  // in the water.
+  // A floor and a wall under water: lamp, water, wall or floor, the other, water, camera. By chance, or
+  // joined in the water.
   Scene scene;
   Phong water;
   water.transmissive = water.reflective = Color(1), water.index = 1.33, water.attenuationColor = Color(0.8);
   addObject(scene, Cube{}, Affine::translation({0, 0.25, 0}) * Affine::scaling({5, 1.5, 5}), water);
-  addObject(scene, Square{}, Affine::translation({0, -0.2, 0}) * kUpward * Affine::scaling({4, 4, 1}), diffuse(0.8));
+  addObject(scene, Square{}, Affine::translation({0, -0.2, 0}) * kUpward * Affine::scaling({4, 4, 1}),
+            diffuse(0.8));
   addObject(scene, Square{}, Affine::translation({0, 0.3, -1}) * Affine::scaling({4, 1, 1}), diffuse(0.8));
-  addObject(scene, Square{}, Affine::translation({0, 2.5, 0}) * kDownward * Affine::scaling({3, 3, 1}), diffuse(0, 2));
+  addObject(scene, Square{}, Affine::translation({0, 2.5, 0}) * kDownward * Affine::scaling({3, 3, 1}),
+            diffuse(0, 2));
   scene.camera.position = {0, 2.2, 1.8}, scene.camera.viewdir = {0, -1, -0.9};
   scene.camera.fov = 40;
   Settings settings = settingsOf(256, 6);
   Moments found[2];
   for (const int i : {0, 1}) {
-    settings.lightVertices = 3 * i, settings.cameraVertices = 6 - 3 * i, settings.strategyWeights = false;
+    settings.lightVertices = 3 * i, settings.cameraVertices = 6 - 3 * i, settings.unweighted = true;
     found[i] = meansOf(scene, settings);
     EXPECT_GT(found[i].mean, 0);
     EXPECT_LT(std::sqrt(found[i].variance / found[i].count), 0.06 * found[i].mean);

@@ -27,7 +27,7 @@ struct Row {
   IntegratorKind kind;
   Chains chains = Chains::path;
   Real tolerance = 0.015;  ///< relative, of a mean
-  int times = 1;          ///< as many samples
+  int times = 1;           ///< as many samples
 };
 std::vector<Row> rows() {
   return {{"path", IntegratorKind::path},
@@ -93,7 +93,8 @@ TEST(LightTransport, AnEmittingRoomHasTheSumOfItsBounces) {
 }
 
 TEST(LightTransport, AClosedRoomOfOneAlbedoKeepsTheLightOfAPoint) {
-  // Whatever its form, its walls give back on the average Phi rho / (pi S (1 - rho)) (the integrating sphere).
+  // Whatever its form, its walls give back on the average Phi rho / (pi S (1 - rho)) (the integrating
+  // sphere).
   for (const Row& row : rows()) {
     Scene scene;
     const Real albedo = 0.6, area = 24, flux = 4 * kPi * kPi;  // of irradiance pi at distance 1

@@ -186,9 +186,10 @@ TEST(Photons, WhatLiesUnderWaterIsAsBrightAsPathsShowIt) {
   Phong water;
   water.transmissive = water.reflective = Color(1), water.index = 1.33;
   addObject(scene, Cube{}, Affine::translation({0, -0.5, 0}) * Affine::scaling({2.5, 0.6, 2.5}), water);
-  addObject(scene, Square{},
-            Affine::translation({0, -0.6, 0}) * Affine::rotation({1, 0, 0}, -kPi / 2) * Affine::scaling({2, 2, 1}),
-            diffuse(Color(0.7)));
+  addObject(
+      scene, Square{},
+      Affine::translation({0, -0.6, 0}) * Affine::rotation({1, 0, 0}, -kPi / 2) * Affine::scaling({2, 2, 1}),
+      diffuse(Color(0.7)));
   addObject(scene, Square{}, ceiling(1.2), diffuse(Color(0), 3));
   scene.camera.position = {0, 0.6, 1.4}, scene.camera.viewdir = {0, -0.9, -1};
   expectAlike(scene, 0.06);

@@ -40,7 +40,8 @@ TEST(CameraImportance, IsTheDensityOfCameraRaysAndFindsTheirPlaces) {
         const auto change = [&](const Vec2& step) {
           const Ray more = frame.ray({place.x + step.x, place.y + step.y}, u);
           const Ray less = frame.ray({place.x - step.x, place.y - step.y}, u);
-          const Vec3 way = importance.parallel() ? more.origin - less.origin : more.direction - less.direction;
+          const Vec3 way =
+              importance.parallel() ? more.origin - less.origin : more.direction - less.direction;
           return way / (2 * kStep);
         };
         const Real covered = length(cross(change({kStep, 0}), change({0, kStep})));

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "render/fog.h"
-#include "render/media.h"
 #include "render/footprint.h"
 #include "render/interaction.h"
+#include "render/media.h"
 #include "render/onward.h"
 
 namespace trace {
@@ -59,7 +59,7 @@ struct Bidirectional::Place {
   Interfaces inside;
   Hit hit;
   Interaction at;
-  Color power;  ///< what arrives, over the density of the place and its cosine
+  Color power;        ///< what arrives, over the density of the place and its cosine
   Color response{1};  ///< of the wavelength, if the path was split: not in the power
   Partial partial;
   bool lit = false;       ///< by a light of the world, straight
@@ -108,7 +108,7 @@ void Bidirectional::prepare(const World& world, const Settings& settings, Job&) 
   depth_ = settings.depth;
   if (!multiplexed_) {
     ways_ = {settings.lightVertices, settings.cameraVertices, 1};
-    weighs_ = settings.strategyWeights;
+    weighs_ = !settings.unweighted;
   }
   lands_ = camera_.known() && !(settings.outlines > 0);
 }
@@ -241,16 +241,15 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   /// s = 0: what shines there was met with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
-    const Real others = path.kind == RayKind::camera
-                            ? 0
-                            : Partial::power(asked) * p.vcm + Partial::power(started) * p.vc;
+    const Real others =
+        path.kind == RayKind::camera ? 0 : Partial::power(asked) * p.vcm + Partial::power(started) * p.vc;
     const Real counts = share(0, t, others, sample);
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
-      met(Term::Kind::background, world.outside().view(ray, path.kind).color,
-          lamps_.density(ray.direction), starts_.ofSky(ray.direction));
+      met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray.direction),
+          starts_.ofSky(ray.direction));
     seeMedia(kInfinity);
     sum.draw(path.ink);
     return sum.radiance();
@@ -327,8 +326,8 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
 }
 
 /// s = 1: each of the scene's lights.
-void Bidirectional::askLights(Gather& sum, const Interaction& at, const Path& path,
-                              const Sampler& sampler, const Sample& sample) const {
+void Bidirectional::askLights(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,
+                              const Sample& sample) const {
   Tracer& tracer = at.tracer;
   const World& world = tracer.world();
   const int t = path.depth + 2;
@@ -336,7 +335,8 @@ void Bidirectional::askLights(Gather& sum, const Interaction& at, const Path& pa
   const Vec3 toEye = -at.ray.direction;
   const Vec3& from = at.hit.surface.point;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const Vec2 place = world.lightHasSize(i) ? sampler.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
+    const Vec2 place =
+        world.lightHasSize(i) ? sampler.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
     auto arriving = world.illuminate(i, from, place);
     if (!arriving) continue;
     const Vec3& toLight = arriving->toLight;
@@ -360,8 +360,8 @@ void Bidirectional::askLights(Gather& sum, const Interaction& at, const Path& pa
 }
 
 /// s = 1: one place of an object that shines, or of the sky.
-void Bidirectional::askLamps(Gather& sum, const Interaction& at, const Path& path,
-                             const Sampler& sampler, const Sample& sample) const {
+void Bidirectional::askLamps(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,
+                             const Sample& sample) const {
   if (lamps_.empty() || !sample.ways.shows(1, path.depth + 2)) return;
   Sampler numbers = sampler.branch(kLamp);
   const Real which = numbers.next();
@@ -372,14 +372,13 @@ void Bidirectional::askLamps(Gather& sum, const Interaction& at, const Path& pat
   const Color light = scattered(at, toEye, place->toLight);
   if (isBlack(light)) return;
   const auto toward = [&](const Vec3& a, const Vec3& b) { return density(at.bsdf(), at.frame, a, b); };
-  const Real others =
-      Partial::power(toward(toEye, place->toLight) / place->density) +
-      path.partial.others(starts_.overAsked(*place) * cosineAt(at.hit, place->toLight),
-                          toward(place->toLight, toEye));
+  const Real others = Partial::power(toward(toEye, place->toLight) / place->density) +
+                      path.partial.others(starts_.overAsked(*place) * cosineAt(at.hit, place->toLight),
+                                          toward(place->toLight, toEye));
   const Real counts = share(1, t, others, sample);
   if (!(counts > 0)) return;
-  const Color seen = lamps_.look(at.tracer, at.hit.leave(place->toLight), *place,
-                                 sideOf(at, place->toLight), at.tracer.chance(numbers));
+  const Color seen = lamps_.look(at.tracer, at.hit.leave(place->toLight), *place, sideOf(at, place->toLight),
+                                 at.tracer.chance(numbers));
   sum.addWay(Term::Kind::lamp, light * (counts / place->density), seen, ConnectionTerm{1, t, counts});
 }
 
@@ -401,12 +400,10 @@ void Bidirectional::join(Gather& sum, const Interaction& at, const Path& path, c
     return density(place.bsdf(), place.frame, a, b);
   };
   const Real others =
-      light.partial.others(
-          toward(at, toEye, direction) * cosineAt(light.hit, direction) / distance2,
-          toward(light.at, -direction, from)) +
-      path.partial.others(
-          toward(light.at, from, -direction) * cosineAt(at.hit, direction) / distance2,
-          toward(at, direction, toEye));
+      light.partial.others(toward(at, toEye, direction) * cosineAt(light.hit, direction) / distance2,
+                           toward(light.at, -direction, from)) +
+      path.partial.others(toward(light.at, from, -direction) * cosineAt(at.hit, direction) / distance2,
+                          toward(at, direction, toEye));
   const Real counts = share(s, t, others, sample);
   if (!(counts > 0)) return;
   Tracer& tracer = at.tracer;
@@ -417,8 +414,8 @@ void Bidirectional::join(Gather& sum, const Interaction& at, const Path& path, c
   if (!side.nested()) factor *= side.passed(distance);
   if (const Fog fog(tracer.settings()); !fog.none() && isInOpenAir(side, tracer.world()))
     factor *= Color(fog.passes(ray, distance));
-  sum.addWay(Term::Kind::joined, factor,
-          tracer.visible(at.hit, ray, distance * Lamps::kBefore, at.inside), ConnectionTerm{s, t, counts});
+  sum.addWay(Term::Kind::joined, factor, tracer.visible(at.hit, ray, distance * Lamps::kBefore, at.inside),
+             ConnectionTerm{s, t, counts});
 }
 
 }  // namespace trace

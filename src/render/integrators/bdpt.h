@@ -1,7 +1,8 @@
 // Bidirectional path tracing (Lafortune and Willems 1993; Veach 1997, chapter 10): a path from the camera and
 // one from a light, of which every place is joined with every other.
 //
-//   L = sum over s and t of w(s, t) * (s places from the light's end, t from the camera's, and the way between)
+//   L = sum over s and t of w(s, t) * (s places from the light's end, t from the camera's, and the way
+//   between)
 //
 //   s = 0    the path from the camera met something that shines
 //   s = 1    a place of it asks lights and lamps for their light, as a path tracer does
@@ -17,8 +18,8 @@
 //
 // Chances of Russian roulette and of the choice between lobe, mirror and glass are left out of the densities:
 // any weights that sum up to 1 give the same picture. Light that glass refracts is found by paths from
-// lights: no shadow ray passes glass. Light is scattered in fog as in the path tracer, along the path from the
-// camera; fog dims all the other ways.
+// lights: no shadow ray passes glass. Light is scattered in fog as in the path tracer, along the path from
+// the camera; fog dims all the other ways.
 #pragma once
 
 #include "render/gather.h"
@@ -45,8 +46,8 @@ class Bidirectional : public Integrator {
   struct Sample;
   struct Place;
   void walkFromLight(Tracer& tracer, const Sampler& sampler, Sample& sample) const;
-  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path, const Interfaces& inside,
-              const Sampler& sampler, const Sample& sample) const;
+  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+              const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
   void askLights(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,
                  const Sample& sample) const;
   void askLamps(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,

@@ -189,8 +189,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (!stands) return;
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
-    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(), 0, gathers, path.maps,
-                    path.scattered};
+    const Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
+                    gathers, path.maps,      path.scattered};
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
@@ -213,8 +213,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   } else if (toBody > 0 && choice.x < toLobe + toMirror + toBody) {
     if (const auto in = entrance(at, *body, path.weight, sampler.branch(kBody))) {
       const Color factor = in->weight / toBody;
-      const Path next{RayKind::refraction, path.depth, path.weight * factor, 0, nullptr, 0, path.gathers,
-                      path.maps, path.scattered, true};
+      const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
+                      path.gathers,        path.maps,  path.scattered,       true};
       sum.add(factor, along(tracer, in->ray, in->hit, next, inside, sampler.branch(kNext)), in->how);
     }
   } else if (share && passes > 0) {
@@ -255,8 +255,8 @@ Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, c
   const Basis basis = Frame{ray.direction}.basis();
   const Vec3 direction = basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y));
   const Color factor = place.weight / goes;
-  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine),
-                  nullptr, 0, path.gathers, path.maps, path.scattered + 1};
+  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine), nullptr, 0,
+                  path.gathers,    path.maps,  path.scattered + 1};
   const Ray onward{at.point, direction};
   Interfaces there = inside;
   const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));

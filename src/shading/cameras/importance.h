@@ -20,8 +20,8 @@ class CameraImportance {
   bool parallel() const { return frame_.optics.projection == Projection::orthographic; }
   bool hasLens() const { return frame_.optics.lens.radius > 0; }
 
-  /// With which places of the picture, chosen evenly from [0, 1]^2, send the ray from its origin. The origin is
-  /// the eye, or a place of the lens.
+  /// With which places of the picture, chosen evenly from [0, 1]^2, send the ray from its origin. The origin
+  /// is the eye, or a place of the lens.
   Real density(const Ray& ray) const;
 
   /// The camera ray that meets a point, and the place of the picture from which it is sent.
