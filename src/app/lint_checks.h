@@ -46,7 +46,7 @@ void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
-/// Of glass inside glass (lint_glass.cpp).
+/// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
 }  // namespace lint_checks

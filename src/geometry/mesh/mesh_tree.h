@@ -63,7 +63,7 @@ struct MeshKernel {
   void (*crossings)(MeshQuery&);
 };
 
-/// Those that this machine can run, the best first.
+/// The kernels that this machine can run, the best first.
 std::span<const MeshKernel> meshKernels();
 
 /// Counted on the way.
@@ -90,7 +90,7 @@ class MeshTree {
   template <class Visit>
   void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const;
 
-  /// Of the structure for tracing, without the mesh's own arrays.
+  /// The memory of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
 
   MeshTree(const MeshTree&) = delete;
