@@ -31,7 +31,7 @@ bool hasAvx2();
 /// The same for AVX-512 with its 256-bit forms.
 bool hasAvx512();
 
-/// Those that this machine can run, the best first.
+/// The kernels that this machine can run, the best first.
 std::span<const BvhKernel> bvhKernels();
 
 }  // namespace trace

@@ -50,7 +50,7 @@ class BackgroundRender {
   Picture picture() const;
   /// Changes whenever picture() may have changed.
   std::uint64_t version() const;
-  /// Of the last render that ended: bad samples and statistics.
+  /// Bad samples and statistics of the last render that ended.
   RenderResult result() const;
   /// Warnings and errors since the last call.
   std::vector<Message> takeMessages();

@@ -48,7 +48,7 @@ void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
-/// Of glass inside glass (lint_glass.cpp).
+/// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
 // Of media and bodies in which light spreads (lint_media.cpp).

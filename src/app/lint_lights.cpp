@@ -80,8 +80,8 @@ void lightInside(const LintScene& s, Findings& findings) {
   }
 }
 
-/// Of lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus to
-/// miss.
+/// Looks at lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus
+/// to miss.
 void lightBehindGlass(const LintScene& s, Findings& findings) {
   constexpr int kFew = 10;
   const bool whitted = s.settings.integrator == IntegratorKind::whitted;

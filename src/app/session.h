@@ -57,7 +57,7 @@ class Session {
   const World& world() const { return *world_; }
   /// While the shutter is open; one where it is not. After build().
   std::span<const Moment> moments() const { return moments_; }
-  /// That of the moment that a tree of rays was traced at.
+  /// The world of the moment that a tree of rays was traced at.
   const World& worldOf(const RayTree& tree) const {
     return tree.moment < 0 ? *world_ : *moments_[static_cast<std::size_t>(tree.moment)].world;
   }

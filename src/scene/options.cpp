@@ -1228,17 +1228,23 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
   return settings;
 }
 
-Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers) {
-  Chosen chosen;
+std::string chooserOf(const Option& option, std::initializer_list<std::span<const Choice>> layers,
+                      std::string (*place)(const Place&)) {
+  std::string chooser = "default";
   std::size_t number = 0;
   for (std::span<const Choice> layer : layers) {
     for (const bool byLike : {true, false})
-      for (const Choice& choice : layer)
-        if (byLike ? choice.option == "like" && isConvention(option) : choice.option == option.name)
-          chosen = {&choice, number, byLike};
+      for (const Choice& choice : layer) {
+        if (byLike ? choice.option != "like" || !isConvention(option) : choice.option != option.name)
+          continue;
+        const std::string names[] = {place(choice.place), "command line", "studio"};
+        chooser = names[number];
+        if (chooser.empty()) chooser = "scene file";  // the choice follows from the dialect, at no one place
+        if (byLike) chooser += ", by like";
+      }
     ++number;
   }
-  return chosen;
+  return chooser;
 }
 
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }

@@ -51,7 +51,16 @@ struct UnusedMaterial {
   bool operator==(const UnusedMaterial&) const = default;
 };
 
+/// Copied and compared in one .cpp: it is dear to compile.
 struct Scene {
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+  bool operator==(const Scene&) const;
+
   std::string file;
   std::string format;   ///< name of the format it was read from
   std::string picture;  ///< where a render goes that names no file; empty: the scene's name in this folder
@@ -65,8 +74,6 @@ struct Scene {
   std::vector<UnusedMaterial> unusedMaterials;
   InputFiles inputs;  ///< what it was read from
   Surroundings surroundings;
-
-  bool operator==(const Scene&) const = default;
 };
 
 /// Changes every picture that the scene puts on surfaces and around itself: change(Pixels&).

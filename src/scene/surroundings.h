@@ -20,7 +20,7 @@ struct Surroundings {
   std::shared_ptr<const EnvironmentMap> environment;         ///< blurred
   std::shared_ptr<const EnvironmentMap> sharpEnvironment{};  ///< as it was read
 
-  // Of what they were made.
+  // The files and settings that they were made from.
   FilePath backdropFile{}, environmentFile{};
   EnvironmentKind kind = EnvironmentKind::automatic;
   Real blur = 0;

@@ -38,7 +38,7 @@ struct BsdfVariant<std::variant<Model...>> {
   using Type = std::variant<typename Model::Bsdf..., MixedBsdf>;
 };
 /// Those of the models in the order of MaterialModel, and the mixed one.
-using Bsdf = BsdfVariant<MaterialModel>::Type;
+using Bsdf = BsdfVariant<VariantOf<MaterialModel>>::Type;
 
 Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
 /// Of a place on the material, with its textures.

@@ -51,6 +51,35 @@ TexturePlace moved(const TexturePlace& p, const Affine& m, bool inUv) {
 
 }  // namespace
 
+TextureModel::TextureModel() = default;
+TextureModel::TextureModel(const TextureModel&) = default;
+TextureModel::TextureModel(TextureModel&&) noexcept = default;
+TextureModel& TextureModel::operator=(const TextureModel&) = default;
+TextureModel& TextureModel::operator=(TextureModel&&) noexcept = default;
+TextureModel::~TextureModel() = default;
+bool TextureModel::operator==(const TextureModel& other) const {
+  return static_cast<const variant&>(*this) == static_cast<const variant&>(other);
+}
+
+const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field) {
+  for (const FieldTexture& t : textures)
+    if (t.field == field) return &t.texture;
+  return nullptr;
+}
+
+void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture) {
+  const auto at =
+      std::find_if(textures.begin(), textures.end(), [&](const FieldTexture& t) { return t.field >= field; });
+  if (at != textures.end() && at->field == field)
+    at->texture = std::move(texture);
+  else
+    textures.insert(at, {std::string(field), std::move(texture)});
+}
+
+Texture pictureTexture(std::string file, Place place) {
+  return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
+}
+
 Texture::Texture(TextureNode node) {
   auto data = std::make_shared<Data>(Data{std::move(node), false, false, {}, 1});
   data->moved = !(data->node.placement == TexturePlacement{});

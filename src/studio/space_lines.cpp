@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/match.h"
+#include "math/perpendicular.h"
 #include "studio/rays_view.h"
 #include "studio/studio.h"
 
@@ -56,9 +57,7 @@ void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
                        1.5f);
     } else if constexpr (requires { l.direction; }) {
       const Vec3 d = normalize(l.direction);
-      Vec3 side = std::abs(d.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-      side = normalize(cross(d, side));
-      const Vec3 other = cross(d, side);
+      const Vec3 side = perpendicularTo(d), other = cross(d, side);
       for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j) {
           const Vec3 tip = target - d * (1.3 * radius) + (side * i + other * j) * (1.5 * size);

@@ -172,7 +172,7 @@ std::string written(const std::string& value, int) {
 
 namespace {
 
-/// Of linear Rec. 709: its luminance.
+/// The luminance of linear Rec. 709.
 float brightness(const Color& c) { return static_cast<float>(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b); }
 
 }  // namespace

@@ -101,7 +101,7 @@ class Writer {
     for (std::uint32_t material : materials) ++materialUses_[material];
   }
 
-  /// Those that are used again get the names that a person sees for them.
+  /// Materials that are used again get the names that a person sees for them.
   void nameMaterials() {
     std::set<std::string> taken;
     for (const Material& material : scene_.materials) taken.insert(material.name);
@@ -210,7 +210,8 @@ class Writer {
     out_ += std::string(keyword) + " = " + value + "; ";
   }
 
-  /// Those that differ from the defaults; all of an operand's, which would inherit from the whole.
+  /// Writes the fields that differ from the defaults, and all fields of an operand, which would inherit from
+  /// the whole.
   template <class Model>
   void modelFields(const Material& material, const Model& model) {
     modelFields(material, model, [](std::string_view) { return true; });

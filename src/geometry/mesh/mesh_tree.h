@@ -69,7 +69,7 @@ struct MeshKernel {
   std::tuple<MeshWays<NodeCount>, MeshWays<NodeWatch>> ways;
 };
 
-/// Those that this machine can run, the best first.
+/// The kernels that this machine can run, the best first.
 std::span<const MeshKernel> meshKernels();
 
 /// Counted on the way.
@@ -99,7 +99,7 @@ class MeshTree {
   template <class Visit, class Nodes>
   void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts<Nodes> counts) const;
 
-  /// Of the structure for tracing, without the mesh's own arrays.
+  /// The memory of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
 
   MeshTree(const MeshTree&) = delete;

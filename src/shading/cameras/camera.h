@@ -23,7 +23,7 @@ struct Camera {
   Real near = 0, far = kInfinity;  ///< along camera rays: nearer and farther surfaces are not seen
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"position", &Camera::position, "", -kNoLimit, kNoLimit, "the eye"},
         Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "where it looks"},
         Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "what is up"},

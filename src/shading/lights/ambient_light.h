@@ -18,7 +18,7 @@ struct AmbientLight {
   Color color{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{"color", &AmbientLight::color, "", 0, kNoLimit, "its intensity"}};
+    return Fields{Field{"color", &AmbientLight::color, "", 0, kNoLimit, "its intensity"}};
   }
   bool operator==(const AmbientLight&) const = default;
   bool hasSize() const { return false; }

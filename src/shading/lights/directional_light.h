@@ -20,13 +20,12 @@ struct DirectionalLight {
   Real size = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
-              "where its light travels to"},
-        Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
-        Field{"size", &DirectionalLight::size, "degrees", 0, 180,
-              "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
-              "soft"}};
+    return Fields{Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
+                        "where its light travels to"},
+                  Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
+                  Field{"size", &DirectionalLight::size, "degrees", 0, 180,
+                        "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
+                        "soft"}};
   }
   bool operator==(const DirectionalLight&) const = default;
   bool hasSize() const { return size > 0; }

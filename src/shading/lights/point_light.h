@@ -23,15 +23,15 @@ struct PointLight {
   Real radius = 0;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-                      Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
-                      Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
-                      Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
-                      Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
-                      Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
-                            "added to color in highlights"},
-                      Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
-                            "of the ball that shines; more than 0 makes shadows soft"}};
+    return Fields{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
+                  Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
+                  Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
+                  Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
+                  Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
+                  Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
+                        "added to color in highlights"},
+                  Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
+                        "of the ball that shines; more than 0 makes shadows soft"}};
   }
   bool operator==(const PointLight&) const = default;
   bool hasSize() const { return radius > 0; }

@@ -23,7 +23,7 @@ struct RectangleLight {
   bool round = false, twoSided = false;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"position", &RectangleLight::position, "", -kNoLimit, kNoLimit, "its middle"},
         Field{"color", &RectangleLight::color, "", 0, kNoLimit,
               "what a white surface gives back that sees nothing but the light"},

@@ -26,7 +26,7 @@ struct SpotLight {
   Real radius = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"position", &SpotLight::position, "", -kNoLimit, kNoLimit, "where it is"},
         Field{"direction", &SpotLight::direction, "", -kNoLimit, kNoLimit, "where the cone's axis points to"},
         Field{"color", &SpotLight::color, "", 0, kNoLimit, "its intensity on the axis"},
