@@ -405,6 +405,7 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"noise-target", "0.004"},
                                                                        {"integrator", "path"},
                                                                        {"firefly-limit", "4"},
+                                                                       {"light-choices", "4"},
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},
                                                                        {"caustics", "200000"},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/light_choice.h"
+
 namespace trace {
 namespace {
 
@@ -69,20 +71,19 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
     const Real depth = -std::log1p(-stays * ((k + numbers.next()) / places));
     const Vec3 point = ray.at(fog.distance(ray, depth));
     if (!isFinite(point)) continue;
-    for (std::size_t i = 0; i < world.lights().size(); ++i) {
-      const Vec2 place =
-          world.lightHasSize(i) ? numbers.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
-      const auto arriving = world.illuminate(i, point, place);
+    askLights(tracer, point, nullptr, numbers, [&](const AskedLight& asked) {
+      const Vec2 place = world.lightHasSize(asked.light) ? asked.numbers().next2() : kCenter;
+      const auto arriving = world.illuminate(asked.light, point, place);
       // From beyond all numbers nothing comes.
-      if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) continue;
+      if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
       const Real left = fog.left({point, arriving->toLight}, arriving->distance);
       // A light of colour 1 is one of irradiance pi.
-      const Color factor =
-          share * arriving->intensity() * (kPi * fog.phase(ray.direction, arriving->toLight) * left);
+      const Color factor = share * arriving->intensity() *
+                           (kPi * fog.phase(ray.direction, arriving->toLight) * left * asked.share);
       if (!isBlack(factor))
         sum.add(Term::Kind::fog, factor,
                 tracer.visible(point, arriving->toLight, arriving->distance, inside));
-    }
+    });
     if (!lamps || lamps->empty()) continue;
     Sampler chances = numbers.branch(kLamp);
     const Real which = chances.next();

@@ -53,6 +53,7 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
   about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
+  about(kLit, {{"light-choices", "2", {}}}, "fewer than two lights");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {

@@ -75,11 +75,18 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     else
       addFog(sum, tracer, ray, t, inside, Color(0), &lamps_, sampler.branch(kFog));
   };
+  if (path.kind != RayKind::bounce)  // else the light was asked
+    if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
+      sum.add(*lamp);
+      seeFog(lamp->seen.t);
+      sum.draw(path.ink);
+      return sum.radiance(inside.passed(lamp->seen.t));
+    }
   // Photons have brought what shines there.
   const bool brought = path.gathers && path.kind != RayKind::bounce && !caustics_.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
-      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
+      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }

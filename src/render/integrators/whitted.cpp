@@ -56,6 +56,13 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
                      const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
+    sum.add(*lamp);
+    if (tracer.settings().fog > 0)
+      addFog(sum, tracer, ray, lamp->seen.t, inside, world.ambient(), nullptr, sampler.branch(kFog));
+    sum.draw(path.ink);
+    return sum.radiance(inside.passed(lamp->seen.t));
+  }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
