@@ -1,12 +1,13 @@
-# floor(NAME [LIGHT] [USES lower floors...] [LIBRARIES public...] [PRIVATE private...] [PRECOMPILE headers...])
+# floor(NAME [LIGHT] [USES lower floors...] [LIBRARIES public...] [PRIVATE private...] [PRECOMPILE headers...]
+#       [PRECOMPILE_AS lower floor] [HOT files...] [COLD files...])
 #
 # Makes the library trace_NAME, for other projects Trace::NAME, of the .cpp files below src/NAME; those called *_avx*.cpp
 # are added where the processor has what they need. Headers are written #include "NAME/file.h"; each floor's include root is
 # a folder that holds nothing but a link NAME -> src/NAME, so only the floors used are visible. PRECOMPILE names the headers
-# that many of its files include; a floor without any shares those of base.
-# LIGHT: nothing in it is hot.
+# that many of its files include; a floor without any shares those of base, or of the floor that PRECOMPILE_AS names.
+# LIGHT: nothing in it is hot but the files of HOT; else all is but those of COLD. What is not hot is compiled in less time.
 function(floor NAME)
-  cmake_parse_arguments(ARG "LIGHT" "" "USES;LIBRARIES;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "PRECOMPILE_AS" "USES;LIBRARIES;PRIVATE;PRECOMPILE;HOT;COLD" ${ARGN})
   set(root ${PROJECT_BINARY_DIR}/floors/${NAME})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${NAME} ${root}/${NAME} SYMBOLIC)
@@ -22,8 +23,15 @@ function(floor NAME)
   if(ARG_LIGHT)
     target_compile_options(${target} PRIVATE ${lightlyOptimised})
   endif()
+  list(TRANSFORM ARG_HOT PREPEND src/${NAME}/)
+  list(TRANSFORM ARG_COLD PREPEND src/${NAME}/)
+  # Without precompiled headers: GCC 12 breaks where those were made with another optimisation.
+  set_source_files_properties(${ARG_HOT} PROPERTIES COMPILE_OPTIONS "${fullyOptimised}" SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${ARG_COLD} PROPERTIES COMPILE_OPTIONS "${lightlyOptimised}" SKIP_PRECOMPILE_HEADERS ON)
   if(ARG_PRECOMPILE OR NAME STREQUAL base)
     precompile(${target} ${ARG_PRECOMPILE})
+  elseif(ARG_PRECOMPILE_AS)
+    target_precompile_headers(${target} REUSE_FROM trace_${ARG_PRECOMPILE_AS})
   else()
     target_precompile_headers(${target} REUSE_FROM trace_base)
   endif()

@@ -42,12 +42,12 @@ class Bvh {
   static Bvh bruteForce(std::span<const BoxedItem> items);
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
-  /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes` counts nodes
-  /// visited. Of trees with single items only; who tests several together has a way of his own
-  /// (mesh_kernel.h). The item `skip` is left out.
-  template <class Visit>
-  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-             NodeCount& nodes, Visit&& visit, std::uint32_t skip = kNoItem) const;
+  /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes`, a NodeCount
+  /// or a NodeWatch, hears of the nodes visited. Of trees with single items only; items that are tested
+  /// together have a way of their own (geometry/mesh/mesh_kernel.h). The item `skip` is left out.
+  template <class Nodes, class Visit>
+  void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, Nodes& nodes,
+             Visit&& visit, std::uint32_t skip = kNoItem) const;
 
   /// The best for the machine if not set.
   void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
@@ -80,16 +80,16 @@ class Bvh {
 
 // ------------------------------------------------------------------------------------------------------
 
-template <class Visit>
-void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst,
-                NodeCount& nodes, Visit&& visit, std::uint32_t skip) const {
+template <class Nodes, class Visit>
+void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, Nodes& nodes,
+                Visit&& visit, std::uint32_t skip) const {
   if (nodes_.empty()) {
     for (std::uint32_t item : items_)
       if (item != skip && visit(item)) return;
     return;
   }
   using V = std::remove_reference_t<Visit>;
-  kernel_->query(
+  std::get<BvhQuery<Nodes>>(kernel_->queries)(
       nodes_.data(), extent_, origin, direction, tMost, nearestFirst, nodes,
       [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); },
       const_cast<void*>(static_cast<const void*>(&visit)), skip);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "accel/bvh_node.h"
 #include "math/vec.h"
@@ -14,12 +15,15 @@ namespace trace {
 /// Is called with the number of a leaf; returns true to end the query.
 using VisitLeaf = bool (*)(void* context, std::uint32_t leaf);
 
+/// The leaf of the number `skip` is not visited. `Nodes` is NodeCount or NodeWatch.
+template <class Nodes>
+using BvhQuery = void (*)(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin,
+                          const Vec3& direction, const double& tMost, bool nearestFirst, Nodes& visited,
+                          VisitLeaf visit, void* context, std::uint32_t skip);
+
 struct BvhKernel {
   std::string_view name;
-  /// The leaf of the number `skip` is not visited.
-  void (*query)(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin, const Vec3& direction,
-                const double& tMost, bool nearestFirst, NodeCount& visited, VisitLeaf visit, void* context,
-                std::uint32_t skip);
+  std::tuple<BvhQuery<NodeCount>, BvhQuery<NodeWatch>> queries;
 };
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).
@@ -27,7 +31,7 @@ bool hasAvx2();
 /// The same for AVX-512 with its 256-bit forms.
 bool hasAvx512();
 
-/// Those that this machine can run, the best first.
+/// The kernels that this machine can run, the best first.
 std::span<const BvhKernel> bvhKernels();
 
 }  // namespace trace

@@ -5,6 +5,6 @@
 namespace trace {
 
 extern const BvhKernel kBvhKernelAvx2;
-const BvhKernel kBvhKernelAvx2{"avx2", simd::queryLeaves};
+const BvhKernel kBvhKernelAvx2{"avx2", {simd::queryLeaves<NodeCount>, simd::queryLeaves<NodeWatch>}};
 
 }  // namespace trace

@@ -6,6 +6,6 @@
 namespace trace {
 
 extern const BvhKernel kBvhKernelAvx512;
-const BvhKernel kBvhKernelAvx512{"avx512", simd::queryLeaves};
+const BvhKernel kBvhKernelAvx512{"avx512", {simd::queryLeaves<NodeCount>, simd::queryLeaves<NodeWatch>}};
 
 }  // namespace trace

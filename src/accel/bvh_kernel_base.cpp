@@ -5,6 +5,6 @@
 namespace trace {
 
 extern const BvhKernel kBvhKernelBase;
-const BvhKernel kBvhKernelBase{"base", simd::queryLeaves};
+const BvhKernel kBvhKernelBase{"base", {simd::queryLeaves<NodeCount>, simd::queryLeaves<NodeWatch>}};
 
 }  // namespace trace

@@ -22,16 +22,20 @@ inline const BvhNode& nodeAt(const BvhNode* nodes, std::uint32_t place) {
   return *reinterpret_cast<const BvhNode*>(reinterpret_cast<const char*>(nodes) + std::size_t{place} * 32);
 }
 
-/// How many nodes queries have visited; `note`, if set, hears of each.
+/// How many nodes queries have visited.
 struct NodeCount {
+  std::uint64_t count = 0;
+  bool operator==(const NodeCount&) const = default;
+};
+
+/// Takes the place of a NodeCount where someone wants to see the nodes: hears of each, in their order. A
+/// query is compiled once for either, so that the usual one knows nothing of this.
+struct NodeWatch {
   static constexpr std::uint32_t kTop = 0xffffffffu;
 
-  std::uint64_t count = 0;
-  std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them; for note
   void (*note)(void* context, const BvhNode& node, std::uint32_t owner) = nullptr;
   void* context = nullptr;
-
-  bool operator==(const NodeCount& other) const { return count == other.count; }
+  std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them
 };
 
 /// The whole of a hierarchy.

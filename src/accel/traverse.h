@@ -104,12 +104,17 @@ inline Pending pending(float near, std::uint32_t child) {
   return Pending{__builtin_bit_cast(std::uint32_t, near)} << 32 | child;
 }
 
+[[gnu::always_inline]] inline void tell(NodeCount& nodes, const BvhNode&) { ++nodes.count; }
+[[gnu::always_inline]] inline void tell(NodeWatch& nodes, const BvhNode& node) {
+  nodes.note(nodes.context, node, nodes.owner);
+}
+
 /// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
 /// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
 /// that are fullest of items, which the builder has put into the lanes 0, 7, 6, ... of a node.
-template <bool kNearestFirst, class VisitLeaf>
+template <bool kNearestFirst, class Nodes, class VisitLeaf>
 [[gnu::always_inline]] inline void traverse(const BvhNode* nodes, Leaves leaves, const SlabRay& ray,
-                                            float limit, NodeCount& visited, const VisitLeaf& visit) {
+                                            float limit, Nodes& visited, const VisitLeaf& visit) {
   Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
   Pending* top = stack;
 
@@ -127,8 +132,7 @@ template <bool kNearestFirst, class VisitLeaf>
       if (visit(next & ~BvhNode::kLeaf, limit)) return;
     } else {
       const BvhNode& node = nodeAt(nodes, next);
-      ++visited.count;
-      if (__builtin_expect(visited.note != nullptr, 0)) visited.note(visited.context, node, visited.owner);
+      tell(visited, node);
       const float* planes = &node.plane[0][0][0];
       Float8 first[3], last[3];
       for (int axis = 0; axis < 3; ++axis) {
@@ -192,9 +196,10 @@ template <bool kNearestFirst, class VisitLeaf>
 }
 
 /// What a BvhKernel does: the same with the visitor as a function and its context.
-inline void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin,
-                        const Vec3& direction, const double& tMost, bool nearestFirst, NodeCount& visited,
-                        bool (*visit)(void*, std::uint32_t), void* context, std::uint32_t skip) {
+template <class Nodes>
+void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin, const Vec3& direction,
+                 const double& tMost, bool nearestFirst, Nodes& visited, bool (*visit)(void*, std::uint32_t),
+                 void* context, std::uint32_t skip) {
   SlabRay ray;
   const double from[3] = {origin.x, origin.y, origin.z}, along[3] = {direction.x, direction.y, direction.z};
   if (!prepare(extent, from, along, tMost, ray)) return;

@@ -17,6 +17,8 @@ Settings reduced(const Settings& settings, Size whole, int factor) {
   small.width = std::max(1, whole.width / factor);
   small.height = std::max(1, whole.height / factor);
   small.spp = 1;
+  small.subdivide = 0;
+  small.denoise = false;
   small.timeLimit = 0;
   if (!settings.region.whole()) {
     const auto up = [&](int x) { return (x + factor - 1) / factor; };
@@ -96,6 +98,7 @@ Picture BackgroundRender::picture() const {
   {
     const std::lock_guard lock(mutex_);
     if (!session_) return {};
+    if (denoised_) return *denoised_;
     picture = coarse_;
     session = session_;
   }
@@ -109,7 +112,7 @@ Picture BackgroundRender::picture() const {
 std::uint64_t BackgroundRender::version() const {
   const std::lock_guard lock(mutex_);
   const auto done = session_ ? static_cast<std::uint64_t>(session_->job().done.load()) : 0;
-  return (state_.number << 40) + (coarseVersion_ << 32) + done;
+  return (state_.number << 40) + (coarseVersion_ << 32) + done + (denoised_ ? 1 : 0);
 }
 
 RenderResult BackgroundRender::result() const {
@@ -168,6 +171,7 @@ void BackgroundRender::run(const Request& request) {
     else if (session_)
       session_->film().copyDone(coarse_);
     session_ = session;
+    denoised_.reset();
     state_.phase = Phase::coarse;
   }
   coarsePasses(*session);
@@ -178,6 +182,14 @@ void BackgroundRender::run(const Request& request) {
     tracingBegan_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
   RenderResult result = session->renderPicture();
+  std::optional<Picture> without;
+  if (result.failure.empty() && request.settings.denoise) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (state_.number == request.number && state_.working()) state_.phase = Phase::denoising;
+    }
+    without = denoised(session->film(), session->settings(), coarseJob_);
+  }
   const std::lock_guard lock(mutex_);
   if (!result.failure.empty()) messages_.push_back({.what = result.failure});
   if (state_.number == request.number && session_ == session) {
@@ -186,6 +198,7 @@ void BackgroundRender::run(const Request& request) {
     state_.phase = result.end == End::finished ? Phase::finished
                    : result.failure.empty()    ? Phase::stopped
                                                : Phase::failed;
+    denoised_ = std::move(without);
     result_ = std::move(result);
   }
 }

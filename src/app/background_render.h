@@ -21,7 +21,7 @@ namespace trace {
 
 class BackgroundRender {
  public:
-  enum class Phase { idle, building, coarse, tracing, finished, stopped, failed };
+  enum class Phase { idle, building, coarse, tracing, denoising, finished, stopped, failed };
 
   struct State {
     Phase phase = Phase::idle;
@@ -29,9 +29,7 @@ class BackgroundRender {
     double elapsed = 0;               ///< seconds since start()
     std::optional<double> remaining;  ///< seconds
     std::uint64_t number = 0;         ///< of the start() that this is about
-    bool working() const {
-      return phase == Phase::building || phase == Phase::coarse || phase == Phase::tracing;
-    }
+    bool working() const { return phase != Phase::idle && phase < Phase::finished; }
   };
 
   BackgroundRender();
@@ -47,11 +45,12 @@ class BackgroundRender {
   /// The scene, settings and World of the last picture that was begun; null before. They never change; the
   /// studio asks them for the rays of a pixel.
   std::shared_ptr<const Session> session() const;
-  /// What is to be seen now; of size 0 before the first. Copies: for every few frames, not for each.
+  /// What is to be seen now, at the end without noise if that is asked for; of size 0 before the first.
+  /// Copies: for every few frames, not for each.
   Picture picture() const;
   /// Changes whenever picture() may have changed.
   std::uint64_t version() const;
-  /// Of the last render that ended: bad samples and statistics.
+  /// Bad samples and statistics of the last render that ended.
   RenderResult result() const;
   /// Warnings and errors since the last call.
   std::vector<Message> takeMessages();
@@ -80,7 +79,8 @@ class BackgroundRender {
   State state_;
   std::chrono::steady_clock::time_point begin_;
   RemainingTime remaining_;
-  double tracingBegan_ = 0;  // seconds after begin_
+  double tracingBegan_ = 0;          // seconds after begin_
+  std::optional<Picture> denoised_;  // of session_, once it is rendered
   RenderResult result_;
   std::vector<Message> messages_;
   std::thread thread_;

@@ -16,7 +16,7 @@ namespace trace {
 
 class Checkpoint {
  public:
-  /// Of the picture of that file, which has these words (Session::metadata()). Whatever changes a sample
+  /// For the picture of that file, which has these words (Session::metadata()). Whatever changes a sample
   /// counts, and so does the number of samples, unless more can be added to them.
   Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings);
 

@@ -22,7 +22,7 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
 std::string briefPlace(const Place& place) {
   std::string text = std::filesystem::path(place.file).filename().string();
   if (place.line > 0) text += ":" + std::to_string(place.line);
-  return text.empty() ? "scene file" : text;
+  return text;
 }
 
 /// Are scenes of the format saved as their text with the edits in it?
@@ -173,10 +173,7 @@ bool Document::apply(const Change& change, const Reading& reading) {
 }
 
 std::string Document::chooser(const Option& option) const {
-  const Chosen chosen = chosenBy(option, {scene().choices, commandLine_, editions_[current_].choices});
-  if (!chosen.choice) return "default";
-  const std::string who[] = {briefPlace(chosen.choice->place), "command line", "studio"};
-  return who[chosen.layer] + (chosen.byLike ? ", by like" : "");
+  return chooserOf(option, {scene().choices, commandLine_, editions_[current_].choices}, briefPlace);
 }
 
 bool Document::chosenHere(const std::string& option) const {

@@ -49,7 +49,7 @@ class Document {
   void reset(const std::string& option);
   /// The file is read again for a change of this option.
   static bool readsFile(const std::string& option);
-  /// Who gave the option its value: "default", "scene.ray:3:1", "command line" or "studio".
+  /// Tells who gave the option its value: "default", "scene.ray:3", "command line" or "studio".
   std::string chooser(const Option& option) const;
   bool chosenHere(const std::string& option) const;
 
@@ -97,7 +97,7 @@ class Document {
   struct Source {
     std::string file;
     std::vector<Choice> commandLine, choices;
-    /// Of the scene, as far as it is not the file that chooses it.
+    /// The time of the scene, as far as it is not the file that chooses it.
     Real time() const { return resolve({commandLine, choices}).time; }
   };
   struct Reading {

@@ -14,7 +14,7 @@ namespace trace {
 template <class Struct>
 void followEdit(Struct&, const Struct&, std::string_view) {}
 
-/// Who sets the mirror does not want it to follow the highlight any more.
+/// A mirror that a person has set no longer follows the highlight.
 void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 
 /// A camera that the file says looks at a point goes on doing so when it is moved.

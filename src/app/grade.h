@@ -22,7 +22,7 @@ struct GradeTask {
   double sceneLimit = 0;      ///< seconds that reading and rendering a scene may take; 0 for no limit
 };
 
-/// Of one reference picture. The order is from worst to best.
+/// The verdict on one reference picture. The order is from worst to best.
 enum class Verdict { missing, unreadable, notReached, sizesDiffer, beyond, within, identical };
 std::string_view verdictText(Verdict verdict);
 inline bool passes(Verdict verdict) { return verdict >= Verdict::within; }

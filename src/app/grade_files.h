@@ -26,14 +26,14 @@ FolderFiles filesBelow(const std::string& folder, FileKind (*kindOf)(const std::
 /// A to Z as a to z.
 std::string lowerCase(std::string text);
 
-/// Of a picture, by the suffix in any case.
+/// The kind of a picture, by its suffix in any case.
 FileKind pictureKind(const std::filesystem::path& file);
 
 /// In any case.
 bool hasSceneSuffix(const std::filesystem::path& file);
 
-/// Of a scene, by what it holds. What no format recognises or nobody can read is perhaps one; a picture is
-/// not.
+/// The kind of a scene, by what it holds. A file that no format recognises or nobody can read is perhaps a
+/// scene; a picture is not.
 FileKind sceneKind(const std::filesystem::path& file);
 
 }  // namespace trace

@@ -1,6 +1,7 @@
 #include "app/idle_options.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "render/integrator.h"
@@ -18,6 +19,26 @@ bool anyObject(const World& world, Is&& is) {
   return false;
 }
 
+/// Options that say something of what another one switches on.
+struct Serves {
+  std::string_view option, needed;
+  std::string_view hint;  ///< a value of that
+};
+constexpr std::array kServes{
+    Serves{"moments", "shutter", "0.04"},
+    Serves{"fog-color", "fog", "0.05"},
+    Serves{"fog-height", "fog", "0.05"},
+    Serves{"fog-forward", "fog", "0.05"},
+    Serves{"fog-samples", "fog", "0.05"},
+    Serves{"subdivide-threshold", "subdivide", "3"},
+    Serves{"caustic-radius", "caustics", "200000"},
+    Serves{"focus", "aperture", "0.1"},
+    Serves{"blades", "aperture", "0.1"},
+    Serves{"blade-angle", "aperture", "0.1"},
+    Serves{"eye-separation", "stereo", "side-by-side"},
+    Serves{"zero-parallax", "stereo", "side-by-side"},
+};
+
 }  // namespace
 
 void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
@@ -33,12 +54,51 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
 
-  if (s.noiseTarget > 0 && rowOf(s).byChains)
+  for (const Serves& row : kServes) {  // but not where the scene has both, and somebody switched one off
+    const bool given = findOption(row.option).get(s) != findOption(row.option).get({});
+    const bool photons = row.needed == "caustics" && s.integrator == IntegratorKind::photon;
+    const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
+                                         [&](const Choice& choice) { return choice.option == row.needed; });
+    if (given && !photons && !switchedOff && findOption(row.needed).get(s) == findOption(row.needed).get({}))
+      warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
+           "for example --" + std::string(row.needed) + " " + std::string(row.hint));
+  }
+
+  const bool chains = rowOf(s).byChains;
+  const bool throws = rowOf(s).throws;
+  if (s.subdivide > 0 && chains) warn("--subdivide changes nothing: chains of mlt choose where samples lie");
+  if (s.subdivide > 0 && throws && !chains)
+    warn("--subdivide changes nothing: paths from lights fall anywhere in the picture");
+  if (subdivides(s)) {
+    for (const std::string_view option : {"spp", "noise-target", "filter", "denoise"})
+      if (findOption(option).get(s) != findOption(option).get({}))
+        warn("--" + std::string(option) +
+             " changes nothing with --subdivide: a pixel is the mean of its squares");
+  } else if (s.denoise && chains) {
+    warn("--denoise changes nothing: it does not know how exact a picture by chains is");
+  } else if (s.denoise && throws) {
+    warn("--denoise changes nothing: it does not know how exact the light is that paths from lights bring");
+  } else if (s.denoise && samplesOf(s) < 8) {
+    warn(
+        "--denoise changes nothing: it compares two halves of a pixel's samples, from 8 on, and --spp "
+        "gives " +
+            std::to_string(samplesOf(s)),
+        "choose a larger --spp, such as 16");
+  }
+  if (s.passes.has(Pass::change) && !s.denoise) warn("the pass change is black without --denoise");
+
+  const bool aims = s.noiseTarget > 0 && !subdivides(s);
+  if (aims && chains)
     warn("--noise-target changes nothing: chains of mlt do not know the error of a pixel");
-  else if (s.noiseTarget > 0 && samplesOf(s) <= PixelSum::kFewest)
+  else if (aims && samplesOf(s) <= PixelSum::kFewest)
     warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(PixelSum::kFewest) +
              " samples on, and --spp gives " + std::to_string(samplesOf(s)),
          "choose a larger --spp, such as 256");
+
+  if (!s.aperturePicture.path.empty() && !(s.aperture > 0))
+    warn("--aperture-picture changes nothing: --aperture 0 is a pinhole", "--aperture 0.1 opens the lens");
+  if (s.lightChoices > 0 && world.lights().size() < 2)
+    warn("--light-choices changes nothing: the scene has fewer than two lights");
 
   const bool whitted = s.integrator == IntegratorKind::whitted;
   if (whitted && s.caustics > 0) {
@@ -73,8 +133,22 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("nothing lights the scene but objects that shine, and for --integrator whitted they light nothing",
          "--lamp-samples 4 lets them; --integrator path follows their light further");
 
-  const bool paths = s.integrator == IntegratorKind::path || s.integrator == IntegratorKind::direct ||
-                     s.integrator == IntegratorKind::mlt || s.integrator == IntegratorKind::photon;
+  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
+    warn("--photon-passes " + std::to_string(s.photonPasses) +
+             ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
+         "choose --spp at least as large: the other maps are made in vain");
+  if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
+    warn("--unweighted: all light counts as often as there are ways to find it",
+         "--light-vertices S or --camera-vertices T shows one of the ways");
+
+  if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && !world.media().empty())
+    warn("--integrator " + integrator +
+             " sees the media that fill bodies, but light from its other end passes them undimmed",
+         "--integrator path follows light through them");
+
+  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
+                     s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
+                     s.integrator == IntegratorKind::photon;
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +

@@ -41,12 +41,16 @@ void lightInside(const LintScene& s, Findings& findings);
 void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
+void lightCut(const LintScene& s, Findings& findings);
+void lightLink(const LintScene& s, Findings& findings);
 void unlit(const LintScene& s, Findings& findings);
+void causticsMissing(const LintScene& s, Findings& findings);
+void lightReachesNothing(const LintScene& s, Findings& findings);
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
-/// Of glass inside glass (lint_glass.cpp).
+/// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
 // Of media and bodies in which light spreads (lint_media.cpp).

@@ -1,6 +1,9 @@
 // The checks of lights and of the camera.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/lint_checks.h"
 #include "base/match.h"
@@ -14,14 +17,19 @@ namespace {
 
 constexpr Real kHalfALevel = 0.5 / 255;
 
+/// Of a lamp; null for panels and for what is far away.
 const Vec3* positionOf(const Light& light) {
-  if (const auto* point = std::get_if<PointLight>(&light)) return &point->position;
-  if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->position;
-  return nullptr;
+  return match(light, [](const auto& l) -> const Vec3* {
+    if constexpr (requires { l.radius; }) return &l.position;
+    return nullptr;
+  });
 }
 
-const Color& colorOf(const Light& light) {
-  return match(light, [](const auto& l) -> const Color& { return l.color; });
+Color colorOf(const Light& light) {
+  return match(light, [](const auto& l) {
+    if constexpr (requires { l.color; }) return l.color;
+    return Color(0);
+  });
 }
 
 /// To three digits, for people.
@@ -80,10 +88,12 @@ void lightInside(const LintScene& s, Findings& findings) {
   }
 }
 
-/// Of lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus to
-/// miss.
+/// Looks at lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus
+/// to miss.
 void lightBehindGlass(const LintScene& s, Findings& findings) {
   constexpr int kFew = 10;
+  const bool whitted = s.settings.integrator == IntegratorKind::whitted;
+  if (s.settings.integrator == IntegratorKind::photon || (whitted && s.settings.caustics > 0)) return;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Survey::Lamp& lamp = s.survey.lights[i];
     if (!positionOf(s.scene.lights[i].light)) continue;
@@ -91,7 +101,10 @@ void lightBehindGlass(const LintScene& s, Findings& findings) {
     warn(findings, "light-behind-glass", s.scene.lights[i].place,
          "most of this light comes through " + quoted(s, lamp.glass) +
              ", which refracts: shadow rays run straight on, so light is neither bent nor gathered there",
-         "move the light out of the glass, or give what is around it index = 1");
+         std::string(whitted ? "--caustics 200000" : "--integrator photon") +
+             " sends photons from the light, which are bent and gathered; or move the light out of the "
+             "glass, or "
+             "give what is around it index = 1");
   }
 }
 
@@ -144,6 +157,114 @@ void lightBlocked(const LintScene& s, Findings& findings) {
          around ? "in place of an object as sky, `background` casts no shadow; or put the light inside"
                 : "put the light on the other side of it, or turn it round");
   }
+}
+
+/// Paths by chance never meet a light without a size, so they bring nothing of its light by mirrors and
+/// glass.
+void causticsMissing(const LintScene& s, Findings& findings) {
+  const IntegratorKind kind = s.settings.integrator;
+  const bool direct = kind == IntegratorKind::direct;
+  if (kind != IntegratorKind::path && kind != IntegratorKind::mlt && !direct) return;
+  const auto gathers = [&](std::uint32_t object) {
+    constexpr Real kMuch = 0.3;
+    const WhittedTerms& terms = s.world.termsOf(object);
+    const Real refracted = terms.passage == Passage::straight ? 0 : maxComponent(terms.transmissive);
+    return std::max(maxComponent(terms.reflective), refracted) >= kMuch;
+  };
+  std::uint32_t object = 0;
+  while (object < s.scene.objects.size() && !(s.survey.objects[object].places > 0 && gathers(object)))
+    ++object;
+  if (object == s.scene.objects.size()) return;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
+    const Light& light = s.scene.lights[i].light;
+    const bool hasSize = match(light, [](const auto& l) { return l.hasSize(); });
+    if (s.survey.lights[i].places == 0 || (hasSize && !direct)) continue;
+    warn(findings, "caustics-missing", s.scene.lights[i].place,
+         "what " + quoted(s, object) + " throws of this light on other things is missing: " +
+             (direct ? "--integrator direct follows no light that bounces"
+                     : "the light has no size, so no path meets it by chance"),
+         "--integrator photon shows such caustics, and so does whitted with --caustics 200000" +
+             std::string(hasSize ? "; path finds them with many samples" : ""));
+    return;
+  }
+}
+
+/// After the checks that know a reason.
+void lightReachesNothing(const LintScene& s, Findings& findings) {
+  constexpr int kFew = 20;
+  int scattering = 0;
+  for (const Survey::Seen& seen : s.survey.objects) scattering += seen.couldBeLit;
+  if (scattering < kFew) return;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
+    const LightSource& source = s.scene.lights[i];
+    const Survey::Lamp& lamp = s.survey.lights[i];
+    if (!lamp.reached.empty() || isBlack(colorOf(source.light))) continue;
+    const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
+      return finding.message.place.line == source.place.line &&
+             finding.message.place.file == source.place.file;
+    });
+    if (isSaid || (lamp.places > 0 && lamp.blocked.empty())) continue;
+    Blockers blockers;
+    for (const auto& [pair, times] : lamp.blocked) blockers[pair.second] += times;
+    const bool away = blockers.empty();
+    warn(
+        findings, "light-reaches-nothing", source.place,
+        "this light reaches nothing that is seen: " +
+            (away ? "every surface faces away from it, or it shines elsewhere"
+                  : "something is always in its way, most often " + quoted(s, mostIn(blockers)->first)),
+        away
+            ? "move it to the side that is seen, or take it out: a light that reaches nothing only takes time"
+            : "move it, or what is in its way; or take it out: a light that reaches nothing only takes time");
+  }
+}
+
+/// Lights that are shut by what they say themselves.
+void lightCut(const LintScene& s, Findings& findings) {
+  for (const LightSource& source : s.scene.lights) {
+    if (maxComponent(colorOf(source.light)) == 0) continue;  // it is switched off
+    if (const auto* measured = std::get_if<GoniometricLight>(&source.light)) {
+      if (measured->file.data && measured->file.data->brightest() == 0)
+        warn(findings, "light-cut", source.place,
+             "the photometric file of this light has no light: all its candelas are 0",
+             "take the file of a lamp that is lit, or a point_light");
+      continue;
+    }
+    const auto* studio = std::get_if<WarnLight>(&source.light);
+    if (!studio) continue;
+    const Box3 open = studio->open();
+    if (open.empty()) {
+      warn(findings, "light-cut", source.place,
+           "the flaps of this light leave nothing: one of its least values is above the largest",
+           "x_min, y_min and z_min lie below x_max, y_max and z_max");
+      continue;
+    }
+    const auto isLit = [&](const Object& object) {
+      Box3 box = boxAround(object);
+      box.low = max(box.low, open.low);
+      box.high = min(box.high, open.high);
+      return !box.empty();
+    };
+    if (std::none_of(s.scene.objects.begin(), s.scene.objects.end(), isLit))
+      warn(findings, "light-cut", source.place,
+           "the flaps of this light cut off everything: no object is in what they leave",
+           "flaps are planes in the space of the scene, not of the light: x_max = 1 leaves what lies at x < "
+           "1");
+  }
+}
+
+void lightLink(const LintScene& s, Findings& findings) {
+  std::vector<std::string_view> names;
+  for (const Object& object : s.scene.objects)
+    if (!object.name.empty()) names.push_back(object.name);
+  for (const LightSource& source : s.scene.lights)
+    for (const auto* list : {&source.links.lights, &source.links.excludes})
+      for (const std::string& name : *list)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          warn(findings, "light-link", source.place,
+               std::string(list == &source.links.lights ? "lights" : "excludes") + " names \"" + name +
+                   "\", and no object is called so",
+               names.empty() ? "give objects names, as in sphere { name = \"ball\"; }"
+                             : didYouMean(name, names));
 }
 
 /// Spot lights that no object is in the cone of. True if there is one.

@@ -50,6 +50,7 @@ Settings sparse(const Settings& settings) {
   result.width = kWidth;
   result.height = kHeight;
   result.spp = 1;
+  result.subdivide = 0;
   result.region = {};
   result.threshold = std::max(result.threshold, kCounts / 2);
   return result;

@@ -31,8 +31,8 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
 /// Something is in the cone of the light, near or far.
 bool shinesOnSomething(const World& world, const SpotLight& light);
 
-/// Of a mesh, the share of its faces whose front looks to the inside of the mesh: seen from there, the ray
-/// comes through an odd number of the mesh's surfaces. 0 for open surfaces.
+/// The share of a mesh's faces whose front looks to the inside of the mesh: seen from there, the ray comes
+/// through an odd number of the mesh's surfaces. 0 for open surfaces.
 double shareInsideOut(const World& world, std::uint32_t object, const MeshData& mesh);
 
 /// A sparse picture of the scene, and what its rays met.

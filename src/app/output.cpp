@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "app/denoising.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/anaglyph.h"
@@ -50,12 +51,13 @@ std::map<std::string, std::string> whatCounts(const Metadata& metadata, std::str
   return words;
 }
 
-/// Calls use(picture) with what the file is to hold.
+/// Calls use(picture) with what the file is to hold. `shown` is the film's picture, perhaps without noise.
 template <class Use>
-void withPictureOf(const Output& output, const Film& film, const Settings& settings, Use use) {
+void withPictureOf(const Output& output, const Film& film, const Picture& shown, const Settings& settings,
+                   Use use) {
   const PictureFormat& format = pictureFormatFor(output.path);
-  if (output.layer < 0) {
-    const Picture picture = finished(film.picture(), settings);
+  if (output.pass.empty()) {
+    const Picture picture = finished(shown, settings);
     const Development development = developmentOf(settings);
     if (format.keepsBright || development == Development{})
       use(picture);
@@ -63,9 +65,12 @@ void withPictureOf(const Output& output, const Film& film, const Settings& setti
       use(developed(picture, development));
     return;
   }
-  const auto layer = static_cast<std::size_t>(output.layer);
+  const Picture values =
+      output.layer < 0 ? change(film.picture(), shown) : film.layer(static_cast<std::size_t>(output.layer));
   const bool raw = format.keepsBright && format.lossless;  // Radiance has no negative and no infinite values
-  use(raw ? film.layer(layer) : passesOf(settings)[layer]->shown(film.layer(layer), settings));
+  if (raw) return use(values);
+  for (const PassRow* row : passesOf(settings))
+    if (row->name == output.pass) use(row->shown(values, settings));
 }
 
 bool holdsSomething(const std::string& path) {
@@ -134,7 +139,7 @@ std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   std::vector<Output> all{{path, -1, ""}};
   for (const PassRow* pass : passesOf(settings))
     all.push_back({passFile(path, pass->name, settings.passFormat, settings.passName),
-                   static_cast<int>(all.size()) - 1, pass->name});
+                   layerOf(settings, pass->name), pass->name});
   return all;
 }
 
@@ -228,10 +233,14 @@ std::string PictureFiles::write(const Film& film, const Settings& settings, cons
   const bool whole = film.complete();
   const std::string place = whole ? path_ : placeOfFragment(settings);
   if (!whole) fragment_ = place;
+  const Picture rendered = film.picture();
+  const std::optional<Picture> without = denoised(film, settings);
+  const Picture& shown = without ? *without : rendered;
+  change_ = without ? std::optional(meanChange(change(rendered, shown))) : std::nullopt;
   for (const Output& output : outputs(place, settings)) {
     Metadata words = wordsOf(output, metadata);
     if (!whole) words.emplace_back(kIncomplete, "the render was stopped");
-    withPictureOf(output, film, settings, [&](const Picture& picture) {
+    withPictureOf(output, film, shown, settings, [&](const Picture& picture) {
       writePicture(output.path, picture, settings.rounding, words);
     });
   }

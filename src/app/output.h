@@ -1,6 +1,7 @@
 // The files that a render writes: the picture, and one more for each pass.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,12 +16,12 @@ namespace trace {
 
 struct Output {
   std::string path;
-  int layer = -1;         ///< of the Film; -1 is the picture
+  int layer = -1;         ///< of the Film; -1 is the picture, or a pass that is made of it
   std::string_view pass;  ///< its name; "" is the picture
 };
 
-/// The picture at `path` first, then "NAME.PASS.exr" and the like beside it, in the order of the film's
-/// layers.
+/// The picture at `path` first, then "NAME.PASS.exr" and the like beside it, in the order of the table of
+/// passes.
 std::vector<Output> outputs(const std::string& path, const Settings& settings);
 
 /// Whether a picture file of that name has room for words, such as how it was made.
@@ -62,6 +63,10 @@ class PictureFiles {
   /// Error(Fault::io), Error(Fault::usage).
   std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
 
+  /// By how much --denoise changed what was written last: levels of 255, on the average. Nothing if it did
+  /// not.
+  std::optional<double> denoiseChange() const { return change_; }
+
   /// The fragments that were taken away so.
   const std::vector<std::string>& removed() const { return removed_; }
 
@@ -75,6 +80,7 @@ class PictureFiles {
   InputFiles inputs_;
   std::string fragment_;  ///< where this has put one; "" before
   std::vector<std::string> removed_;
+  std::optional<double> change_;
 };
 
 }  // namespace trace

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/denoising.h"
+#include "image/false_color.h"
+#include "math/vec.h"
+
 namespace trace {
 
 Bytes exposed(const Picture& picture, double stops, Rounding rounding) {
@@ -21,6 +25,75 @@ Color falseColour(double value) {
   const double at = (value < 1 ? std::max(value, 0.0) : 1.0) * kSteps;  // NaN counts as 1
   const int step = std::min(static_cast<int>(at), kSteps - 1);
   return lerp(at - step, kStops[step], kStops[step + 1]);
+}
+
+namespace {
+
+template <class... Args>
+std::string formatted(const char* format, Args... args) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+/// Values of which `white` and all above are white.
+Picture heat(Picture values, double white) {
+  for (Color& c : values.pixels) c = heatColor(c.r / white);
+  return values;
+}
+
+PlaneView samplesView(const Film& film) {
+  Picture counts = film.sampleCounts();
+  double least = kInfinity, most = 0;
+  for (const Color& c : counts.pixels) {
+    if (c.r == 0) continue;  // outside the region, or not yet there
+    least = std::min(least, c.r);
+    most = std::max(most, c.r);
+  }
+  if (most == 0) return {std::move(counts), "no pixel has samples yet"};
+  const std::string legend = formatted("rays a pixel: %.0f to %.0f, which is white; %.4g on the average",
+                                       least, most, film.convergence().samples);
+  return {heat(std::move(counts), most), legend};
+}
+
+PlaneView noiseView(const Film& film) {
+  constexpr double kWhite = 8;  // levels
+  const Convergence so = film.convergence();
+  if (!so.judged)
+    return {Picture(film.width(), film.height()),
+            "noise is not known: it needs two samples a pixel of its own"};
+  return {heat(film.errors(), kWhite / 255),
+          formatted("noise (standard error of the mean): white from %.0f levels on; %.3g on the average",
+                    kWhite, 255 * so.error)};
+}
+
+PlaneView changeView(const Film& film, const Picture& shown) {
+  constexpr double kWhite = 16;  // levels
+  Picture by = change(film.picture(), shown);
+  if (!film.keepsHalves()) return {std::move(by), "nothing was changed: denoise is off"};
+  const double mean = meanChange(by);
+  for (Color& c : by.pixels) c = Color(std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
+  return {heat(std::move(by), kWhite / 255),
+          formatted("what denoise changed: white from %.0f levels on; %.3g on the average", kWhite, mean)};
+}
+
+}  // namespace
+
+PlaneView planeView(Plane plane, const Film& film, const Picture& shown) {
+  switch (plane) {
+    case Plane::samples: return samplesView(film);
+    case Plane::noise: return noiseView(film);
+    case Plane::change: return changeView(film, shown);
+    case Plane::picture: break;
+  }
+  return {shown, ""};
+}
+
+std::string convergenceText(const Convergence& convergence) {
+  std::string text =
+      formatted("%.4g %s a pixel", convergence.samples, convergence.samples == 1 ? "sample" : "samples");
+  if (convergence.judged) text += formatted(", noise %.3g levels", 255 * convergence.error);
+  return text;
 }
 
 std::string pixelText(const Color& linear, const Color& toned, Rounding rounding) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "image/film.h"
 #include "image/picture.h"
 #include "image/tone.h"
 
@@ -23,6 +24,21 @@ Picture falseColours(const Picture& a, const Picture& b, double magnify);
 
 /// The colour that falseColours() gives a value.
 Color falseColour(double value);
+
+/// What may be seen of a render in place of its picture.
+enum class Plane { picture, samples, noise, change };
+inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised: change"};
+
+/// A plane of a film in colours, from black over violet, red and yellow to white, and what they mean.
+/// `shown` is the film's picture, perhaps without noise. Precondition: not the picture itself.
+struct PlaneView {
+  Picture colours;
+  std::string legend;
+};
+PlaneView planeView(Plane plane, const Film& film, const Picture& shown);
+
+/// "12.5 samples a pixel, noise 1.3 levels": how far a render has come.
+std::string convergenceText(const Convergence& convergence);
 
 /// The levels as a file keeps them that has none beyond 0 and 1: what a picture from such a file is compared
 /// with.

@@ -3,10 +3,19 @@
 #include <algorithm>
 
 namespace trace {
+namespace {
+
+/// What a pixel shows at most: those that are divided show corners of their neighbours, too.
+int mostRaysOf(const Settings& settings) {
+  const int across = (1 << settings.subdivide) + 1;
+  return subdivides(settings) ? across * across : samplesOf(settings);
+}
+
+}  // namespace
 
 TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
                        const Cancelled& cancelled) {
-  TracedPixel pixel{session, x, y, std::clamp(sample, 0, samplesOf(session->settings()) - 1)};
+  TracedPixel pixel{session, x, y, std::clamp(sample, 0, mostRaysOf(session->settings()) - 1)};
   try {
     pixel.explanation = pixel.session->explain(x, y, pixel.sample, cancelled);
     pixel.segments = raySegments(pixel.tree());
@@ -14,6 +23,7 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
     pixel.level.assign(rays.size(), 0);
     pixel.hasChildren.assign(rays.size(), 0);
     for (std::size_t i = 1; i < rays.size(); ++i) {
+      if (rays[i].parent < 0) continue;
       const auto parent = static_cast<std::size_t>(rays[i].parent);
       pixel.level[i] = pixel.level[parent] + 1;
       pixel.hasChildren[parent] = 1;

@@ -28,7 +28,7 @@ struct TracedPixel {
   RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
 };
 
-/// Of sample `sample` of the pixel; the last sample of a pixel that has fewer. Keeps errors as the problem.
+/// Traces sample `sample` of the pixel, or its last one if it has fewer. Keeps errors as the problem.
 TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
                        const Cancelled& cancelled = {});
 

@@ -7,6 +7,7 @@
 
 #include "app/session.h"
 #include "base/budget.h"
+#include "math/perpendicular.h"
 #include "render/pixel.h"
 #include "render/render.h"
 
@@ -25,8 +26,7 @@ Vec3 aroundNormal(const Vec3& normal, std::uint64_t i) {
   const auto n = static_cast<Real>(i);
   const Real u = std::fmod(0.5 + n * 0.7548776662466927, 1.0),
              v = std::fmod(0.5 + n * 0.5698402909980532, 1.0);
-  const Vec3 helper = std::abs(normal.x) > 0.5 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-  const Vec3 x = normalize(cross(helper, normal)), y = cross(normal, x);
+  const Vec3 x = perpendicularTo(normal), y = cross(normal, x);
   const Real angle = 2 * kPi * u, r = std::sqrt(v);
   return normalize(x * (r * std::cos(angle)) + y * (r * std::sin(angle)) + normal * std::sqrt(1 - v));
 }

@@ -107,6 +107,8 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   settings.height = static_cast<int>(height);
   settings.region = {};
   settings.spp = 1;
+  settings.subdivide = 0;
+  settings.denoise = false;
   settings.timeLimit = 0;
   settings.depth = std::min(settings.depth, 2);
   settings.passes = {};

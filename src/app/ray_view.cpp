@@ -149,6 +149,10 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
     if (!term.light) {
       row(kind, text(term.factor) + "  x  " + text(term.value));
+      if (term.connection)
+        row("  s, t, counts", std::to_string(term.connection->light) + ", " +
+                                  std::to_string(term.connection->camera) + ", " +
+                                  text(term.connection->share));
       continue;
     }
     row(lightName(scene, term.light->light), text(term.factor * term.value));

@@ -44,8 +44,8 @@ Box3 frameOf(const Scene& scene);
 /// Makes models of a scene that is edited, and keeps the triangles of shapes that stay as they are.
 class SceneModeler {
  public:
-  /// Of all objects; those whose transform cannot be undone are left out, as in a render, and those that
-  /// frameOf() leaves out. Objects without end are cut off some way around the others and the camera.
+  /// Models all objects. It leaves out those whose transform cannot be undone, as a render does, and those
+  /// that frameOf() leaves out. Objects without end are cut off some way around the others and the camera.
   /// `cancelled`, if any, is asked after every object; then the rest is left out.
   SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
 

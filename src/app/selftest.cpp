@@ -36,7 +36,7 @@ Picture pictureOf(const std::string& text, const std::vector<Choice>& choices = 
   return session->picture();
 }
 
-/// Of green, over all pixels.
+/// The mean of green over all pixels.
 double mean(const Picture& picture) {
   double sum = 0;
   for (const Color& c : picture.pixels) sum += c.g;

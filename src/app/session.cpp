@@ -7,6 +7,7 @@
 #include "app/idle_options.h"
 #include "base/budget.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "formats/ray/ray_format.h"
 #include "render/passes.h"
 #include "scene/picture_size.h"
@@ -34,8 +35,17 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings) {
-  const std::uint64_t splats = rowOf(settings).byChains ? SplatPlane::bytesPerPixel() : 0;
-  return Film::bytesPerPixel(passesOf(settings).size()) + splats + 2 * sizeof(Color) + 16;
+  const std::uint64_t splats = rowOf(settings).throws ? SplatPlane::bytesPerPixel() : 0;
+  // Two corners and their keys, as many as a picture with edges has.
+  const std::size_t layers = layersOf(settings).size();
+  const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
+  return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + 2 * sizeof(Color) + 16;
+}
+
+/// What rays meet is the same in both.
+bool isSameAs(const Scene& a, const Scene& b) {
+  return a.camera == b.camera && a.objects == b.objects && a.lights == b.lights &&
+         a.materials == b.materials && a.background == b.background;
 }
 
 PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowedMemory(settings)}; }
@@ -151,6 +161,7 @@ void Session::buildMoments() {
   Work work("building the moments of the shutter", settings_.moments);
   Scene before = scene_;
   const World* built = &*world_;
+  bool moves = false;
   for (int moment = 0; moment < settings_.moments; ++moment) {
     Scene scene = sceneAt_(timeOfMoment(settings_, moment));
     if (scene.objects.size() != scene_.objects.size() || scene.lights.size() != scene_.lights.size())
@@ -159,6 +170,7 @@ void Session::buildMoments() {
                       " objects and " + std::to_string(scene.lights.size()) + " lights, before " +
                       std::to_string(scene_.objects.size()) + " and " + std::to_string(scene_.lights.size()),
                   "a key(...) changes how many there are; only what is there all the time can be blurred");
+    moves = moves || !isSameAs(scene, scene_);
     Messages known;
     readSurroundings(scene, settings_, pictureLimits(settings_), known, &scene_.surroundings);
     const Compiled earlier{before, settings_, *built};
@@ -168,6 +180,11 @@ void Session::buildMoments() {
     add(*built);
     work.reached(moment + 1);
   }
+  if (!moves)
+    messages_.warn(Place{.file = scene_.file},
+                   "nothing moves while the shutter is open, from " + toText(settings_.time) + " to " +
+                       toText(settings_.time + settings_.shutter) + " seconds: --shutter blurs nothing",
+                   "--time chooses another moment");
 }
 
 RenderResult Session::renderPicture() {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/denoising.h"
 #include "app/output.h"
 #include "base/error.h"
 #include "formats/format.h"
@@ -56,7 +57,7 @@ class Session {
   const World& world() const { return *world_; }
   /// While the shutter is open; one where it is not. After build().
   std::span<const Moment> moments() const { return moments_; }
-  /// That of the moment that a tree of rays was traced at.
+  /// The world of the moment that a tree of rays was traced at.
   const World& worldOf(const RayTree& tree) const {
     return tree.moment < 0 ? *world_ : *moments_[static_cast<std::size_t>(tree.moment)].world;
   }
@@ -75,7 +76,7 @@ class Session {
   /// What is rendered so far. May be asked from other threads while renderPicture() runs.
   const Film& film() const { return *film_; }
   Film& film() { return *film_; }  ///< to fill with what was rendered before
-  Picture picture() const { return film_->picture(); }
+  Picture picture() const { return pictureOfFilm(*film_, settings_); }
   /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of what was read.
   Metadata metadata() const;
   /// The files of a picture of that name, for save().

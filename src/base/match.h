@@ -17,9 +17,15 @@ struct Overloaded : Fs... {
 template <class... Fs>
 Overloaded(Fs...) -> Overloaded<Fs...>;
 
+/// The std::variant that a type is or comes from.
+template <class... T>
+std::variant<T...> asVariant(const std::variant<T...>&);
+template <class Variant>
+using VariantOf = decltype(asVariant(std::declval<const Variant&>()));
+
 template <std::size_t I = 0, class Variant, class Visitor>
 constexpr decltype(auto) match(Variant&& variant, Visitor&& visitor) {
-  constexpr std::size_t kCount = std::variant_size_v<std::remove_cvref_t<Variant>>;
+  constexpr std::size_t kCount = std::variant_size_v<VariantOf<Variant>>;
   if constexpr (I + 1 < kCount) {
     if (variant.index() != I)
       return match<I + 1>(std::forward<Variant>(variant), std::forward<Visitor>(visitor));
@@ -31,9 +37,9 @@ constexpr decltype(auto) match(Variant&& variant, Visitor&& visitor) {
 template <class Variant, class Visit>
 constexpr void forEachType(Visit&& visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (visit(static_cast<std::variant_alternative_t<I, Variant>*>(nullptr)), ...);
+    (visit(static_cast<std::variant_alternative_t<I, VariantOf<Variant>>*>(nullptr)), ...);
   }
-  (std::make_index_sequence<std::variant_size_v<Variant>>{});
+  (std::make_index_sequence<std::variant_size_v<VariantOf<Variant>>>{});
 }
 
 }  // namespace trace

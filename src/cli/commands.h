@@ -37,7 +37,8 @@ std::string namesOf(Verbs verbs);
 /// The whole program, without the name it was called by. Returns the exit code; throws nothing.
 int run(const std::vector<std::string>& words);
 
-/// That memory does not suffice; `doing`, if any, follows on "while". `file`, if any, is what was worked on.
+/// Says that memory does not suffice; `doing`, if any, follows on "while". `file`, if any, is what was worked
+/// on.
 Error outOfMemory(const std::string& doing, const std::string& file = {});
 
 /// Throws Error(Fault::usage) if both are names of one file: what is read is not written over. The files that

@@ -107,8 +107,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
       result.end != End::finished)  // not the whole pixel
     throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
   const Size size = session.size();
-  const PixelFacts facts{session.scene(),   explanation, size.width, size.height, session.picture().at(x, y),
-                         session.settings()};
+  const PixelFacts facts{
+      session.scene(),   explanation, size.width, size.height, session.film().ofSamples(x, y),
+      session.settings()};
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {

@@ -161,6 +161,9 @@ class Writer {
     if (t.chance)
       json["chance"] = {
           {"density", t.chance->density}, {"other", t.chance->other}, {"share", t.chance->share}};
+    if (t.connection)
+      json["connection"] = {
+          {"s", t.connection->light}, {"t", t.connection->camera}, {"share", t.connection->share}};
     if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
     if (t.medium) {
       constexpr std::array<std::string_view, 4> kWhat{"covers", "glows", "scatters", "follows"};
@@ -183,7 +186,8 @@ class Writer {
                        {"diffuse", toJson(l.scatter.diffuse)},
                        {"specular", toJson(l.scatter.specular)},
                        {"extraHighlight", toJson(l.arriving.extraHighlight)},
-                       {"share", l.share}};
+                       {"share", l.share},
+                       {"probability", l.probability}};
     }
     return json;
   }
@@ -230,6 +234,10 @@ class Writer {
                             json["part"] = w.part;
                             json["distance"] = w.t;
                           },
+                          [&](const MetLight& w) {
+                            json["light"] = w.light;
+                            json["distance"] = w.t;
+                          },
                           [](const auto&) {}});
     return json;
   }
@@ -255,6 +263,8 @@ std::string explainJson(const PixelFacts& facts) {
   for (const Color& c : e.samples) json["samples"].add(toJson(c));
   json["sampleWeights"] = Json::list();
   for (const Real weight : e.weights) json["sampleWeights"].add(weight);
+  if (!e.corners.empty()) json["corners"] = Json::list();
+  for (const Vec2& corner : e.corners) json["corners"].add(Json::list({corner.x, corner.y}));
   json["settled"] = e.settled;
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);

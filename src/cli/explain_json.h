@@ -5,7 +5,7 @@
 
 namespace trace::cli {
 
-/// Of the member "version", which changes when a reader would have to.
+/// The value of the member "version", which changes when a reader would have to.
 inline constexpr int kExplainVersion = 1;
 
 std::string explainJson(const PixelFacts& facts);

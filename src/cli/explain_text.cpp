@@ -44,11 +44,12 @@ class TreeText {
   TreeText(const PixelFacts& facts, bool color)
       : scene_(facts.scene), tree_(facts.explanation.tree), color_(color), children_(tree_.nodes.size()) {
     for (int i = 1; i < static_cast<int>(tree_.nodes.size()); ++i)
-      children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
+      if (at(i).parent >= 0) children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
   }
 
   std::string all() {
-    ray(0, "", "");
+    for (int i = 0; i < static_cast<int>(tree_.nodes.size()); ++i)
+      if (at(i).parent < 0) ray(i, i > 0 ? "\n" : "", "");
     return std::move(text_);
   }
 
@@ -75,9 +76,11 @@ class TreeText {
     if (node.hit) hit(node);
     if (node.kind == RayKind::shadow)
       shadow(node);
+    else if (node.kind == RayKind::light)
+      line("a place that paths from the camera are joined with");
     else
       terms(node);
-    line(printable("-> " + sentence(node, scene_)));
+    if (const std::string why = sentence(node, scene_); !why.empty()) line(printable("-> " + why));
     line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
 
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -149,6 +152,10 @@ class TreeText {
         if (chance.other > 0)
           words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
       }
+      if (term.connection)
+        words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
+                 " from the light, t = " + std::to_string(term.connection->camera) +
+                 " from the camera: counts " + text(term.connection->share);
       if (term.medium) words += "\n" + margin_ + "    " + medium(term);
       if (term.body)
         words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
@@ -193,7 +200,12 @@ class TreeText {
     if (!isBlack(from.extraHighlight * light.scatter.specular))
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
     line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
-         ")" + (light.share == 1 ? "" : " * " + text(light.share) + " as one of several rays"));
+         ")" +
+         (light.share == 1 ? ""
+          : light.probability < 1
+              ? " * " + text(light.share) + ", for it was chosen among all lights with probability " +
+                    text(light.probability)
+              : " * " + text(light.share) + " as one of several rays"));
     const Real shadow = whitted(*node.bsdf).shadow;
     if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
     line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +
@@ -257,11 +269,21 @@ std::string explainText(const PixelFacts& facts, bool color) {
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
+            (e.corners.empty() ? "" : "  at " + toText(e.corners[i].x) + "," + toText(e.corners[i].y)) +
             (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
             (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
   if (e.settled)
     text += "no more: the error of their mean is at most " + toText(facts.settings.noiseTarget) + "\n";
+  if (!e.corners.empty())
+    text +=
+        "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
+        "corner\n";
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
+  if (facts.settings.integrator == IntegratorKind::bdpt)
+    text +=
+        "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
+        "see --camera-vertices 1\n";
+  if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
                          : "The rays above do NOT sum to the picture's pixel: please report this.\n";

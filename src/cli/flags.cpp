@@ -403,8 +403,14 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"wavelengths", "9"},
                                                                        {"outlines", "2"},
                                                                        {"noise-target", "0.004"},
+                                                                       {"subdivide", "3"},
                                                                        {"integrator", "path"},
                                                                        {"firefly-limit", "4"},
+                                                                       {"light-vertices", "1"},
+                                                                       {"camera-vertices", "1"},
+                                                                       {"chains", "bdpt"},
+                                                                       {"photon-passes", "16"},
+                                                                       {"light-choices", "4"},
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},
                                                                        {"caustics", "200000"},
@@ -417,11 +423,13 @@ std::string_view enabledValue(const Option& option) {
 }
 
 std::span<const Choice> quickChoices() {
-  static const std::array<Choice, 5> kChoices{{{"width", "100", {}},
+  static const std::array<Choice, 7> kChoices{{{"width", "100", {}},
                                                {"height", "0", {}},
                                                {"region", "0,0,0,0", {}},
                                                {"depth", "2", {}},
-                                               {"spp", "1", {}}}};
+                                               {"spp", "1", {}},
+                                               {"subdivide", "0", {}},
+                                               {"denoise", "off", {}}}};
   return kChoices;
 }
 

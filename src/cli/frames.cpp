@@ -31,7 +31,7 @@ bool isThere(const Arguments& arguments, int frame, const std::string& picture) 
   const std::vector<Output> files = outputs(picture, session.settings());
   const Metadata metadata = session.metadata();
   return std::all_of(files.begin(), files.end(), [&](const Output& file) {
-    return isRendered(file, file.layer < 0 ? finished(session.size(), session.settings()) : session.size(),
+    return isRendered(file, file.pass.empty() ? finished(session.size(), session.settings()) : session.size(),
                       metadata);
   });
 }

@@ -43,7 +43,7 @@ GradeTask taskOf(const Arguments& arguments) {
           .sceneLimit = arguments.sceneLimit};
 }
 
-/// Of UTF-8 text, as far as each character is one column wide.
+/// The columns that UTF-8 text takes, as far as each character is one column wide.
 std::size_t columnsOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

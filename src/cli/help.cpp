@@ -22,7 +22,7 @@ bool isCommon(std::string_view name) {
   return std::find(std::begin(kCommon), std::end(kCommon), name) != std::end(kCommon);
 }
 
-/// Of the page.
+/// The width of the page.
 size_t width() { return static_cast<size_t>(std::clamp(columns(), 60, 110)); }
 
 /// Left column and wrapped right column.

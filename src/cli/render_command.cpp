@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/frames.h"
 #include "cli/help.h"
+#include "cli/metric_text.h"
 #include "cli/render_steps.h"
 #include "cli/scene_facts.h"
 #include "cli/terminal.h"
@@ -103,12 +104,15 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   const std::string goesOn = settleCheckpoint(session, result, arguments, files);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
+  std::string cleaned;
+  if (const auto change = files.denoiseChange())
+    cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
   const std::string where = saved.elsewhere        ? " instead of " + output
                             : saved.path != output ? "; " + keptText(output)
                                                    : "";
   console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + where + removedText(files) + goesOn);
+                                  durationText(seconds) + where + cleaned + removedText(files) + goesOn);
   return code;
 }
 

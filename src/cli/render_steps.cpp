@@ -87,10 +87,10 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
   if (const double removed = static_cast<double>(result.statistics.lightRemoved) / Statistics::kLightParts;
       removed > 0) {
     double kept = 0;  // by this run
-    for (const Color& c : session.picture().pixels) kept += luminanceOf(c);
-    const Job& job = session.job();
-    kept *= samplesOf(session.settings()) *
-            (job.fraction() - static_cast<double>(job.before) / static_cast<double>(job.total));
+    for (const Color& c : session.film().picture().pixels) kept += luminanceOf(c);
+    const Size size = session.size();
+    kept *= static_cast<double>(result.statistics.rays[static_cast<std::size_t>(RayKind::camera)]) /
+            (static_cast<double>(size.width) * size.height);
     char text[100];
     std::snprintf(text, sizeof text, "note: --firefly-limit took away %.2g %% of the light",
                   100 * removed / (removed + kept));

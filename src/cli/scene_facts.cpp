@@ -8,14 +8,9 @@
 namespace trace::cli {
 namespace {
 
-/// Who gave the option its value, by the rules of settingsFor().
+/// Tells who gave the option its value, by the rules of settingsFor().
 std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
-  const Chosen chosen = chosenBy(option, {scene.choices, commandLine});
-  std::string from = "default";
-  if (chosen.choice) from = chosen.layer == 0 ? placeText(chosen.choice->place) : "command line";
-  if (from.empty())
-    from = "scene file";  // a convention can follow from the dialect, at no place in particular
-  if (chosen.byLike) from += ", by like";
+  std::string from = chooserOf(option, {scene.choices, commandLine});
   const auto typed = [&](std::string_view name) {
     return std::any_of(commandLine.begin(), commandLine.end(),
                        [&](const Choice& choice) { return choice.option == name; });

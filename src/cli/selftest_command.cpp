@@ -39,8 +39,9 @@ int selftestCommand(const Arguments& arguments, const Console&) {
   const Clock::time_point start = Clock::now();
   std::string certificate = about();
   printResult(certificate);
-  int held = 0;
-  for (const SelfCheck& check : selfChecks()) {
+  int held = 0, done = 0;
+  const auto all = static_cast<int>(selfChecks().size() + longSelfChecks().size());
+  const auto look = [&](const SelfCheck& check) {
     const Clock::time_point begin = Clock::now();
     double found = std::nan("");
     std::string why;
@@ -52,10 +53,11 @@ int selftestCommand(const Arguments& arguments, const Console&) {
     const bool holds = check.holds(found);
     held += holds;
     const std::string line = lineOf(check, found, holds, since(begin)) + why;
-    printResult(line);
+    printResult(std::to_string(++done) + "/" + std::to_string(all) + (done < 10 ? "  " : " ") + line);
     certificate += line;
-  }
-  const auto all = static_cast<int>(selfChecks().size());
+  };
+  for (const SelfCheck& check : selfChecks()) look(check);
+  for (const SelfCheck& check : longSelfChecks()) look(check);
   char text[100];
   std::snprintf(text, sizeof text, "%d of %d hold, in %.0f s\n", held, all, since(start));
   printResult(text);

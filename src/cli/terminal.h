@@ -13,7 +13,7 @@ bool canRedraw();
 bool canColor();
 /// The same of stdout, for results.
 bool canColorResult();
-/// Of the terminal, by COLUMNS or by asking it; 80 when neither tells.
+/// The width of the terminal, by COLUMNS or by asking it; 80 when neither tells.
 int columns();
 
 /// The folder that this program lies in; "" if the system does not tell.

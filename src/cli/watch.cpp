@@ -27,7 +27,8 @@ std::string pictureText(const Session& session, double fraction) {
   std::string text = std::to_string(size.width) + "x" + std::to_string(size.height);
   if (fraction == 1) return text;
   const int samples = samplesOf(session.settings());
-  if (const auto taken = std::floor(fraction * samples); samples > 1 && taken >= 1)
+  if (const auto taken = std::floor(fraction * samples);
+      samples > 1 && taken >= 1 && !subdivides(session.settings()))
     text += ", about " + std::to_string(static_cast<int>(taken)) + " of " + std::to_string(samples) +
             " samples a pixel";
   return text + ", " + std::to_string(static_cast<int>(std::floor(100 * fraction))) + " % done";

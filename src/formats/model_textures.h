@@ -23,7 +23,7 @@ struct PictureKind {
   bool transparent = false;  ///< some texel may be
 };
 PictureKind kindOfPicture(std::string_view bytes);
-/// Of the picture that the scene file `from` names.
+/// The kind of the picture that the scene file `from` names.
 PictureKind kindOfPicture(const std::string& from, const std::string& name);
 
 /// Pictures that stand in the scene's own file. One that is broken is a checker, of which is told once.

@@ -12,7 +12,8 @@ namespace trace {
 
 struct SeenFrom {
   Scene scene;
-  /// Those of used materials and of the background that lay inside, in the order met. The scene names them.
+  /// The pictures of used materials and of the background that lay inside, in the order met. The scene names
+  /// them.
   std::vector<NamedBytes> pictures;
 };
 
@@ -22,7 +23,7 @@ struct SeenFrom {
 /// file which is replaced does not name. Warns of pictures that have no place, as nothing is beside a pipe.
 SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& messages);
 
-/// Those of the pictures that a file which cannot hold all textures does name.
+/// The pictures that a file which cannot hold all textures does name.
 std::vector<NamedBytes> picturesNamed(const std::set<std::string>& names, const SeenFrom& seen);
 
 }  // namespace trace

@@ -15,17 +15,16 @@ namespace {
 
 /// A picture file of the scene, and what came of reading it.
 struct Loaded {
-  std::string name;  ///< as the scene has it
-  Place place;       ///< where the scene names it first
-  std::string bytes;
+  std::string name;   ///< as the scene has it
+  Place place;        ///< where the scene names it first
+  InputFiles inputs;  ///< it, read or not
   std::shared_ptr<const MipMap> map;
   std::string failure;  ///< why there is no map
 };
 
 void load(const std::string& path, Loaded& loaded) {
   try {
-    loaded.bytes = readBeside("", path);
-    loaded.map = MipMap::decode(loaded.bytes, path);
+    loaded.map = MipMap::decode(readBeside("", path, loaded.inputs), path);
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     loaded.failure = error.messages().front().what;
@@ -93,11 +92,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   std::string reason;  // of the first
   for (auto* file : files) {
     auto& [path, loaded] = *file;
-    if (loaded.bytes.empty())
-      scene.inputs.noteNamed(path);
-    else
-      scene.inputs.noteRead(path, loaded.bytes);
-    std::string().swap(loaded.bytes);
+    scene.inputs.note(loaded.inputs);
     if (loaded.map) continue;
     loaded.map = missingPicture();
     if (unread.empty()) reason = loaded.failure;

@@ -18,23 +18,48 @@ class Placement {
   const Affine& outFromIn() const { return outFromIn_; }
   const Affine& inFromOut() const { return inFromOut_; }
 
-  Ray into(const Ray& ray) const { return {inFromOut_ * ray.origin, linear(inFromOut_, ray.direction)}; }
+  Ray into(const Ray& ray) const {
+    if (!aligned_) return {inFromOut_ * ray.origin, linear(inFromOut_, ray.direction)};
+    const Vec3 scale = diagonal(inFromOut_);
+    return {times(scale, ray.origin) + inFromOut_.offset, times(scale, ray.direction)};
+  }
 
   /// With the rounding of the way out, and of the way back that the next ray takes, added to the error.
   SurfacePoint outOf(const SurfacePoint& in) const {
+    if (aligned_) {
+      const Vec3 scale = diagonal(inFromOut_);
+      return outOf(
+          in, [](const Affine& m, const Vec3& v) { return times(diagonal(m), v); },
+          [&](const Vec3& n) { return times(scale, n); });
+    }
+    return outOf(
+        in, [](const Affine& m, const Vec3& v) { return linear(m, v); },
+        [&](const Vec3& n) { return transposed(inFromOut_, n); });
+  }
+
+ private:
+  static Vec3 diagonal(const Affine& m) { return {m.row[0].x, m.row[1].y, m.row[2].z}; }
+  static Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+  /// `product` is that of a linear part and a vector, `turned` what becomes of the direction of a normal.
+  template <class Product, class Turned>
+  SurfacePoint outOf(const SurfacePoint& in, const Product& product, const Turned& turned) const {
     SurfacePoint out;
-    out.point = outFromIn_ * in.point;
-    out.error = (linear(size_, in.error) + rounding_ * abs(in.point)) * (1 + gammaError(24));
-    const Vec3 normal = normalize(transposed(inFromOut_, in.normal));
+    out.point = product(outFromIn_, in.point) + outFromIn_.offset;
+    out.error = (product(size_, in.error) + (product(rounding_, abs(in.point)) + rounding_.offset)) *
+                (1 + gammaError(24));
+    const Vec3 normal = normalize(turned(in.normal));
     out.normal = normal;
-    out.shading = in.shading == in.normal ? normal : normalize(transposed(inFromOut_, in.shading));
+    out.shading = in.shading == in.normal ? normal : normalize(turned(in.shading));
     out.uv = in.uv;
     return out;
   }
 
- private:
   Affine inFromOut_, outFromIn_;
   bool moved_ = false;
+  /// It scales along the axes and moves, as most do: then two thirds of a product are sums of zeros, which
+  /// are left out.
+  bool aligned_ = false;
   Affine size_;      ///< outFromIn, every entry made positive
   Affine rounding_;  ///< of a place p: at most that of |p|
 };
@@ -44,6 +69,12 @@ class Placement {
 /// which M brings out. Both are linear in |p|, and multiplied out here once.
 inline Placement::Placement(const Affine& outFromIn, const Affine& inFromOut)
     : inFromOut_(inFromOut), outFromIn_(outFromIn), moved_(outFromIn != Affine{}) {
+  const auto scales = [](const Affine& m) {
+    Affine only = Affine::scaling(diagonal(m));
+    only.offset = m.offset;
+    return m == only;
+  };
+  aligned_ = scales(outFromIn) && scales(inFromOut);
   size_ = absolute(outFromIn);
   const Affine there = size_, back = absolute(inFromOut), thereAndBack = back * there;
   for (int i = 0; i < 3; ++i)

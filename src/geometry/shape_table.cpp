@@ -41,7 +41,7 @@ constexpr bool kTraceable = Traceable<std::remove_cvref_t<decltype(formOf(formFo
 template <>
 constexpr bool kTraceable<Mesh> = true;
 
-/// Of a shape without checked(), those of its form.
+/// A shape without checked() has the facts of its form.
 template <class S>
 ShapeFacts factsOf(const S& shape) {
   if constexpr (requires { shape.checked(); }) {

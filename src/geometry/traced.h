@@ -30,7 +30,8 @@ class TracedShape {
   // The contract is in shape_list.h.
   bool solid() const;
   Box3 bounds() const;
-  /// Those in the range, in any order, and some others; where it takes none, all.
+  /// Visits the crossings in the range, in any order, and perhaps others. A shape that takes no range gives
+  /// all.
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   bool convex() const;
@@ -44,7 +45,7 @@ class TracedShape {
 
   /// Its parts are numbered below this.
   std::int64_t partCount() const;
-  /// Of its operands that are meshes, however deep.
+  /// Adds the trees of its operands that are meshes, however deep.
   void addMeshTrees(MeshTrees& trees) const;
 
  private:

@@ -101,7 +101,7 @@ Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const Picture
   return extent;
 }
 
-/// Of the part that is read.
+/// The layout of the part that is read.
 ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
   ExrLayout layout;
   const Imath::Box2i& data = header.dataWindow();

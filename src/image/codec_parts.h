@@ -31,7 +31,7 @@ void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileB
                       const PictureLimits& limits);
 
 std::string encodePngByStb(const Bytes& bytes);
-/// Of a raster whose samples are bytes.
+/// The samples of the raster must be bytes.
 std::string encodePngByStb(const Raster& raster);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);

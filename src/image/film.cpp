@@ -5,11 +5,12 @@
 
 namespace trace {
 
-double PixelSum::error() const {
+double PixelSum::variance() const {
   const double n = taken_, mean = luminanceOf(colors_.mean());
-  const double variance = std::max(0.0, squares_ / n - mean * mean) * n / std::max(1.0, n - 1);
-  return std::sqrt(variance / n) / std::max(1.0, mean);
+  return std::max(0.0, squares_ / n - mean * mean) * n / std::max(1.0, n - 1) / n;
 }
+
+double PixelSum::error() const { return std::sqrt(variance()) / std::max(1.0, luminanceOf(colors_.mean())); }
 
 std::vector<Wave> wavesOf(int samples, int first) {
   constexpr int kMost = 16;  // a stop waits for a wave of a tile, and the picture is seen after each
@@ -45,6 +46,11 @@ void Film::add(std::int64_t tile, std::size_t wave, TileSamples samples) {
   TileState& state = states_[static_cast<std::size_t>(tile)];
   const auto splats = lockSplats();
   const std::lock_guard lock(state.mutex);
+  if (corners_) {  // their waves come in turn
+    putCorners(tile, wave, std::move(samples));
+    ++state.waves;
+    return;
+  }
   if (wave != state.waves) {
     state.early.emplace(wave, std::move(samples));
     return;
@@ -66,6 +72,10 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
       if (pixel.settles(noise_)) continue;
       for (std::size_t k = at; k < at + count; ++k)
         pixel.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
+      if (keepsHalves())
+        for (std::size_t k = at; k < at + count; ++k)
+          if (isOfFirstHalf(wave.first + static_cast<int>(k - at)) && isFinite(samples.colors[k]))
+            first_[index(x, y)].add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
       for (std::size_t i = 0; i < layers_.size(); ++i) {
         const auto value = [&](std::size_t k) {
           return i < samples.layers.size() ? samples.layers[i][k] : layers_[i].kind.blank;
@@ -117,6 +127,42 @@ void Film::forEachDone(const Use& use) const {
   }
 }
 
+void Film::divide(const Subdivision& rules) {
+  corners_ = std::make_unique<CornerSamples>(rules, tileSize_, columns_, static_cast<std::size_t>(tiles()));
+  waves_.clear();
+  for (int level = 0; level < corners_->levels(); ++level) waves_.push_back({level, level + 1});
+}
+
+void Film::putCorners(std::int64_t tile, std::size_t level, TileSamples samples) {
+  CornerSamples::Level taken{samples.area, std::move(samples.starts), std::move(samples.corners), {}};
+  taken.values.push_back(std::move(samples.colors));
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    taken.values.push_back(i < samples.layers.size()
+                               ? std::move(samples.layers[i])
+                               : std::vector<Color>(taken.corners.size(), layers_[i].kind.blank));
+  corners_->put(static_cast<std::size_t>(tile), level, std::move(taken));
+}
+
+template <class Use>
+void Film::forEachDivided(const Use& use) const {
+  std::vector<std::size_t> there(static_cast<std::size_t>(tiles()));
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const std::lock_guard lock(states_[i].mutex);
+    there[i] = states_[i].waves;
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (there[i] == 0) continue;
+    const Tile area = tile(static_cast<std::int64_t>(i));
+    std::size_t levels = there[i];  // corners of this tile's pixels lie in those on the right and above
+    for (const int y : {area.y0, std::max(0, area.y0 - 1)})
+      for (const int x : {area.x0, std::min(area.x1, width_ - 1)})
+        levels = std::min(levels, there[corners_->tileOf(x, y)]);
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x)
+        if (corners_->level(i, 0).has(x, y)) use(x, y, static_cast<int>(levels));
+  }
+}
+
 Picture Film::picture() const {
   Picture picture(width_, height_);
   copyDone(picture);
@@ -125,6 +171,13 @@ Picture Film::picture() const {
 
 void Film::copyDone(Picture& onto) const {
   const auto splats = lockSplats();
+  if (corners_) {
+    forEachDivided([&](int x, int y, int levels) {
+      const auto colors = corners_->of(x, y);
+      onto.at(x, y) = levels > 0 ? meanOver(corners_->rules(), levels - 1, colors, colors) : colors(Corner{});
+    });
+    return;
+  }
   const bool anywhere = splats_ && splats_->paths() > 0;
   if (anywhere) std::fill(onto.pixels.begin(), onto.pixels.end(), Color(0));
   forEachDone([&](const PixelSum& pixel, int x, int y) { onto.at(x, y) = pixel.mean(); });
@@ -137,12 +190,84 @@ Picture Film::layer(std::size_t number) const {
   const Layer& layer = layers_[number];
   Picture picture(width_, height_);
   std::fill(picture.pixels.begin(), picture.pixels.end(), layer.kind.blank);
+  if (corners_) {
+    forEachDivided([&](int x, int y, int levels) {
+      const auto value = corners_->of(x, y, number + 1);
+      Color& shown = picture.at(x, y);
+      if (layer.kind.keep == Keep::sum) {
+        shown = Color(static_cast<double>(corners_->countOf(x, y, static_cast<std::size_t>(levels))));
+      } else if (levels > 0 && layer.kind.keep == Keep::mean) {
+        shown = meanOver(corners_->rules(), levels - 1, corners_->of(x, y), value);
+      } else {
+        shown = value(Corner{});
+      }
+    });
+    return picture;
+  }
   forEachDone([&](const PixelSum& pixel, int x, int y) {
     if (pixel.taken() == 0) return;
     const Color& sum = layer.sums.at(x, y);
     picture.at(x, y) = layer.kind.keep == Keep::mean ? sum / pixel.taken() : sum;
   });
   return picture;
+}
+
+Picture Film::sampleCounts() const {
+  Picture counts(width_, height_);
+  if (corners_)
+    forEachDivided([&](int x, int y, int levels) {
+      counts.at(x, y) = Color(static_cast<double>(corners_->countOf(x, y, static_cast<std::size_t>(levels))));
+    });
+  else
+    forEachDone([&](const PixelSum& pixel, int x, int y) { counts.at(x, y) = Color(pixel.taken()); });
+  return counts;
+}
+
+Picture Film::errors() const {
+  Picture errors(width_, height_);
+  forEachDone([&](const PixelSum& pixel, int x, int y) {
+    if (pixel.taken() > 1) errors.at(x, y) = Color(pixel.error());
+  });
+  return errors;
+}
+
+Convergence Film::convergence() const {
+  Convergence so;
+  double pixels = 0, judged = 0;
+  if (corners_) {
+    for (const Color& count : sampleCounts().pixels) {
+      so.samples += count.r;
+      pixels += count.r > 0;
+    }
+  } else {
+    forEachDone([&](const PixelSum& pixel, int, int) {
+      if (pixel.taken() == 0) return;
+      ++pixels;
+      so.samples += pixel.taken();
+      if (pixel.taken() < 2) return;
+      ++judged;
+      so.error += pixel.error();
+    });
+  }
+  so.judged = judged > 0 && !takesSplats();
+  if (pixels > 0) so.samples /= pixels;
+  if (judged > 0) so.error /= judged;
+  return so;
+}
+
+Halves Film::halves() const {
+  Halves halves{Picture(width_, height_), Picture(width_, height_), std::vector<double>(pixels_.size()),
+                std::vector<double>(pixels_.size())};
+  forEachDone([&](const PixelSum& pixel, int x, int y) {
+    const WeightedMean& first = first_[index(x, y)];
+    halves.first.at(x, y) = first.mean();
+    halves.second.at(x, y) = pixel.colors().without(first).mean();
+    const int taken = pixel.taken(), inFirst = taken / 8 * 4 + std::min(taken % 8, 4);
+    if (inFirst == taken) return;
+    halves.variance[index(x, y)] = pixel.variance();
+    halves.share[index(x, y)] = static_cast<double>(inFirst) / taken;
+  });
+  return halves;
 }
 
 }  // namespace trace

@@ -15,16 +15,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/huge_pages.h"
+#include "image/corner_samples.h"
 #include "image/picture.h"
 #include "image/splat_plane.h"
 #include "image/srgb.h"
 
 namespace trace {
-
-/// Pixels x0 <= x < x1, y0 <= y < y1.
-struct Tile {
-  int x0, y0, x1, y1;
-};
 
 /// The samples first <= k < end of each pixel.
 struct Wave {
@@ -51,6 +48,15 @@ class WeightedMean {
   Color mean() const {
     if (usesAll()) return weights_ != 0 ? sum_ / weights_ : Color(0);
     return above_ / weightsAbove_;
+  }
+  /// Without those that are among them.
+  WeightedMean without(const WeightedMean& part) const {
+    WeightedMean rest = *this;
+    rest.sum_ += part.sum_ * -1;
+    rest.above_ += part.above_ * -1;
+    rest.weights_ -= part.weights_;
+    rest.weightsAbove_ -= part.weightsAbove_;
+    return rest;
   }
   /// What a sample of the weight, one of `count`, counts in it: 1 if all count alike.
   double counts(double weight, double count) const {
@@ -87,6 +93,8 @@ class PixelSum {
   /// The standard error of the mean's luminance, as if the samples were independent: more than the true one
   /// where they are spread evenly. In parts of white or, above white, of the mean.
   double error() const;
+  /// The variance of the mean's luminance, likewise.
+  double variance() const;
   /// Whether more samples are not needed for such an error; never for 0.
   bool settles(double noise) const { return noise > 0 && taken_ >= kFewest && error() <= noise; }
 
@@ -106,6 +114,22 @@ struct TileSamples {
   std::vector<std::vector<Color>> layers;  ///< the same of each layer; one that is missing stays blank
   std::vector<Splat> splats{};             ///< anywhere in the picture, where the film takes splats
   std::int64_t paths = 0;                  ///< that brought them
+  std::vector<std::size_t> starts{};       ///< of each pixel's, and the end, where pixels are divided
+  std::vector<Corner> corners{};           ///< that they are then
+};
+
+/// How far a picture has come.
+struct Convergence {
+  double samples = 0;   ///< of a pixel, on the average
+  double error = 0;     ///< PixelSum::error(), on the average of those pixels that have two samples or more
+  bool judged = false;  ///< there are such pixels, and their samples are their own
+};
+
+/// Two pictures of one half of the samples each, and how exact both together are: what removes noise needs.
+struct Halves {
+  Picture first, second;
+  std::vector<double> variance;  ///< of the mean of all samples' luminance, as if they were independent
+  std::vector<double> share;     ///< of the samples that are in the first; 0 where one half has none
 };
 
 class Film {
@@ -128,6 +152,19 @@ class Film {
   void takeSplats() { splats_ = std::make_unique<SplatPlane>(width_, height_); }
   bool takesSplats() const { return splats_ != nullptr; }
 
+  /// From now on a sample is what a corner sees, and a wave a level of corners: a pixel is the mean of the
+  /// squares into which it falls. A wave looks at the corners of the one before, of all tiles. Before
+  /// anything is added.
+  void divide(const Subdivision& rules);
+  /// Null where pixels are not divided.
+  const CornerSamples* corners() const { return corners_.get(); }
+
+  /// From now on halves() are kept. Before anything is added.
+  void keepHalves() { first_.resize(pixels_.size()); }
+  bool keepsHalves() const { return !first_.empty(); }
+  /// Of what is there. From any thread while others add.
+  Halves halves() const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
@@ -137,7 +174,7 @@ class Film {
 
   /// Whether pixels differ in the number of samples: then a wave of a tile may begin only after the one
   /// before.
-  bool adaptive() const { return noise_ > 0; }
+  bool adaptive() const { return noise_ > 0 || corners_; }
   /// Whether the pixel takes no part in further waves. While nobody adds to its tile.
   bool settled(int x, int y) const { return pixels_[index(x, y)].settles(noise_); }
 
@@ -159,15 +196,27 @@ class Film {
   /// All waves of all tiles are there.
   bool complete() const;
 
+  /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
+  Color ofSamples(int x, int y) const {
+    return corners_ ? picture().at(x, y) : pixels_[index(x, y)].mean();
+  }
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
   /// The same of a layer, blank elsewhere.
   Picture layer(std::size_t number) const;
+  /// How many samples each pixel has. From any thread.
+  Picture sampleCounts() const;
+  /// PixelSum::error() of each pixel with two samples or more, 0 elsewhere. From any thread.
+  Picture errors() const;
+  /// Of the pixels that have samples. From any thread.
+  Convergence convergence() const;
   /// Puts what is there so far over a picture of the same size. From any thread.
   void copyDone(Picture& onto) const;
 
-  /// Bytes that a pixel takes here, without splats.
-  static std::uint64_t bytesPerPixel(std::size_t layers) { return sizeof(PixelSum) + layers * sizeof(Color); }
+  /// Bytes that a pixel takes here, without splats and corners.
+  static std::uint64_t bytesPerPixel(std::size_t layers, bool halves = false) {
+    return sizeof(PixelSum) + layers * sizeof(Color) + (halves ? sizeof(WeightedMean) : 0);
+  }
 
  private:
   friend class FilmState;
@@ -184,7 +233,15 @@ class Film {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
+  /// Samples change halves in blocks of four, of which each fills the pixel evenly: even and odd ones of most
+  /// generators lie on two sides of it.
+  static bool isOfFirstHalf(int sample) { return (sample & 4) == 0; }
   void sum(const Wave& wave, const TileSamples& samples);
+  void putCorners(std::int64_t tile, std::size_t level, TileSamples samples);
+  /// Calls use(x, y, levels) for the pixels of every tile that has a wave: how many levels of corners are
+  /// there, in this tile and around it. 0: the pixel has nothing but the corners that it is the home of.
+  template <class Use>
+  void forEachDivided(const Use& use) const;
   /// Nobody adds splats while this lives. To be locked before a tile.
   std::unique_lock<std::mutex> lockSplats() const {
     return splats_ ? std::unique_lock(splats_->mutex) : std::unique_lock<std::mutex>();
@@ -196,10 +253,12 @@ class Film {
   int width_, height_, tileSize_, columns_, rows_;
   double noise_;
   std::vector<Wave> waves_;
-  std::vector<PixelSum> pixels_;
+  HugeVector<PixelSum> pixels_;
   std::vector<Layer> layers_;
   std::unique_ptr<TileState[]> states_;
   std::unique_ptr<SplatPlane> splats_;  ///< null where none are taken
+  std::unique_ptr<CornerSamples> corners_;
+  std::vector<WeightedMean> first_;  ///< of the first half of each pixel's samples, if halves are kept
 };
 
 }  // namespace trace

@@ -42,6 +42,7 @@ class Reader {
   void expect(const T& value, const char* reason) {
     if (take<T>() != value) throw std::runtime_error(reason);
   }
+  std::size_t left() const { return bytes_.size(); }
   bool atEnd() const { return bytes_.empty(); }
 
  private:
@@ -54,10 +55,13 @@ class Reader {
 class FilmState {
  public:
   static void put(Writer& to, const PixelSum& pixel) {
-    const WeightedMean& mean = pixel.colors_;
-    const bool alike = mean.sum_ == mean.above_ && mean.weights_ == mean.weightsAbove_;  // nearly always
     to.put(pixel.taken_);
     to.put(pixel.squares_);
+    put(to, pixel.colors_);
+  }
+
+  static void put(Writer& to, const WeightedMean& mean) {
+    const bool alike = mean.sum_ == mean.above_ && mean.weights_ == mean.weightsAbove_;  // nearly always
     to.put(static_cast<std::uint8_t>(alike));
     to.put(mean.sum_);
     to.put(mean.weights_);
@@ -67,9 +71,12 @@ class FilmState {
   }
 
   static void take(Reader& from, PixelSum& pixel) {
-    WeightedMean& mean = pixel.colors_;
     pixel.taken_ = from.take<int>();
     pixel.squares_ = from.take<double>();
+    take(from, pixel.colors_);
+  }
+
+  static void take(Reader& from, WeightedMean& mean) {
     const bool alike = from.take<std::uint8_t>() != 0;
     mean.sum_ = from.take<Color>();
     mean.weights_ = from.take<double>();
@@ -84,6 +91,33 @@ class FilmState {
   static void take(Reader& from, SplatPlane& splats) {
     splats.paths_ = from.take<std::int64_t>();
     for (SplatPlane::Sum& sum : splats.sums_) sum = from.take<SplatPlane::Sum>();
+  }
+
+  template <class T>
+  static void putAll(Writer& to, const std::vector<T>& values) {
+    to.put(static_cast<std::uint64_t>(values.size()));
+    for (const T& value : values) to.put(value);
+  }
+  template <class T>
+  static void takeAll(Reader& from, std::vector<T>& values) {
+    const auto count = from.take<std::uint64_t>();
+    if (count > from.left() / sizeof(T)) throw std::runtime_error("it ends too early");
+    values.resize(static_cast<std::size_t>(count));
+    for (T& value : values) value = from.take<T>();
+  }
+
+  static void put(Writer& to, const CornerSamples::Level& level) {
+    to.put(level.area);
+    putAll(to, level.starts);
+    putAll(to, level.corners);
+    for (const std::vector<Color>& values : level.values) putAll(to, values);
+  }
+  static void take(Reader& from, CornerSamples::Level& level, std::size_t values) {
+    level.area = from.take<Tile>();
+    takeAll(from, level.starts);
+    takeAll(from, level.corners);
+    level.values.resize(values);
+    for (std::vector<Color>& all : level.values) takeAll(from, all);
   }
 
   static std::string saved(const Film& film) {
@@ -102,12 +136,16 @@ class FilmState {
       const Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       const std::lock_guard lock(state.mutex);
       to.put(static_cast<std::uint32_t>(state.waves));
-      if (state.waves == 0) continue;
+      if (film.corners_)
+        for (std::size_t level = 0; level < state.waves; ++level)
+          put(to, film.corners_->level(static_cast<std::size_t>(i), level));
+      if (state.waves == 0 || film.corners_) continue;
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
           put(to, film.pixels_[film.index(x, y)]);
           for (const Film::Layer& layer : film.layers_) to.put(layer.sums.at(x, y));
+          if (film.keepsHalves()) put(to, film.first_[film.index(x, y)]);
         }
     }
     return std::move(to.bytes());
@@ -139,13 +177,20 @@ class FilmState {
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       state.waves = from.take<std::uint32_t>();
-      if (state.waves == 0) continue;
       if (state.waves > film.waves_.size()) throw std::runtime_error("a tile has more waves than there are");
+      if (film.corners_)
+        for (std::size_t level = 0; level < state.waves; ++level) {
+          CornerSamples::Level taken;
+          take(from, taken, film.layers_.size() + 1);
+          film.corners_->put(static_cast<std::size_t>(i), level, std::move(taken));
+        }
+      if (state.waves == 0 || film.corners_) continue;
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
           take(from, film.pixels_[film.index(x, y)]);
           for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
+          if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
         }
     }
     if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
@@ -157,7 +202,9 @@ class FilmState {
     for (Film::Layer& layer : film.layers_)
       std::fill(layer.sums.pixels.begin(), layer.sums.pixels.end(), Color(0));
     for (std::int64_t i = 0; i < film.tiles(); ++i) film.states_[static_cast<std::size_t>(i)].waves = 0;
+    std::fill(film.first_.begin(), film.first_.end(), WeightedMean{});
     if (film.takesSplats()) film.takeSplats();
+    if (film.corners_) film.corners_->clear();
   }
 };
 

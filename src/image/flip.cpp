@@ -177,7 +177,7 @@ struct Features {
   std::vector<double> edges, points;
 };
 
-/// Of a detector of edges: 0.082 degrees lie between its peak and trough.
+/// The width of the detector of edges: 0.082 degrees lie between its peak and trough.
 double featureDeviation(double pixelsPerDegree) { return 0.5 * 0.082 * pixelsPerDegree; }
 int featureRadius(double pixelsPerDegree) {
   return static_cast<int>(std::ceil(3 * featureDeviation(pixelsPerDegree)));

@@ -64,7 +64,7 @@ class MipMap {
   explicit MipMap(Raster raster);
   explicit MipMap(const Picture& picture);
 
-  /// Of a picture file, with its transparency. Throws as decodePicture().
+  /// From a picture file, with its transparency. Throws as decodePicture().
   static std::shared_ptr<const MipMap> decode(std::string_view bytes, const std::string& name,
                                               const PictureLimits& limits = {});
 
@@ -78,7 +78,7 @@ class MipMap {
   Texel at(const Vec2& uv, const Lookup& lookup) const;
   /// Levels of the pyramid, the picture itself and the last texel counted.
   int levels() const;
-  /// Of memory now; not while others look up.
+  /// The memory it takes now. Not to be called while others look up.
   std::size_t bytes() const;
 
   struct Level {

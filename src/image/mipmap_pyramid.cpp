@@ -106,7 +106,7 @@ MipMap::Level MipMap::halved(const Level& level, const std::vector<float>& linea
 MipMap::MipMap(Raster raster)
     : base_{raster.width, raster.height, raster.channels,          raster.hasAlpha(),
             raster.most,  raster.most,   std::move(raster.samples)} {
-  // Of floats, what is no number becomes 0, and colours multiplied by alpha are divided by it again.
+  // A float that is no number becomes 0, and colours multiplied by alpha are divided by it again.
   auto* values = std::get_if<std::vector<float>>(&base_.samples);
   if (!values) return;
   for (float& value : *values)

@@ -42,6 +42,7 @@ std::span<const FilterRow> filters() { return kTable; }
 
 PixelFilter::PixelFilter(FilterKind kind, Real radius) {
   const FilterRow& row = kTable[static_cast<std::size_t>(kind)];
+  row_ = &row;
   radius_ = radius > 0 ? radius : row.radius;
   isPixel_ = kind == FilterKind::box && radius_ == 0.5;
   if (kind == FilterKind::box) return;
@@ -56,6 +57,12 @@ PixelFilter::PixelFilter(FilterKind kind, Real radius) {
   }
   for (Real& s : sums_) s /= absolute;
   weight_ = absolute / sum;
+  whole_ = 2 * sum / kSteps;
+}
+
+Real PixelFilter::share(Real away) const {
+  if (away < -radius_ || away >= radius_) return 0;
+  return row_->profile(away / radius_) / (whole_ * radius_);
 }
 
 PixelFilter::Along PixelFilter::along(Real u) const {

@@ -39,6 +39,11 @@ class PixelFilter {
   /// The size of all weights: the integral of the filter's absolute value over that of the filter.
   Real weight() const { return weight_ * weight_; }
 
+  /// How far it reaches from the pixel's centre, in pixels.
+  Real radius() const { return radius_; }
+  /// What a place so far from the centre, across or down, counts: over all places 1.
+  Real share(Real away) const;
+
   /// A place relative to the pixel's centre, in pixels, for two numbers from 0 up to 1. They are as dense as
   /// the filter is far from 0; the weight has its sign, and a mean of 1.
   FilmSample sample(const Vec2& u) const;
@@ -49,7 +54,9 @@ class PixelFilter {
   };
   Along along(Real u) const;
 
+  const FilterRow* row_;
   Real radius_;
+  Real whole_ = 2;  ///< the integral of the profile
   bool isPixel_;
   std::vector<Real>
       sums_;  ///< of the filter's absolute value, at equal steps from -radius to radius; ends with 1

@@ -20,7 +20,7 @@ inline double srgbOfLinear(double value) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(std::min(value, 1.0), 1 / 2.4) - 0.055;
 }
 
-/// Of linear Rec. 709 colours, whose primaries and white sRGB has.
+/// The luminance of linear Rec. 709 colours, whose primaries and white sRGB has.
 constexpr double luminanceOf(const Color& c) { return 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b; }
 
 }  // namespace trace

@@ -28,7 +28,7 @@ struct ValueRange {
   double low = 0, high = 0;
   bool operator==(const ValueRange&) const = default;
 };
-/// Of the finite values of all channels; {0, 0} if there are none.
+/// The range of the finite values of all channels; {0, 0} if there are none.
 ValueRange finiteRange(const Picture& picture);
 
 /// (c - low) / (high - low) for every channel; the picture itself if the range is empty.

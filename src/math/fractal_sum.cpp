@@ -43,10 +43,10 @@ Real FractalSum::at(std::array<Real, N> p, Real width, const std::int64_t* perio
     weights += weight;
     weight *= gain;
     width *= lacunarity;
-    for (int axis = 0; axis < N; ++axis) {
-      p[axis] = p[axis] * lacunarity + kMoved[axis];
-      repeats[axis] = static_cast<std::int64_t>(static_cast<Real>(repeats[axis]) * lacunarity + 0.5);
-    }
+    for (int axis = 0; axis < N; ++axis) p[axis] = p[axis] * lacunarity + kMoved[axis];
+    if (period)
+      for (std::int64_t& steps : repeats)
+        steps = static_cast<std::int64_t>(static_cast<Real>(steps) * lacunarity + 0.5);
   }
   if (sum == SumKind::fractal) return squares > 0 ? total / std::sqrt(squares) : 0;
   return weights > 0 ? total / weights : 0;

@@ -23,7 +23,7 @@ struct FractalSum {
 
   static constexpr int kMostOctaves = 16;
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"sum", &FractalSum::sum, "", -kNoLimit, kNoLimit,
               "of noise itself, of its magnitude, or with ridges where it is 0"},
         Field{"octaves", &FractalSum::octaves, "", 1, kMostOctaves, "how many are added, each finer"},

@@ -61,7 +61,7 @@ inline Interval square(const Interval& a) {
   const Interval s = outward(b.low * b.low, b.high * b.high);
   return {max(s.low, 0), s.high};
 }
-/// Of what is not negative in it.
+/// The root of the part of it that is not negative.
 inline Interval sqrt(const Interval& a) {
   if (!(a.high >= 0)) return Interval::everything();
   const Interval s = outward(std::sqrt(max(a.low, 0)), std::sqrt(a.high));
@@ -71,7 +71,7 @@ inline Interval exp(const Interval& a) {
   const Interval e = outward(std::exp(a.low), std::exp(a.high));
   return {max(e.low, 0), e.high};
 }
-/// Of what is positive in it.
+/// The logarithm of the part of it that is positive.
 inline Interval log(const Interval& a) {
   if (!(a.high > 0)) return Interval::everything();
   return outward(a.low > 0 ? std::log(a.low) : -kInfinity, std::log(a.high));

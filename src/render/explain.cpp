@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "image/film.h"
 #include "render/pixel.h"
@@ -14,12 +15,54 @@ void require(bool good, const std::string& what, int most, const std::string& fo
     throw Error(Fault::usage, "expected " + what + " from 0 to " + std::to_string(most) + ", found " + found);
 }
 
+/// Of a pixel that is divided: its corners take the place of samples.
+Explanation explainDivided(std::span<const Moment> moments, const Settings& settings, const Size& size, int x,
+                           int y, int sample, const std::function<bool()>& cancelled) {
+  const Subdivision rules = subdivisionOf(settings, size);
+  const auto ignore = [](const CameraRay&, const Sampler&) {};
+  PixelTracer plain(moments, settings, size);
+  std::map<std::pair<int, int>, Color> seen;
+  const auto colors = [&](Corner corner) -> const Color& {
+    const auto [at, isNew] = seen.try_emplace({corner.y, corner.x});
+    if (isNew && !(cancelled && cancelled())) at->second = plain.corner({x, y, corner}, ignore);
+    return at->second;
+  };
+  const std::vector<Corner> corners = cornersOf(rules, rules.depth, colors);
+  const int last = static_cast<int>(corners.size()) - 1;
+  require(sample >= 0 && sample <= last, "a corner of this pixel", last, std::to_string(sample));
+
+  Explanation result;
+  result.tree.x = x;
+  result.tree.y = y;
+  result.tree.sample = sample;
+  PixelTracer(moments, settings, size, &result.tree)
+      .corner({x, y, corners[static_cast<std::size_t>(sample)]}, ignore);
+  Real finite = 0;
+  for (const Corner corner : corners) {
+    result.samples.push_back(colors(corner));
+    result.corners.push_back({corner.x / Real(rules.side()), corner.y / Real(rules.side())});
+    finite += isFinite(result.samples.back());
+  }
+  result.pixel = meanOver(rules, rules.depth, colors, colors);
+  std::map<std::pair<int, int>, Real> shares;
+  Real sum = 0;
+  forEachShare(rules, rules.depth, colors, [&](Corner corner, Real share) {
+    shares[{corner.y, corner.x}] += share;
+    sum += share;
+  });
+  for (const Corner corner : corners)
+    result.weights.push_back(sum > 0 ? shares[{corner.y, corner.x}] / sum * finite : 0);
+  weigh(result.tree, result.weights[static_cast<std::size_t>(sample)] / std::max<Real>(finite, 1));
+  return result;
+}
+
 }  // namespace
 
 Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
                     int sample, const std::function<bool()>& cancelled) {
   require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
   require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
+  if (subdivides(settings)) return explainDivided(moments, settings, size, x, y, sample, cancelled);
   Explanation result;
   PixelTracer plain(moments, settings, size);
   require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
@@ -34,7 +77,8 @@ Explanation explain(std::span<const Moment> moments, const Settings& settings, c
     if (result.settled) break;
     for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k) {
       Real weight = 1;
-      result.samples.push_back(plain.sample(x, y, k, [&](const CameraRay& ray) { weight = ray.weight; }));
+      result.samples.push_back(
+          plain.sample(x, y, k, [&](const CameraRay& ray, const Sampler&) { weight = ray.weight; }));
       result.weights.push_back(weight);
       sum.add(result.samples.back(), weight);
     }

@@ -15,8 +15,9 @@ struct Explanation {
   RayTree tree;                ///< of the sample asked for
   std::vector<Color> samples;  ///< all of the pixel's, in order; those that are not finite do not count
   bool settled = false;        ///< there are no more of them, because the noise target was met
-  std::vector<Real> weights;   ///< what each counts in the pixel
-  Color pixel;                 ///< their weighted mean, of those that count: the picture's, bit for bit
+  std::vector<Vec2> corners;  ///< where each lies in the pixel, from its lower left corner, if it was divided
+  std::vector<Real> weights;  ///< what each counts in the pixel
+  Color pixel;                ///< their weighted mean, of those that count: the picture's, bit for bit
 };
 
 /// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().

@@ -17,22 +17,21 @@ struct NormalChange {
 }  // namespace
 
 Footprint arrivedAt(const Hit& hit, const Differentials& ray, const Vec3& direction) {
-  return std::make_unique<const Differentials>(arrived(ray, direction, hit.t, hit.surface.normal));
+  return arrived(ray, direction, hit.t, hit.surface.normal);
 }
 
 Footprint mirroredAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
                      const Vec3& normal) {
-  if (!arrived) return nullptr;
+  if (!arrived) return {};
   const NormalChange change(world, hit, normal, *arrived);
-  return std::make_unique<const Differentials>(mirrored(*arrived, direction, normal, change.x, change.y));
+  return mirrored(*arrived, direction, normal, change.x, change.y);
 }
 
 Footprint refractedAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
                       const Vec3& out, const Vec3& normal, Real ratio) {
-  if (!arrived) return nullptr;
+  if (!arrived) return {};
   const NormalChange change(world, hit, normal, *arrived);
-  return std::make_unique<const Differentials>(
-      refracted(*arrived, direction, out, normal, ratio, change.x, change.y));
+  return refracted(*arrived, direction, out, normal, ratio, change.x, change.y);
 }
 
 }  // namespace trace

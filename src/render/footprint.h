@@ -2,14 +2,23 @@
 // want none.
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "render/world.h"
 #include "shading/differentials.h"
 
 namespace trace {
 
-using Footprint = std::unique_ptr<const Differentials>;
+/// The Differentials of a ray, if it has any.
+class Footprint {
+ public:
+  Footprint() = default;
+  Footprint(const Differentials& of) : of_(of) {}  // NOLINT(google-explicit-constructor)
+  const Differentials* get() const { return of_ ? &*of_ : nullptr; }
+
+ private:
+  std::optional<Differentials> of_;
+};
 
 /// Of the ray where it has met the surface.
 Footprint arrivedAt(const Hit& hit, const Differentials& ray, const Vec3& direction);

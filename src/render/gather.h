@@ -35,11 +35,25 @@ class Gather {
   /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
   /// scatters; factor is their product, of which `passed` is not in shadow.
   void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
-                const Color& passed, Real share = 1) {
+                const Color& passed, Real share = 1, Real probability = 1) {
     sum_ += factor * passed;
     if (Tracer::recorded(node_))
-      tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
-                             LightTerm{tracer_.world().lightSource(light), arriving, scatter, share}});
+      tracer_.record(node_,
+                     {Term::Kind::light, factor, passed, Tracer::kNoNode,
+                      LightTerm{tracer_.world().lightSource(light), arriving, scatter, share, probability}});
+  }
+
+  /// Adds the radiance of a light that the ray meets.
+  void add(const World::Lamp& lamp) {
+    add(Term::Kind::emissive, lamp.seen.color);
+    stop(MetLight{lamp.light, lamp.seen.t});
+  }
+
+  /// The same of a path that was put together.
+  void addWay(Term::Kind kind, const Color& factor, const Color& value, const ConnectionTerm& connection) {
+    sum_ += factor * value;
+    if (Tracer::recorded(node_))
+      tracer_.record(node_, {kind, factor, value, Tracer::kNoNode, {}, {}, {}, connection});
   }
 
   /// The same of an estimate by photons.
@@ -52,11 +66,11 @@ class Gather {
   /// sum += factor * value of a medium, whose light may be chosen by chance.
   void add(const Color& factor, const Color& value, const MediumTerm& medium,
            const std::optional<ChanceTerm>& chance = {}) {
-    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, medium});
+    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
   }
   /// The same of light that comes out of a body; it was cast last where it goes in.
   void add(const Color& factor, const Color& value, const BodyTerm& body) {
-    add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, body});
+    add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, body});
   }
   /// What has been added counts so much, behind a medium.
   void dim(const Color& passes, const MediumTerm& medium) { add(Color(1) + passes * -1, sum_ * -1, medium); }

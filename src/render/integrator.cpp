@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "render/integrators/bdpt.h"
 #include "render/integrators/cost.h"
 #include "render/integrators/normals.h"
 #include "render/integrators/occlusion.h"
@@ -16,6 +17,11 @@ std::unique_ptr<Integrator> make(const Settings&) {
   return std::make_unique<Kind>(kArguments...);
 }
 
+std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
+  if (settings.chains == Chains::bdpt) return std::make_unique<Bidirectional>(true);
+  return std::make_unique<PathTracer>(PathTracer::Light::bounced);
+}
+
 constexpr std::array kTable{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
@@ -23,8 +29,10 @@ constexpr std::array kTable{
                   make<PathTracer, PathTracer::Light::bounced>},
     IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: lights and lamps straight",
                   make<PathTracer, PathTracer::Light::straight>},
+    IntegratorRow{IntegratorKind::bdpt, "bdpt", "path, joined with paths that start at lights",
+                  make<Bidirectional>, false, true},
     IntegratorRow{IntegratorKind::mlt, "mlt", "path, led by chains that look around where light was found",
-                  make<PathTracer, PathTracer::Light::bounced>, true},
+                  makeForChains, true, true},
     IntegratorRow{IntegratorKind::photon, "photon",
                   "path with one bounce, and photons for the light that it meets",
                   make<PathTracer, PathTracer::Light::photons>},

@@ -6,12 +6,20 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/parallel.h"
 #include "render/sampler.h"
 #include "render/tracer.h"
 
 namespace trace {
+
+/// Light that a path threw at a place of the picture, (0, 0) at the bottom left: if light fell evenly, the
+/// mean of its colours over the whole picture would be the colour of every pixel.
+struct Thrown {
+  Vec2 place;
+  Color color;
+};
 
 /// A camera ray and the first surface that it meets.
 struct CameraRay {
@@ -21,6 +29,7 @@ struct CameraRay {
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
   const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
   Real ink = 0;                                  ///< how much of the sample is an outline, which is black
+  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null where nobody wants that
 };
 
 /// There is one for a render; it never changes once it is prepared.
@@ -52,6 +61,7 @@ struct IntegratorRow {
   std::string_view help;
   std::unique_ptr<Integrator> (*make)(const Settings& settings);
   bool byChains = false;  ///< Markov chains choose the samples: a pixel has none of its own
+  bool throws = false;    ///< its samples bring light to other pixels, too
 };
 
 std::span<const IntegratorRow> integrators();

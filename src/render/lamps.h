@@ -2,14 +2,17 @@
 // places by chance.
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
-// objects are only met by chance. How often one is chosen follows from its area and its colour; what is
-// around is chosen half of the time, if it is brighter here than there.
+// objects are only met by chance. How often one is chosen follows from its area and its colour, and where
+// they have many parts also from the distance (render/light_tree.h). What is around is chosen half of the
+// time, if it is brighter here than there or if portals show where it is seen.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "render/light_tree.h"
 #include "render/sky_table.h"
 #include "render/tracer.h"
 
@@ -20,7 +23,7 @@ class Lamps {
   Lamps() = default;
   Lamps(const World& world, int threads);
 
-  bool empty() const { return parts_.empty() && sky_.empty(); }
+  bool empty() const { return parts_.empty() && !choosesSky(); }
 
   /// A place that was chosen.
   struct Place {
@@ -35,10 +38,8 @@ class Lamps {
   /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
   /// it met included; 0 for what is no lamp.
   Real density(const Vec3& from, const Hit& hit) const;
-  /// The same of a unit direction in which a ray met nothing.
-  Real density(const Vec3& direction) const {
-    return sky_.empty() ? 0 : skyShare() * sky_.density(direction);
-  }
+  /// The same of a ray that met nothing.
+  Real density(const Ray& ray) const { return choosesSky() ? skyShare() * skyDensity(ray) : 0; }
   /// Where a photon of an object that shines starts.
   struct Start {
     std::uint32_t object;
@@ -49,6 +50,10 @@ class Lamps {
   };
   /// By three numbers from 0 up to 1. Nothing where no object shines.
   std::optional<Start> start(Real which, const Vec2& u) const;
+  /// With which start() gives a place of that part of a lamp, per area and side; 0 for what is no lamp.
+  Real startDensity(std::uint32_t object, std::uint64_t part) const;
+  /// The same of the place that was hit.
+  Real startDensity(const Hit& hit) const;
   /// What all of these objects send out: the luminance of their flux.
   Real power() const { return power_; }
   /// Where a photon of what is around comes from.
@@ -57,6 +62,8 @@ class Lamps {
     Real density;  ///< per solid angle
   };
   SkyStart startOfSky(const Vec2& u) const;
+  /// With which it gives that unit direction.
+  Real skyStartDensity(const Vec3& toLight) const;
 
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
   /// `chance` is Tracer::chance().
@@ -74,22 +81,42 @@ class Lamps {
     Vec3 origin;        ///< a corner, or the middle
     Vec3 edgeA, edgeB;  ///< from the corner
     Real size;          ///< the area, or the radius
-    Real share;         ///< of all choices
+    Real share;         ///< of all choices, where they are few
     /// Of the direction to `at`, which lies on it, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
+    /// Per area and side, of all choices.
+    Real perArea() const;
+    LightReach reach(Real power) const;
   };
   void add(const Part& part, const Color& emissive);
   /// That of the number from 0 up to 1.
   std::size_t partOf(Real which) const;
   /// Where two numbers from 0 up to 1 lie on a flat part.
   static Vec3 placeOn(const Part& part, const Vec2& u);
-  /// How often what is around is chosen.
-  Real skyShare() const { return sky_.empty() ? 0 : parts_.empty() ? 1 : 0.5; }
+  const Part& partOf(std::uint32_t object, std::uint64_t part) const {
+    const bool mesh = parts_[first_[object]].kind == Part::Kind::triangle;
+    return parts_[first_[object] + (mesh ? part : 0)];
+  }
+  bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
+  bool choosesSky() const { return !sky_.empty() || !portals_.empty(); }
+  /// How often what is around is chosen, and how often of these by its brightness, not through a portal.
+  Real skyShare() const { return !choosesSky() ? 0 : parts_.empty() ? 1 : 0.5; }
+  Real tableShare() const { return sky_.empty() ? 0 : portals_.empty() ? 1 : 0.5; }
+  Vec3 towardSky(const Vec3& from, Real which, const Vec2& u) const;
+  Real skyDensity(const Ray& ray) const;
+  /// The part that the number chooses for a place, and how often.
+  std::pair<std::size_t, Real> chosenPart(const Vec3& from, Real which) const;
+  Real shareOf(std::size_t part, const Vec3& from) const {
+    return tree_.empty() ? parts_[part].share
+                         : tree_.probability(from, nullptr, static_cast<std::uint32_t>(part));
+  }
   /// Whether the ray to the place met it.
   bool met(const Place& place, const Hit& hit) const;
 
   SkyTable sky_;
+  std::vector<Portal> portals_;
   std::vector<Part> parts_;
+  LightTree tree_;  ///< over the parts, where they are many
   Real power_ = 0;
   std::vector<Real> sums_;            ///< of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp

@@ -15,9 +15,39 @@ Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(lum
 
 /// A sample where a chain is, and how often it has been there, on the average over all that chance could do.
 struct Stop {
-  Splat sample;
-  Real light;
+  std::vector<Splat> splats;
+  Real light = 0;
   Real visits = 0;
+};
+
+/// Takes the sample of the numbers: what it brings to its own pixel, and to others.
+class Sampling {
+ public:
+  Sampling(PixelTracer& tracer, const Tile& area)
+      : tracer_(tracer), area_(area), pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
+    tracer_.collect(&thrown_);
+  }
+  ~Sampling() { tracer_.collect(nullptr); }
+  Sampling(const Sampling&) = delete;
+  Sampling& operator=(const Sampling&) = delete;
+
+  Stop at(PrimarySample& numbers) {
+    thrown_.clear();
+    Stop stop;
+    stop.splats.push_back(tracer_.sample(numbers, area_));
+    for (const Splat& splat : thrown_)
+      if (splat.x >= area_.x0 && splat.x < area_.x1 && splat.y >= area_.y0 && splat.y < area_.y1)
+        stop.splats.push_back({splat.x, splat.y, splat.value * (1 / pixels_)});
+    for (const Splat& splat : stop.splats) stop.light += lightOf(splat);
+    return stop;
+  }
+  Real pixels() const { return pixels_; }
+
+ private:
+  PixelTracer& tracer_;
+  const Tile& area_;
+  Real pixels_;
+  std::vector<Splat> thrown_;
 };
 
 }  // namespace
@@ -27,6 +57,7 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     : moments_(moments), settings_(settings), size_(size), area_(areaOf(settings.region, size)) {
   settings_.sampling = SampleKind::random;  // no grid: a chain moves without steps
   settings_.noiseTarget = 0;
+  settings_.denoise = false;
   constexpr std::int64_t kChunk = 1024;
   const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
   sums_.resize(static_cast<std::size_t>(starts));
@@ -35,10 +66,11 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   parallelChunks(chunks, settings.threads, job, [&](std::int64_t chunk, int) {
     Budget budget(interrupt);
     const BudgetScope scope(&budget);
-    PixelTracer samples = tracer();
+    PixelTracer tracer = this->tracer();
+    Sampling samples(tracer, area_);
     for (std::int64_t n = chunk * kChunk; n < std::min(starts, (chunk + 1) * kChunk); ++n) {
       PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
-      sums_[static_cast<std::size_t>(n)] = lightOf(samples.sample(numbers, area_));
+      sums_[static_cast<std::size_t>(n)] = samples.at(numbers).light;
     }
     work.reached(++looked);
   });
@@ -61,24 +93,20 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
   const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
   PrimarySample numbers = startOf(static_cast<std::uint64_t>(from - sums_.begin()), mixBits(chances));
-  const auto stop = [&] {
-    const Splat sample = tracer.sample(numbers, area_);
-    return Stop{sample, lightOf(sample)};
-  };
+  Sampling samples(tracer, area_);
   // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how
   // often both choose this one, for each move and on the average, is the density of the two.
-  const Real pixels = (area_.x1 - area_.x0) * (area_.y1 - area_.y0);
   const auto leave = [&](const Stop& at) {
     if (!(at.light > 0)) return;
-    const Real counts = pixels * at.visits / (at.light / mean_ + settings_.moveAnywhere);
-    splats.push_back({at.sample.x, at.sample.y, at.sample.value * counts});
+    const Real counts = samples.pixels() * at.visits / (at.light / mean_ + settings_.moveAnywhere);
+    for (const Splat& splat : at.splats) splats.push_back({splat.x, splat.y, splat.value * counts});
   };
 
-  Stop here = stop();
+  Stop here = samples.at(numbers);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
-    Stop there = stop();
+    Stop there = samples.at(numbers);
     const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
     there.visits = accepts + (anywhere ? 1 : 0);
     here.visits += 1 - accepts;

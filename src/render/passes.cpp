@@ -3,12 +3,13 @@
 // a place or a number half way between two objects belongs to neither.
 #include "render/passes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "image/false_color.h"
 #include "math/box.h"
-#include "render/integrator.h"
+#include "render/interaction.h"
 #include "render/render.h"
 
 namespace trace {
@@ -23,12 +24,18 @@ Picture mapped(Picture picture, Show show) {
   return picture;
 }
 
+/// Levels from 0 to 1 in the colours of the settings.
+Picture coloured(Picture levels, const Settings& settings) {
+  if (settings.passColors == PassColors::grey) return levels;
+  return mapped(std::move(levels), [](const Color& c) { return heatColor(c.r); });
+}
+
 // --- depth ---
 
-Color depthValue(const Hit& hit, const Ray& ray, const Tracer& tracer) {
-  const Real length = hit.t * trace::length(ray.direction);
-  if (tracer.settings().passDepth == PassDepth::ray) return Color(length);
-  return Color(hit.t * dot(ray.direction, tracer.world().camera().ahead));
+Color depthValue(const PassPlace& at) {
+  const Vec3& direction = at.camera.ray.direction;
+  if (at.tracer.settings().passDepth == PassDepth::ray) return Color(at.hit.t * length(direction));
+  return Color(at.hit.t * dot(direction, at.tracer.world().camera().ahead));
 }
 
 constexpr Color kTooNear(0);  // which no surface that is seen has
@@ -44,28 +51,29 @@ Picture depthShown(const Picture& values, const Settings& settings) {
     if (c == kTooNear) return Color(0);
     return extent > 0 ? clamp01(Color((c.r - range.low) / extent)) : Color(0);
   };
+  if (settings.passColors == PassColors::heat) return coloured(mapped(values, grey), settings);
   return toned(mapped(values, grey), settings.tone);
 }
 
 // --- the others ---
 
-Color normalValue(const Hit& hit, const Ray&, const Tracer&) { return colorOf(hit.surface.shading); }
+Color normalValue(const PassPlace& at) { return colorOf(at.hit.surface.shading); }
 Picture normalShown(const Picture& values, const Settings&) {
   return mapped(values, [](const Color& c) { return c * 0.5 + Color(0.5); });
 }
 
-Color idValue(const Hit& hit, const Ray&, const Tracer&) { return Color(hit.object + 1.0); }
+Color idValue(const PassPlace& at) { return Color(at.hit.object + 1.0); }
 Picture idShown(const Picture& values, const Settings&) {
   return mapped(values, [](const Color& c) { return numberColor(static_cast<std::uint64_t>(c.r)); });
 }
 
-Color uvValue(const Hit& hit, const Ray&, const Tracer&) {
-  const Vec2 uv = hit.surface.uv;
+Color uvValue(const PassPlace& at) {
+  const Vec2 uv = at.hit.surface.uv;
   return {uv.x, uv.y, 0};
 }
 Picture uvShown(const Picture& values, const Settings&) { return mapped(values, clamp01); }
 
-Color positionValue(const Hit& hit, const Ray&, const Tracer&) { return colorOf(hit.surface.point); }
+Color positionValue(const PassPlace& at) { return colorOf(at.hit.surface.point); }
 Picture positionShown(const Picture& values, const Settings&) {
   Box3 box;
   for (const Color& c : values.pixels)
@@ -79,11 +87,44 @@ Picture positionShown(const Picture& values, const Settings&) {
   });
 }
 
-Color samplesValue(const Hit&, const Ray&, const Tracer&) { return Color(1); }
+Color samplesValue(const PassPlace&) { return Color(1); }
 Picture samplesShown(const Picture& values, const Settings& settings) {
   const double most = samplesOf(settings);
-  return mapped(values, [&](const Color& c) { return c * (1 / most); });
+  return coloured(mapped(values, [&](const Color& c) { return c * (1 / most); }), settings);
 }
+
+/// What the material scatters evenly, mirrors and lets through, straight on.
+Color albedoValue(const PassPlace& at) {
+  const CameraRay& camera = at.camera;
+  const Interaction place(at.tracer, camera.ray, at.hit, camera.differentials, camera.inside, 0.5);
+  const WhittedTerms& terms = place.material;
+  const Color scattered = scatter(place.bsdf(), place.frame, place.normal, -camera.ray.direction).diffuse;
+  return clamp01(scattered + terms.reflective + terms.transmissive);
+}
+Picture plainShown(const Picture& values, const Settings&) { return mapped(values, clamp01); }
+
+Color occlusionValue(const PassPlace& at) {
+  const CameraRay& camera = at.camera;
+  const Settings& settings = at.tracer.settings();
+  const int rays =
+      settings.ambientOcclusion > 0 ? settings.ambientOcclusion : std::max(1, 64 / samplesOf(settings));
+  const Interaction place(at.tracer, camera.ray, at.hit, camera.differentials, camera.inside, 0.5);
+  Gather open(at.tracer, 0);
+  place.addOpen(open, Term::Kind::bounce, Color(1), rays, at.sampler);
+  return open.radiance();
+}
+
+/// In levels of 255: what is removed from a pixel at most of a channel.
+Picture changeShown(const Picture& values, const Settings& settings) {
+  constexpr double kWhite = 16;  // levels
+  const auto level = [](const Color& c) {
+    return Color(255 / kWhite * std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
+  };
+  return coloured(mapped(values, [&](const Color& c) { return clamp01(level(c)); }), settings);
+}
+
+/// 1 / depth has a mean where some samples meet nothing.
+Color nearnessValue(const PassPlace& at) { return Color(1 / depthValue(at).r); }
 
 constexpr Color kNowhere(kInfinity);
 constexpr std::array kTable{
@@ -100,7 +141,19 @@ constexpr std::array kTable{
             Film::Keep::first, kNowhere, kNowhere, positionValue, positionShown},
     PassRow{Pass::samples, "samples", "how many camera rays it has; most are white", Film::Keep::sum,
             Color(1), Color(1), samplesValue, samplesShown},
+    PassRow{Pass::albedo, "albedo", "the colour of its material: what it scatters, mirrors and lets through",
+            Film::Keep::mean, Color(0), Color(0), albedoValue, plainShown},
+    PassRow{Pass::occlusion, "occlusion",
+            "how open the place is: ambient occlusion, white where nothing is near", Film::Keep::mean,
+            Color(1), Color(1), occlusionValue, plainShown},
+    PassRow{Pass::change, "change",
+            "what --denoise added to the picture; shown by its size, 16 levels are white", Film::Keep::mean,
+            Color(0), Color(0), nullptr, changeShown},
 };
+
+/// What else guides the removal of noise.
+constexpr PassRow kNearness{Pass::depth, "nearness",    "",        Film::Keep::mean, Color(0),
+                            Color(0),    nearnessValue, plainShown};
 
 }  // namespace
 
@@ -113,13 +166,32 @@ std::vector<const PassRow*> passesOf(const Settings& settings) {
   return rows;
 }
 
+std::vector<const PassRow*> layersOf(const Settings& settings) {
+  std::vector<const PassRow*> rows;
+  for (const PassRow& row : kTable) {
+    const bool guides = settings.denoise && (row.pass == Pass::albedo || row.pass == Pass::normal);
+    if (row.value && (guides || settings.passes.has(row.pass))) rows.push_back(&row);
+  }
+  if (settings.denoise) rows.push_back(&kNearness);
+  return rows;
+}
+
+int layerOf(const Settings& settings, std::string_view pass) {
+  const auto rows = layersOf(settings);
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const PassRow* row) { return row->name == pass; });
+  return found == rows.end() ? -1 : static_cast<int>(found - rows.begin());
+}
+
 Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Film::LayerKind> layers;
-  for (const PassRow* row : passesOf(settings))
+  for (const PassRow* row : layersOf(settings))
     layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
-  const bool chains = rowOf(settings).byChains;
-  Film film(width, height, samplesOf(settings), layers, chains ? 0 : settings.noiseTarget);
-  if (chains) film.takeSplats();
+  const IntegratorRow& row = rowOf(settings);
+  Film film(width, height, samplesOf(settings), layers, row.byChains ? 0 : settings.noiseTarget);
+  if (row.throws) film.takeSplats();
+  if (subdivides(settings)) film.divide(subdivisionOf(settings, {width, height}));
+  if (settings.denoise && !row.throws && !film.corners()) film.keepHalves();
   return film;
 }
 

@@ -7,9 +7,17 @@
 #include <vector>
 
 #include "image/film.h"
-#include "render/tracer.h"
+#include "render/integrator.h"
 
 namespace trace {
+
+/// A camera ray that met something.
+struct PassPlace {
+  const CameraRay& camera;
+  const Hit& hit;
+  Tracer& tracer;
+  const Sampler& sampler;
+};
 
 struct PassRow {
   Pass pass;
@@ -20,7 +28,8 @@ struct PassRow {
   Color tooNear;     ///< where it meets something nearer than the camera sees
 
   /// Of the surface that a camera ray meets. A pass of one number has it in all three channels.
-  Color (*value)(const Hit&, const Ray&, const Tracer&);
+  /// Null: the pass is made of the finished picture, and is no layer.
+  Color (*value)(const PassPlace&);
   /// The pass for the eye: values from 0 to 1 from raw ones.
   Picture (*shown)(const Picture& values, const Settings&);
 };
@@ -30,7 +39,12 @@ std::span<const PassRow> passRows();
 /// The rows asked for, in the order of the table.
 std::vector<const PassRow*> passesOf(const Settings& settings);
 
-/// With a layer for each of passesOf(): what render() wants.
+/// Those that are layers of the film: of passesOf(), and of what removing noise is guided by.
+std::vector<const PassRow*> layersOf(const Settings& settings);
+/// The place of a pass among these; -1 if it is not.
+int layerOf(const Settings& settings, std::string_view pass);
+
+/// With a layer for each of layersOf(): what render() wants.
 Film makeFilm(const Settings& settings, int width, int height);
 
 }  // namespace trace

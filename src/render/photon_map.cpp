@@ -7,11 +7,12 @@
 
 namespace trace {
 
-PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness)
+PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness, std::size_t nearest)
     : photons_(std::move(photons)),
       axes_(photons_.size()),
       reach2_(reach * reach),
-      steepness_(flatness * flatness - 1) {
+      steepness_(flatness * flatness - 1),
+      nearest_(nearest) {
   build(0, photons_.size());
 }
 
@@ -44,6 +45,7 @@ struct PhotonMap::Search {
   const Vec3& normal;
   Real steepness;
   Real most2;  ///< what is farther does not count
+  std::size_t nearest;
   std::array<Entry, kNearest> heap{};
   std::size_t count = 0;
 
@@ -52,10 +54,10 @@ struct PhotonMap::Search {
     const Real height = dot(way, normal), distance2 = dot(way, way) + steepness * (height * height);
     constexpr Real kAlike = 0.8;  // of normals on one surface
     if (!(distance2 < most2) || dot(photon.normal, normal) < kAlike) return;
-    if (count == kNearest) std::pop_heap(heap.begin(), heap.begin() + count--);
+    if (count == nearest) std::pop_heap(heap.begin(), heap.begin() + count--);
     heap[count++] = {distance2, &photon};
     std::push_heap(heap.begin(), heap.begin() + count);
-    if (count == kNearest) most2 = heap[0].distance2;
+    if (count == nearest) most2 = heap[0].distance2;
   }
 };
 
@@ -71,7 +73,7 @@ void PhotonMap::search(std::size_t first, std::size_t end, Search& s) const {
 }
 
 PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal) const {
-  Search s{point, normal, steepness_, reach2_};
+  Search s{point, normal, steepness_, reach2_, nearest_};
   search(0, photons_.size(), s);
   Near result;
   result.count = s.count;

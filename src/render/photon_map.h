@@ -21,12 +21,13 @@ struct Photon {
 
 class PhotonMap {
  public:
-  static constexpr std::size_t kNearest = 64;  ///< photons of an estimate
+  static constexpr std::size_t kNearest = 64;  ///< photons of an estimate, at most
 
   PhotonMap() = default;
   /// Photons farther than `reach` away count nowhere. Distances along the normal count `flatness` times more:
-  /// what lies above a surface or below it is of another one.
-  PhotonMap(std::vector<Photon> photons, Real reach, Real flatness = 1);
+  /// what lies above a surface or below it is of another one. `nearest` photons make an estimate, from 2 to
+  /// kNearest.
+  PhotonMap(std::vector<Photon> photons, Real reach, Real flatness = 1, std::size_t nearest = kNearest);
 
   bool empty() const { return photons_.empty(); }
   std::span<const Photon> photons() const { return photons_; }
@@ -54,6 +55,7 @@ class PhotonMap {
   std::vector<std::uint8_t> axes_;  ///< across which it does
   Real reach2_ = 0;
   Real steepness_ = 0;  ///< flatness^2 - 1
+  std::size_t nearest_ = kNearest;
 };
 
 }  // namespace trace

@@ -10,6 +10,7 @@
 #include "math/warp.h"
 #include "render/fog.h"
 #include "render/interaction.h"
+#include "shading/lights/panel.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -104,10 +105,8 @@ std::optional<Aim> aimAlong(const Vec3& direction, const std::vector<Target>& ta
 std::optional<Vec3> placeOn(const Light& light, const Vec2& u) {
   return match(light, [&](const auto& l) -> std::optional<Vec3> {
     if constexpr (requires { l.twoSided; }) {
-      const Vec2 disk = toDisk(u);
-      const Vec2 at = l.round ? Vec2{disk.x / 2, disk.y / 2} : Vec2{u.x - 0.5, u.y - 0.5};
-      return l.position + l.u * at.x + l.v * at.y;
-    } else if constexpr (requires { l.position; }) {
+      return trace::placeOn(l, u);
+    } else if constexpr (requires { l.radius; }) {
       return l.position + sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y) * l.radius;
     } else {
       return {};
@@ -134,8 +133,9 @@ class Emitter {
   /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
   /// sent to the targets. Else every surface that scatters keeps them.
   Emitter(const World& world, const Settings& settings, const Lamps* lamps, std::vector<Target> targets,
-          bool onlyCaustics)
-      : world_(world),
+          bool onlyCaustics, int pass)
+      : seedOfPass_(mixBits(static_cast<std::uint64_t>(pass)) - mixBits(0)),
+        world_(world),
         settings_(settings),
         lamps_(lamps),
         targets_(std::move(targets)),
@@ -147,7 +147,7 @@ class Emitter {
   /// Photon n of the source.
   void send(const Source& source, std::uint32_t n, Landed& landed) {
     const auto number = static_cast<std::uint64_t>(source.kind) << 32 | source.light;
-    seed_ = mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(number + 1));
+    seed_ = mixBits((static_cast<std::uint64_t>(settings_.seed) + seedOfPass_) ^ mixBits(number + 1));
     n_ = n;
     chances_.bits = mixBits(mixBits(seed_ ^ 4) ^ n);
     holes_.bits = mixBits(mixBits(seed_ ^ 5) ^ n);
@@ -165,6 +165,8 @@ class Emitter {
     std::optional<Hit> hit;
     Color power;
     bool fromInfinity;  ///< whose light is what arrives, and loses nothing before
+    /// Of the scene, whose number that is; shadow rays ask for it, which cross panes that bend nothing.
+    const std::size_t* light = nullptr;
   };
 
   struct Chances {
@@ -195,7 +197,7 @@ class Emitter {
     if (!arriving) return {};
     const Real away2 = point ? hit->t * hit->t : 1;
     const Color power = arriving->intensity() * (kPi * away2 * aim->share / static_cast<Real>(source.count));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, &source.light};
   }
 
   std::optional<Flight> fromLamp(const Source& source) {
@@ -227,7 +229,7 @@ class Emitter {
     const Ray ray = place->leave(direction);
     auto hit = tracer_.cast(ray, RayKind::bounce, inside, hole());
     const Color power = whitted(*bsdf).emissive * (place->opacity * share / static_cast<Real>(source.count));
-    return Flight{ray, std::move(inside), std::move(hit), power, false};
+    return Flight{ray, std::move(inside), std::move(hit), power, false, false};
   }
 
   std::optional<Flight> fromSky(const Source& source) {
@@ -238,19 +240,21 @@ class Emitter {
     Interfaces inside = tracer_.interfacesAt(aim->ray.origin);
     auto hit = tracer_.cast(aim->ray, RayKind::bounce, inside, hole());
     const Color power = light * (aim->share / (sky.density * static_cast<Real>(source.count)));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, true};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, true, false};
   }
 
   void fly(Flight& flight, Landed& landed) {
-    auto& [ray, inside, hit, power, fromInfinity] = flight;
+    auto& [ray, inside, hit, power, fromInfinity, light] = flight;
+    bool gathered = !light;  // shadow rays do not bring it
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
       power *= inside.passed(hit->t);
       if (!(bounces == 0 && fromInfinity) && isInOpenAir(inside, world_))
         power *= Color(fog_.passes(ray, hit->t));
+      if (bounces == 0 && light && !world_.lights(*light, hit->object)) return;
       const Interaction at(tracer_, ray, *hit, nullptr, inside, chance());
       const Vec3& normal = hit->surface.normal;
       const bool rests = scatters(at.bsdf());
-      if (rests && (bounces > 0 || !onlyCaustics_)) {
+      if (rests && ((bounces > 0 && gathered) || !onlyCaustics_)) {
         if (const auto place = texels_.place(world_, ray, *hit))
           landed.onMaps.emplace_back(*place, power);
         else
@@ -274,19 +278,24 @@ class Emitter {
       Interfaces there = inside;
       Vec3 direction;
       if (choice < mirrors) {
+        gathered = true;
         power *= mirror * (all / mirrors);
         direction = mirrored(ray.direction, at.normal);
       } else if (choice < mirrors + passes) {
         const auto refracted = at.through(*share);
         if (!refracted) return;
-        power *= through * (all / passes);
+        gathered = gathered || !at.straight;
+        // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do
+        // photons.
+        const Real ratio = at.ratio(*share);
+        power *= through * (ratio * ratio * all / passes);
         there = at.behind();
         there.wavelength = share->nanometres;
         direction = *refracted;
       } else if (choice < mirrors + passes + lobe) {
         const Real choose = chance();
         const Vec2 u{chance(), chance()};
-        const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, u, Transport::importance);
+        const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, u, Transport::radiance);
         if (!drawn) return;
         direction = drawn->toLight;
         const bool inward = dot(direction, at.normal) < 0;
@@ -314,6 +323,7 @@ class Emitter {
     return std::min(std::abs(factor), 4.0);
   }
 
+  std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;
   const Settings& settings_;
   const Lamps* lamps_;
@@ -369,7 +379,7 @@ std::vector<Source> sourcesOf(const World& world, const Lamps* lamps, const std:
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
 Landed landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                     const std::vector<Target>& targets, bool onlyCaustics, int photons, Job& job) {
+                     const std::vector<Target>& targets, bool onlyCaustics, int photons, Job& job, int pass) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     const Source& source;
@@ -385,7 +395,7 @@ Landed landedPhotons(const World& world, const Settings& settings, const Lamps* 
   std::atomic<std::int64_t> sent{0};
   parallelChunks(std::ssize(chunks), settings.threads, job, [&](std::int64_t i, int) {
     Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-    Emitter emitter(world, settings, lamps, targets, onlyCaustics);
+    Emitter emitter(world, settings, lamps, targets, onlyCaustics, pass);
     for (std::int64_t n = chunk.first; n < chunk.end; ++n)
       emitter.send(chunk.source, static_cast<std::uint32_t>(n), chunk.landed);
     work.reached(++sent);
@@ -403,33 +413,53 @@ Landed landedPhotons(const World& world, const Settings& settings, const Lamps* 
 /// Of photons by which whole pictures are made (Jensen 2001, section 7.3: the sphere compressed to a disk).
 constexpr Real kFlatness = 10;
 
-}  // namespace
+/// Of the estimates of a pass; the fewest that an unbiased estimate takes are 2.
+std::size_t nearestOfPass(int pass) {
+  constexpr std::size_t kFewest = 2;
+  const Real count = areaOfPass(pass) * static_cast<Real>(PhotonMap::kNearest);
+  return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
+}
 
-GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
-                                  Job& job) {
+GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
+                          int pass) {
   const std::vector<Target> targets = targetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};
   constexpr Real kReach = 0.02;  // of the scene's size
-  const Real reach =
+  const Real widest =
       settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
-  Landed landed = landedPhotons(world, settings, lamps, targets, true, photons, job);
+  const Real reach = widest * std::sqrt(areaOfPass(pass));
+  Landed landed = landedPhotons(world, settings, lamps, targets, true, photons, job, pass);
   IlluminationMap texels(settings.causticTexels);
   for (const auto& [place, power] : landed.onMaps) texels.add(place, power);
-  return {{std::move(landed.photons), reach, lamps ? kFlatness : 1}, std::move(texels)};
+  return {{std::move(landed.photons), reach, lamps ? kFlatness : 1, nearestOfPass(pass)}, std::move(texels)};
 }
 
-PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job) {
-  return gatheredCaustics(world, settings, lamps, job).photons;
+}  // namespace
+
+Real areaOfPass(int pass) {
+  constexpr Real kAlpha = 2.0 / 3;
+  Real area = 1;
+  for (int n = 1; n <= pass; ++n) area *= (n + kAlpha) / (n + 1);
+  return area;
 }
 
-PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job) {
+GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
+                                  Job& job) {
+  return gathered(world, settings, lamps, job, 0);
+}
+
+PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job, int pass) {
+  return gathered(world, settings, lamps, job, pass).photons;
+}
+
+PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job, int pass) {
   const Box3& box = world.bounds();
   if (settings.photons == 0 || box.empty()) return {};
   const std::vector<Target> everything{{box.center(), length(box.size()) / 2}};
   constexpr Real kReach = 0.1;  // of the scene's size
-  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job).photons,
-          kReach * length(box.size()), kFlatness};
+  return {landedPhotons(world, settings, &lamps, everything, false, settings.photons, job, pass).photons,
+          kReach * length(box.size()) * std::sqrt(areaOfPass(pass)), kFlatness, nearestOfPass(pass)};
 }
 
 }  // namespace trace

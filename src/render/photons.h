@@ -15,7 +15,11 @@ namespace trace {
 /// Settings::caustics photons fly to what mirrors or refracts, and come to rest on surfaces after it that
 /// scatter. `lamps`, if any, and what is around send photons beside the lights of the scene; then there are
 /// Settings::photons if the other number is 0. Empty if there are none, and of a job that was cancelled.
-PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job);
+/// `pass` is the number of one of several maps of other photons: in later ones fewer of them, nearer to a
+/// place, count, so that the mean of many is without the blur of one (Knaus and Zwicker, Progressive Photon
+/// Mapping: A Probabilistic Approach, 2011).
+PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
+                     int pass = 0);
 
 /// The same with Settings::causticTexels, for places that have a map; photons tell of the others.
 struct GatheredCaustics {
@@ -26,6 +30,10 @@ GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, 
 
 /// All light (section 4.3: the global map): Settings::photons photons fly from lights, lamps and what is
 /// around the scene, and are kept by every surface that scatters them.
-PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job);
+PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job, int pass = 0);
+
+/// By how much the area in which photons count is smaller in that pass than in the first: by
+/// (n + alpha) / (n + 1) from pass n = 1 on to the next, alpha = 2/3 (equation 20 of the paper).
+Real areaOfPass(int pass);
 
 }  // namespace trace

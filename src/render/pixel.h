@@ -29,27 +29,34 @@ class PixelTracer {
               RayTree* tree = nullptr)
       : PixelTracer(std::array{Moment{&world, &integrator}}, settings, size, tree) {}
 
+  /// From now on what samples throw at other places of the picture is left there; null: nowhere.
+  void collect(std::vector<Splat>* splats) { splats_ = splats; }
+
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
 
   /// What the camera ray of sample 0 <= k < samples() brings; may be NaN or infinite. Row y = 0 is the top.
   Color sample(int x, int y, int k) {
-    return sample(x, y, k, [](const CameraRay&) {});
+    return sample(x, y, k, [](const CameraRay&, const Sampler&) {});
   }
-  /// The same; look(CameraRay) sees the ray before it is followed.
+  /// The same; look(CameraRay, Sampler) sees the ray after it was followed.
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    return withCamera(sampler, rules_.middle(x, y), sampler.film(), [&](const CameraRay& camera) {
-      look(camera);
-      return radiance(sampler, camera);
-    });
+    return follow(sampler, rules_.middle(x, y), sampler.film(), look);
+  }
+  /// What a corner sees, likewise.
+  template <class Look>
+  Color corner(const CornerPlace& place, Look&& look) {
+    const Sampler sampler(rules_, place);
+    return follow(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}, look);
   }
   /// The camera ray alone.
   template <class Look>
   void look(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    withCamera(sampler, rules_.middle(x, y), sampler.film(), look);
+    withCamera(sampler, rules_.middle(x, y), sampler.film(),
+               [&](const CameraRay& camera) { look(camera, sampler); });
   }
   /// Of a sample with these numbers, which choose its place in the area of the picture, too: what it brings,
   /// times what it counts, and where.
@@ -79,6 +86,14 @@ class PixelTracer {
   }
 
  private:
+  template <class Look>
+  Color follow(const Sampler& sampler, const Vec2& middle, const FilmSample& place, const Look& look) {
+    return withCamera(sampler, middle, place, [&](const CameraRay& camera) {
+      const Color color = radiance(sampler, camera);
+      look(camera, sampler);
+      return color;
+    });
+  }
   /// Calls use(CameraRay) for the ray of a place of the picture, which counts for the pixel of that middle.
   template <class Use>
   std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,
@@ -95,14 +110,19 @@ class PixelTracer {
     if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
     Interfaces inside = tracer.interfacesAt(ray.origin);
     const bool weighs = moments_[now_].integrator->weighsHoles();
-    const Real chance = weighs ? 0 : tracer.chance(sampler.branch(Sampler::kHole));
+    const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Sampler::kHole).next();
     CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
                      differentials.get()};
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
+    if (splats_) camera.thrown = &thrown_;
     return use(camera);
   }
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
-    return moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    thrown_.clear();
+    const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    for (const Thrown& t : thrown_)
+      rules_.spread(t.place, [&](int x, int y, Real share) { splats_->push_back({x, y, t.color * share}); });
+    return radiance;
   }
 
   /// The moment that a sample sees.
@@ -118,14 +138,15 @@ class PixelTracer {
     const Vec2 step = rules_.spacing();
     const Ray x = camera.ray({film.x + step.x, film.y}, lens),
               y = camera.ray({film.x, film.y + step.y}, lens);
-    return std::make_unique<const Differentials>(Differentials{x.origin - ray.origin, y.origin - ray.origin,
-                                                               x.direction - ray.direction,
-                                                               y.direction - ray.direction});
+    return Differentials{x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
+                         y.direction - ray.direction};
   }
 
   std::vector<Moment> moments_;
   std::vector<Tracer> tracers_;  ///< one for each
   RayTree* tree_;
+  std::vector<Splat>* splats_ = nullptr;
+  std::vector<Thrown> thrown_;  ///< by the sample
   std::size_t now_ = 0;
   SampleRules rules_;
 };

@@ -9,12 +9,13 @@
 
 namespace trace {
 
-/// bounce: scattered in a direction chosen by chance; lamp: to a place of an object that gives off light.
-enum class RayKind { camera, reflection, refraction, bounce, lamp, shadow };
-inline constexpr std::size_t kRayKinds = 6;
+/// bounce: scattered in a direction chosen by chance; lamp: to a place of an object that gives off light;
+/// light: of a path that starts where light comes from.
+enum class RayKind { camera, reflection, refraction, bounce, lamp, light, shadow };
+inline constexpr std::size_t kRayKinds = 7;
 
 /// A kind of ray as it is shown. Of shadow rays those that are blocked look different.
-enum class RayLooks { camera, reflection, refraction, bounce, lamp, shadowLit, shadowBlocked };
+enum class RayLooks { camera, reflection, refraction, bounce, lamp, light, shadowLit, shadowBlocked };
 
 struct RayLook {
   std::string_view kind;      ///< the kind's name, one word
@@ -26,12 +27,13 @@ struct RayLook {
 
 /// In the order of RayLooks, which begins with that of RayKind. The colours stay apart for colour-blind eyes
 /// (Okabe and Ito 2008) and on white and black.
-inline constexpr std::array<RayLook, 7> kRayLooks{{
+inline constexpr std::array<RayLook, 8> kRayLooks{{
     {"camera", "camera", "camera ray", {0.35, 0.35, 0.35}, "\033[1m"},
     {"reflection", "reflection", "reflected", {0, 0.447, 0.698}, "\033[1;36m"},
     {"refraction", "refraction", "refracted", {0, 0.62, 0.451}, "\033[1;35m"},
     {"bounce", "bounce", "bounced by chance", {0.8, 0.475, 0.655}, "\033[1;31m"},
     {"lamp", "lamp", "ray to an object that shines", {0.55, 0.5, 0.05}, "\033[1;32m"},
+    {"light", "light", "of a path from a light", {0.337, 0.706, 0.914}, "\033[1;34m"},
     {"shadow", "shadow-lit", "shadow ray that reaches its light", {0.902, 0.624, 0}, "\033[1;33m"},
     {"shadow", "shadow-blocked", "shadow ray that is blocked", {0.835, 0.169, 0.169}, "\033[1;33m"},
 }};

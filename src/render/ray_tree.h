@@ -20,6 +20,7 @@
 #include "render/hit.h"
 #include "render/interfaces.h"
 #include "render/outside.h"
+#include "render/photon_map.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
@@ -91,8 +92,14 @@ struct Blocked {
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };
+/// Met a light that is seen, before any surface.
+struct MetLight {
+  static constexpr std::string_view kName = "met-light";
+  std::uint32_t light;  ///< index into Scene::lights
+  Real t;
+};
 using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, BelowThreshold, Roulette,
-                            TotalInternalReflection, Blocked, ReachedLight>;
+                            TotalInternalReflection, Blocked, ReachedLight, MetLight>;
 
 // --- what a ray brings back ---
 
@@ -102,7 +109,8 @@ struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
   Scatter scatter;
-  Real share = 1;  ///< of the rays to a light with a size: one of --light-samples
+  Real share = 1;        ///< of the rays to a light with a size: one of --light-samples
+  Real probability = 1;  ///< with which the light was chosen among all, if they are many: share holds it, too
 };
 
 /// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
@@ -118,6 +126,15 @@ struct ChanceTerm {
 struct PhotonTerm {
   std::size_t count = 0;
   Real radius = 0;
+  std::vector<Photon> photons{};  ///< that they are, where a tree takes them
+};
+
+/// A path that was put together of `light` places from the light's end and `camera` places from the camera's,
+/// the camera itself among them. Each of its light + camera + 1 ways to be put together counts by how likely
+/// it was.
+struct ConnectionTerm {
+  int light = 0, camera = 0;
+  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 10.2)
 };
 
 /// What a medium does with light, and where.
@@ -146,6 +163,7 @@ struct Term {
     refraction,
     bounce,
     lamp,
+    joined,
     background,
     fog,
     medium,
@@ -153,9 +171,9 @@ struct Term {
     hole,
     outline
   };
-  static constexpr std::array<std::string_view, 15> kNames{
-      "emissive", "ambient",    "light", "caustic", "photons",    "reflection", "refraction", "bounce",
-      "lamp",     "background", "fog",   "medium",  "subsurface", "hole",       "outline"};
+  static constexpr std::array<std::string_view, 16> kNames{
+      "emissive", "ambient", "light",  "caustic",    "photons", "reflection", "refraction", "bounce",
+      "lamp",     "joined",  "background", "fog",    "medium",  "subsurface", "hole",       "outline"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
@@ -168,6 +186,7 @@ struct Term {
   std::optional<LightTerm> light{};
   std::optional<ChanceTerm> chance{};
   std::optional<PhotonTerm> photons{};
+  std::optional<ConnectionTerm> connection{};
   std::optional<MediumTerm> medium{};
   std::optional<BodyTerm> body{};
 };
@@ -220,7 +239,8 @@ struct RayNode {
 /// machine's memory.
 inline constexpr std::size_t kMostRecordedRays = 200000;
 
-/// nodes[0] is the camera ray; parents come before their children, in the order of tracing.
+/// nodes[0] is the camera ray; parents come before their children, in the order of tracing. Rays of a path
+/// from a light are roots, too, the first of them; they bring nothing back.
 struct RayTree {
   int x = 0, y = 0, sample = 0;
   int moment = -1;  ///< of those while the shutter is open; -1: there is but one
@@ -251,7 +271,7 @@ std::string sentence(const Ignored& ignored, const Scene& scene);
 std::string materialName(const Scene& scene, std::uint32_t material);
 /// The same of one, or "red 0.25 + blue 0.75".
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
-/// "point_light (scene.ray:7)".
+/// Its name, or "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);
 /// "scene.ray:12", without folders; "" for a place in no file.
 std::string shortPlace(const Place& place);

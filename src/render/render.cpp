@@ -32,11 +32,12 @@ class TileRenderer {
       : budget_(std::move(interrupt)),
         tracer_(moments, settings, {film.width(), film.height()}),
         area_(areaOf(settings.region, {film.width(), film.height()})),
-        passes_(passesOf(settings)),
+        passes_(layersOf(settings)),
         film_(film),
         chains_(chains) {
     if (film.layers() != passes_.size()) passes_.clear();
     if (chains_) chainTracer_.emplace(chains_->tracer());
+    throws_ = film.takesSplats() && !chains_;
   }
 
   TileSamples take(std::int64_t tile, const Wave& wave) {
@@ -44,7 +45,9 @@ class TileRenderer {
     TileSamples samples{.area = intersection(film_.tile(tile), area_),
                         .colors = {},
                         .layers = std::vector<std::vector<Color>>(passes_.size())};
-    chains_ ? takeChain(tile, wave, samples) : takePixels(wave, samples);
+    chains_           ? takeChain(tile, wave, samples)
+    : film_.corners() ? takeCorners(wave, samples)
+                      : takePixels(wave, samples);
     return samples;
   }
 
@@ -61,21 +64,53 @@ class TileRenderer {
     const Tile& area = samples.area;
     const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
     samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
+    tracer_.collect(throws_ ? &samples.splats : nullptr);
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) {
         if (film_.settled(x, y)) continue;
         for (int k = wave.first; k < wave.end; ++k) {
           Real weight = 1;
-          const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera) {
+          const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
             weight = camera.weight;
-            if (!passes_.empty()) addPasses(camera, samples.layers);
+            if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
           });
           if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
           if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
           samples.colors.push_back(color);
+          samples.paths += throws_;
           if (!isFinite(color)) noteBad({x, y, k});
         }
       }
+    std::erase_if(samples.splats, [&](const Splat& s) {
+      return s.x < area_.x0 || s.x >= area_.x1 || s.y < area_.y0 || s.y >= area_.y1;
+    });
+  }
+
+  /// Those of the wave's level that are to be looked at.
+  void takeCorners(const Wave& wave, TileSamples& samples) {
+    const CornerSamples& before = *film_.corners();
+    for (int y = samples.area.y0; y < samples.area.y1; ++y)
+      for (int x = samples.area.x0; x < samples.area.x1; ++x) {
+        samples.starts.push_back(samples.corners.size());
+        for (const Corner corner : before.wanted(x, y, wave.first)) {
+          const CornerPlace place{x, y, corner};
+          samples.corners.push_back(corner);
+          samples.colors.push_back(
+              tracer_.corner(place, [&](const CameraRay& camera, const Sampler& sampler) {
+                if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
+              }));
+          if (!isFinite(samples.colors.back())) noteBad(numbered(before.userOf(place), wave.first));
+        }
+      }
+    samples.starts.push_back(samples.corners.size());
+  }
+
+  /// The corner's number among those of its pixel, as explain() counts them.
+  BadSample numbered(const CornerPlace& place, int level) const {
+    const CornerSamples& before = *film_.corners();
+    const auto corners = cornersOf(before.rules(), level, before.of(place.x, place.y));
+    const auto at = std::find(corners.begin(), corners.end(), place.corner);
+    return {place.x, place.y, static_cast<int>(at - corners.begin())};
   }
 
   /// One chain of as many samples; of the tile's own pixels only the passes are seen.
@@ -91,14 +126,16 @@ class TileRenderer {
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
         for (int k = wave.first; k < wave.end; ++k)
-          tracer_.look(x, y, k, [&](const CameraRay& camera) { addPasses(camera, samples.layers); });
+          tracer_.look(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
+            addPasses(camera, sampler, samples.layers);
+          });
   }
 
-  void addPasses(const CameraRay& camera, std::vector<std::vector<Color>>& layers) {
-    const Tracer& tracer = tracer_.tracer();
+  void addPasses(const CameraRay& camera, const Sampler& sampler, std::vector<std::vector<Color>>& layers) {
+    Tracer& tracer = tracer_.tracer();
     const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
     for (std::size_t i = 0; i < passes_.size(); ++i)
-      layers[i].push_back(camera.hit ? passes_[i]->value(*camera.hit, camera.ray, tracer)
+      layers[i].push_back(camera.hit ? passes_[i]->value({camera, *camera.hit, tracer, sampler})
                           : tooNear  ? passes_[i]->tooNear
                                      : passes_[i]->background);
   }
@@ -115,6 +152,7 @@ class TileRenderer {
   const Film& film_;
   const Metropolis* chains_;
   std::optional<PixelTracer> chainTracer_;
+  bool throws_ = false;         ///< samples bring light to other pixels, too
   std::vector<BadSample> bad_;  ///< the first
   std::uint64_t badCount_ = 0;
 };
@@ -182,7 +220,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   RenderResult result;
   bool outOfMemory = false;
   try {
-    if (film.takesSplats())
+    if (film.takesSplats() && rowOf(settings).byChains)
       chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
     job.before = film.samplesDone();
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);

@@ -42,8 +42,13 @@ Size pictureSize(const Settings& settings, const Camera& camera);
 /// The part of the picture that is rendered.
 Tile areaOf(const Region& region, const Size& size);
 
-/// How many samples a pixel has: spp, or the next square number, as the generator has it.
+/// How many samples a pixel has: spp, or the next square number, as the generator has it. Of divided pixels
+/// the most that are one pixel's own.
 int samplesOf(const Settings& settings);
+
+/// Pixels are divided where their corners differ, instead of having samples of their own.
+bool subdivides(const Settings& settings);
+Subdivision subdivisionOf(const Settings& settings, const Size& size);
 
 /// Renders what is seen at the moments, each sample one of them, into `film`, which must be of pictureSize()
 /// and samplesOf() (makeFilm() in passes.h). Passes are made where the film has a layer for each; in any

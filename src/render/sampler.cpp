@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/low_discrepancy.h"
+#include "render/integrator.h"
 
 namespace trace {
 namespace {
@@ -34,6 +35,7 @@ Vec2 multiJitteredPair(const Draw& d) {
 
 Vec2 haltonPair(const Draw& d) { return haltonPoint(number(d.k), d.pixel); }
 Vec2 sobolPair(const Draw& d) { return sobolPoint(number(d.k), d.pixel); }
+Real sobolFirst(const Draw& d) { return sobolPair(d).x; }
 
 /// Bits of v at the even places.
 constexpr std::uint32_t spread(std::uint32_t v) {
@@ -63,7 +65,7 @@ Vec2 bluePair(const Draw& d) {
 
 constexpr std::array kTable{
     GeneratorRow{SampleKind::grid, "grid", "camera rays on a regular grid in each pixel, all else by sobol",
-                 true, false, sobolPair},
+                 true, false, sobolPair, sobolFirst},
     GeneratorRow{SampleKind::random, "random", "independent of one another", false, true, randomPair},
     GeneratorRow{SampleKind::jittered, "jittered", "one at random in each cell of a grid", true, false,
                  jitteredPair},
@@ -72,7 +74,7 @@ constexpr std::array kTable{
     GeneratorRow{SampleKind::halton, "halton", "Halton's sequence in bases 2 and 3, scrambled", false, true,
                  haltonPair},
     GeneratorRow{SampleKind::sobol, "sobol", "Sobol's sequence, scrambled as Owen does", false, true,
-                 sobolPair},
+                 sobolPair, sobolFirst},
     GeneratorRow{SampleKind::blue, "blue", "sobol, with neighbouring pixels unlike each other: finer noise",
                  false, false, bluePair},
 };
@@ -83,11 +85,22 @@ std::span<const GeneratorRow> generators() { return kTable; }
 
 const GeneratorRow& generatorOf(const Settings& settings) {
   // Some samples of a grid are a part of the pixel, of the others all of it.
-  const bool anyNumber = settings.noiseTarget > 0 && settings.sampling == SampleKind::grid;
+  const bool anyNumber =
+      (settings.noiseTarget > 0 || settings.denoise) && settings.sampling == SampleKind::grid;
   return kTable[static_cast<std::size_t>(anyNumber ? SampleKind::sobol : settings.sampling)];
 }
 
+bool subdivides(const Settings& settings) { return settings.subdivide > 0 && !rowOf(settings).throws; }
+
+Subdivision subdivisionOf(const Settings& settings, const Size& size) {
+  const bool under = settings.stereo == Stereo::overUnder;
+  const bool two = settings.stereo != Stereo::off;
+  return {settings.subdivide, settings.subdivideThreshold, areaOf(settings.region, size),
+          two && !under ? size.width / 2 : 0, under ? (size.height + 1) / 2 : 0};
+}
+
 int samplesOf(const Settings& settings) {
+  if (subdivides(settings)) return 1 << (2 * settings.subdivide);
   if (!generatorOf(settings).square) return settings.spp;
   const int side = static_cast<int>(std::ceil(std::sqrt(settings.spp)));
   return side * side;
@@ -101,6 +114,7 @@ SampleRules::SampleRules(const Settings& settings, const Size& size)
       grid_(static_cast<int>(std::sqrt(samples_))),
       seed_(static_cast<std::uint64_t>(settings.seed)),
       onGrid_(generator_->kind == SampleKind::grid),
+      divides_(subdivides(settings)),
       toBorder_(settings.pixelPosition == PixelPosition::border) {
   // A cell of the grid is sampled where a whole pixel would be: at its lower left corner or centre.
   const Real within = settings.pixelPosition == PixelPosition::center ? 0.5 : 0.0;
@@ -122,5 +136,29 @@ FilmSample SampleRules::film(int x, int y, int k, const Vec2& u) const {
   return {{(x + 0.5 + sample.place.x) / size_.width, (fromBottom + 0.5 + sample.place.y) / size_.height},
           sample.weight < 0 ? -1.0 : 1.0};  // what all have in common drops out of the mean
 }
+
+Vec2 SampleRules::corner(const CornerPlace& place) const {
+  const auto along = [&](int pixel, int within, int pixels) {
+    return (pixel * grid_ + within) / static_cast<Real>(pixels * grid_);
+  };
+  return {along(place.x, place.corner.x, size_.width),
+          along(size_.height - 1 - place.y, place.corner.y, size_.height)};
+}
+
+namespace {
+
+/// Corners of larger squares come first: the bits of both coordinates in turn, the highest first.
+int orderOf(int x, int y, int side) {
+  int order = 0;
+  for (int bit = 0; (side >>= 1) > 0; ++bit)
+    order |= ((x & side) != 0) << (2 * bit) | ((y & side) != 0) << (2 * bit + 1);
+  return order;
+}
+
+}  // namespace
+
+Sampler::Sampler(const SampleRules& rules, const CornerPlace& place)
+    : Sampler(rules, place.x + place.corner.x / rules.grid(), place.y - place.corner.y / rules.grid(),
+              orderOf(place.corner.x % rules.grid(), place.corner.y % rules.grid(), rules.grid())) {}
 
 }  // namespace trace

@@ -5,6 +5,8 @@
 // rendered.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "image/pixel_filter.h"
@@ -34,6 +36,8 @@ struct GeneratorRow {
   bool continues;
   /// Two numbers from 0 up to 1: of all samples of a pixel they fill the square evenly.
   Vec2 (*pair)(const Draw& draw);
+  /// The first of the two alone, where that takes less; else null.
+  Real (*first)(const Draw& draw) = nullptr;
 };
 std::span<const GeneratorRow> generators();
 const GeneratorRow& generatorOf(const Settings& settings);
@@ -56,12 +60,33 @@ class SampleRules {
   FilmSample film(int x, int y, int k, const Vec2& u) const;
   /// What such a sample counts, where it is not a part of a mean: so much more.
   Real filterWeight() const { return filter_.weight(); }
+  /// Calls use(x, y, share) for each pixel that sees that place of the picture: light that falls there and is
+  /// spread evenly over the picture counts so much for the pixel.
+  template <class Use>
+  void spread(const Vec2& place, const Use& use) const {
+    const Real x = place.x * size_.width, y = place.y * size_.height, reach = filter_.radius();
+    const auto first = [&](Real at) { return static_cast<int>(std::ceil(std::max(at - reach, -1.0) - 0.5)); };
+    const auto last = [&](Real at, int pixels) {
+      return static_cast<int>(std::floor(std::min(at + reach, pixels + 1.0) - 0.5));
+    };
+    const Real all = Real{1} * size_.width * size_.height;
+    for (int row = std::max(0, first(y)); row <= std::min(size_.height - 1, last(y, size_.height)); ++row)
+      for (int column = std::max(0, first(x)); column <= std::min(size_.width - 1, last(x, size_.width));
+           ++column)
+        use(column, size_.height - 1 - row,
+            all * filter_.share(x - column - 0.5) * filter_.share(y - row - 0.5));
+  }
   /// The middle of the pixel, likewise.
   Vec2 middle(int x, int y) const {
     return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};
   }
+  /// The same of a corner of a pixel.
+  Vec2 corner(const CornerPlace& place) const;
   /// From a sample to the next on the right and above, on the average.
-  Vec2 spacing() const { return {1.0 / (size_.width * grid_), 1.0 / (size_.height * grid_)}; }
+  Vec2 spacing() const {
+    const int across = divides_ ? 1 : grid_;
+    return {1.0 / (size_.width * across), 1.0 / (size_.height * across)};
+  }
 
  private:
   Real place(int pixel, int cell, int pixels) const;
@@ -72,6 +97,7 @@ class SampleRules {
   int samples_, grid_;
   std::uint64_t seed_;
   bool onGrid_;
+  bool divides_;              ///< a sample is a corner
   bool toBorder_;             ///< the outermost rays go through the border of the picture
   std::vector<Real> places_;  ///< if they do not: of the cells of the grid within a pixel
 };
@@ -88,10 +114,17 @@ class Sampler {
  public:
   /// Of sample 0 <= k < rules.samples(); the rules must outlive it.
   Sampler(const SampleRules& rules, int x, int y, int k)
-      : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {}
+      : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {
+    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
+    pixel_ = mixBits(bits(x) << 32 | bits(y));
+  }
 
   /// Of a sample whose numbers these are; they must outlive it, too.
   Sampler(const SampleRules& rules, SampleNumbers& numbers) : Sampler(rules, 0, 0, 0) { numbers_ = &numbers; }
+
+  /// Of a corner, whatever pixel it is said to be of: the numbers of the pixel whose lower left part it is
+  /// in, so that the first samples of a generator are the corners of the larger squares.
+  Sampler(const SampleRules& rules, const CornerPlace& place);
 
   /// Where in the picture the sample lies, and what it counts.
   FilmSample film() const {
@@ -102,13 +135,15 @@ class Sampler {
   int sample() const { return k_; }
 
   /// The next number, from 0 up to 1; the next two.
-  Real next() { return next2().x; }
+  Real next() {
+    const Draw draw = nextDraw();
+    if (numbers_) return numbers_->pair(draw.branch).x;
+    const GeneratorRow& row = rules_->generator();
+    return row.first ? row.first(draw) : row.pair(draw).x;
+  }
   Vec2 next2() {
-    const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
-    if (numbers_) return numbers_->pair(branch);
-    const std::uint64_t pixel = mixBits(branch ^ mixBits(bits(x_) << 32 | bits(y_)));
-    return rules_->generator().pair({*rules_, x_, y_, k_, branch, pixel});
+    const Draw draw = nextDraw();
+    return numbers_ ? numbers_->pair(draw.branch) : rules_->generator().pair(draw);
   }
 
   /// Numbers of its own for the n-th ray that is sent from here, whatever has been drawn here and elsewhere:
@@ -125,9 +160,15 @@ class Sampler {
                                  kHole = 0xf0000003u;
 
  private:
+  Draw nextDraw() {
+    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
+    return {*rules_, x_, y_, k_, branch, mixBits(branch ^ pixel_)};
+  }
+
   const SampleRules* rules_;
   int x_, y_, k_;
   std::uint64_t branch_;
+  std::uint64_t pixel_;  ///< a hash of the pixel
   std::uint32_t dimension_ = 0;
   SampleNumbers* numbers_ = nullptr;
 };

@@ -10,15 +10,22 @@
 
 namespace trace {
 
-struct Statistics {
+/// What queries count. `Nodes`: NodeCount, or NodeWatch for who wants to see the nodes
+/// (render/visited_boxes.h).
+template <class Nodes>
+struct QueryCounts {
   static constexpr std::size_t kShapes = kMostShapeTypes;
 
+  std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
+  Nodes nodes{};                                       ///< of hierarchies, visited
+  bool operator==(const QueryCounts&) const = default;
+};
+
+struct Statistics : QueryCounts<NodeCount> {
   std::array<std::uint64_t, kRayKinds> rays{};  ///< by RayKind
   std::uint64_t depths = 0;                     ///< of all but shadow rays, summed: a camera ray has depth 0
-  std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
-  NodeCount nodes;                                     ///< of hierarchies, visited
-  std::uint64_t badSamples = 0;                        ///< NaN or infinite, dropped
-  std::uint64_t moves = 0, movesKept = 0;              ///< of Markov chains
+  std::uint64_t badSamples = 0;                 ///< NaN or infinite, dropped
+  std::uint64_t moves = 0, movesKept = 0;       ///< of Markov chains
   /// What --firefly-limit took from samples: a sum of luminances in parts of kLightParts, which no order
   /// changes.
   std::uint64_t lightRemoved = 0;

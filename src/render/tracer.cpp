@@ -7,7 +7,7 @@
 namespace trace {
 
 Faces Tracer::facesSeenBy(RayKind kind) const {
-  const bool seen = kind != RayKind::refraction && kind != RayKind::shadow;
+  const bool seen = kind != RayKind::refraction && kind != RayKind::light && kind != RayKind::shadow;
   if (settings_.backFaces == BackFaces::cullAll) return Faces::front;
   return settings_.backFaces == BackFaces::cullSeen && seen ? Faces::shadedFront : Faces::both;
 }
@@ -93,7 +93,7 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,
                                   Real chance) {
   if (!ignored(ray, found, inside, chance)) return found;
-  collect(ray, kInfinity, facesSeenBy(kind));
+  collect(ray, kInfinity, facesSeenBy(kind), statistics_);
   for (const Found& next : crossed_)
     if (found.before(next) && !ignored(ray, next, inside, chance)) return next;
   return std::nullopt;
@@ -188,9 +188,10 @@ Interfaces Tracer::startOn(const Hit& from, const Ray& ray, const Interfaces& in
 }
 
 /// The crossings in order along the ray, each once, into crossed_.
-void Tracer::collect(const Ray& ray, Real tMost, Faces faces) {
+template <class Nodes>
+void Tracer::collect(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts) {
   crossed_.clear();
-  world_.crossings(ray, tMost, faces, statistics_, [&](const Found& found) {
+  world_.crossings(ray, tMost, faces, counts, [&](const Found& found) {
     crossed_.push_back(found);
     return false;
   });
@@ -198,10 +199,11 @@ void Tracer::collect(const Ray& ray, Real tMost, Faces faces) {
 }
 
 /// The same for light; true if something lets none through.
-bool Tracer::occluded(const Ray& ray, Real tMost) {
+template <class Nodes>
+bool Tracer::occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts) {
   crossed_.clear();
   const bool blackGlass = settings_.glassShadows == GlassShadows::black;
-  if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), statistics_, [&](const Found& found) {
+  if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), counts, [&](const Found& found) {
         const bool ends = blackGlass && !(world_.opacityAt(ray, found) < 1);
         if (!ends) crossed_.push_back(found);
         return ends;
@@ -220,7 +222,7 @@ void Tracer::sortCrossed() {
 
 /// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
 Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
-  if (occluded(ray, distance)) return Color(0);
+  if (occluded(ray, distance, statistics_)) return Color(0);
   return crossed_.empty() && !inside ? Color(1) : filtered(ray, distance, inside);
 }
 
@@ -280,13 +282,14 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
 
 // --- recording ----------------------------------------------------------------------------------------
 
-void Tracer::retrace(const RayNode& node) {
+void Tracer::retrace(const RayNode& node, const NodeWatch& watch) {
+  QueryCounts<NodeWatch> watched{.nodes = watch};
   if (node.kind == RayKind::shadow)
-    occluded(node.ray, node.tMost);
+    occluded(node.ray, node.tMost, watched);
   else
-    world_.closest(node.ray, facesSeenBy(node.kind), statistics_);
+    world_.closest(node.ray, facesSeenBy(node.kind), watched);
   if (!node.ignored.empty() && node.kind != RayKind::shadow)
-    collect(node.ray, kInfinity, facesSeenBy(node.kind));
+    collect(node.ray, kInfinity, facesSeenBy(node.kind), watched);
 }
 
 /// passed() stops at the first opaque thing it comes across; a person wants to know the nearest.
@@ -340,8 +343,15 @@ void Tracer::record(int node, Term term) {
   tree_->nodes[static_cast<std::size_t>(node)].terms.push_back(term);
 }
 
-void Tracer::record(int node, const RayEnd& why) {
-  tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
+void Tracer::record(int index, const RayEnd& why) {
+  RayNode& node = tree_->nodes[static_cast<std::size_t>(index)];
+  if (std::holds_alternative<MetLight>(why)) {  // it got no farther
+    node.hit.reset();
+    node.outside.reset();
+    node.materials.clear();
+    node.ends.clear();
+  }
+  node.ends.push_back(why);
 }
 
 void Tracer::record(int node, const Bsdf& bsdf) { tree_->nodes[static_cast<std::size_t>(node)].bsdf = bsdf; }

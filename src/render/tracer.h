@@ -52,6 +52,27 @@ class Tracer {
 
   /// What a ray that starts at the point is inside of.
   const Interfaces& interfacesAt(const Vec3& point);
+  /// While it lives, rays are roots of the tree, one after the other; then things are as before.
+  class Aside {
+   public:
+    explicit Aside(Tracer& tracer)
+        : tracer_(tracer),
+          current_(std::exchange(tracer.current_, kNoNode)),
+          last_(std::exchange(tracer.last_, kNoNode)) {}
+    ~Aside() {
+      tracer_.current_ = current_;
+      tracer_.last_ = last_;
+    }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+    /// The next ray is a child of the one cast last.
+    void goOn() { tracer_.enter(); }
+
+   private:
+    Tracer& tracer_;
+    int current_, last_;
+  };
+
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
   /// What fills the body that was hit, where its surface looks like `terms`.
@@ -62,8 +83,8 @@ class Tracer {
   /// Does the camera ray meet something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;
 
-  /// The query of a recorded ray once more, for its statistics.
-  void retrace(const RayNode& node);
+  /// The query of a recorded ray once more, for someone who watches it.
+  void retrace(const RayNode& node, const NodeWatch& watch);
 
   const World& world() const { return world_; }
   const Settings& settings() const { return settings_; }
@@ -105,15 +126,18 @@ class Tracer {
   /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
   std::optional<Found> behindHoles(const Ray& ray, RayKind kind, Statistics& statistics) const;
-  void collect(const Ray& ray, Real tMost, Faces faces);
-  bool occluded(const Ray& ray, Real tMost);
+  template <class Nodes>
+  void collect(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts);
+  template <class Nodes>
+  bool occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts);
   void sortCrossed();
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
-  /// Photons bring the light that the glass lets through, from elsewhere.
+  /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere.
   bool gathers(const WhittedTerms& terms) const {
+    if (isBidirectional(settings_)) return true;
     const bool bring = settings_.integrator == IntegratorKind::photon ||
                        (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
     return bring && terms.passage != Passage::straight;

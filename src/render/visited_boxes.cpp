@@ -23,7 +23,7 @@ struct Notes {
 
   void note(const BvhNode& node, std::uint32_t owner) {
     const Box3 box = bounds(node);
-    const Affine toWorld = owner == NodeCount::kTop ? Affine{} : world.worldFromObject(owner);
+    const Affine toWorld = owner == NodeWatch::kTop ? Affine{} : world.worldFromObject(owner);
     VisitedBox visited{owner, {}};
     for (unsigned i = 0; i < 8; ++i)
       visited.corners[i] = toWorld * Vec3{i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
@@ -36,12 +36,10 @@ struct Notes {
 
 std::vector<VisitedBox> visitedBoxes(const World& world, const Settings& settings, const RayNode& node) {
   Notes notes{world};
-  Tracer tracer(world, settings);
-  tracer.statistics().nodes.context = &notes;
-  tracer.statistics().nodes.note = [](void* context, const BvhNode& visited, std::uint32_t owner) {
+  const auto note = [](void* context, const BvhNode& visited, std::uint32_t owner) {
     static_cast<Notes*>(context)->note(visited, owner);
   };
-  tracer.retrace(node);
+  Tracer(world, settings).retrace(node, {note, &notes});
   return std::move(notes.boxes);
 }
 

@@ -23,6 +23,7 @@
 #include "geometry/traced.h"
 #include "render/hit.h"
 #include "render/interfaces.h"
+#include "render/light_tree.h"
 #include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -79,18 +80,22 @@ struct Compiled;
 
 class World {
  public:
-  /// The nearest crossing at t > 0.
-  std::optional<Found> closest(const Ray& ray, Faces faces, Statistics& statistics) const;
+  /// The nearest crossing at t > 0. Here and below the Statistics count what it takes, or other QueryCounts.
+  template <class Nodes>
+  std::optional<Found> closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts) const;
 
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
   /// met more than once.
-  void crossings(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
-    crossAll({ray, tMost, faces, false, statistics, visit});
+  template <class Nodes>
+  void crossings(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts,
+                 VisitFound visit) const {
+    crossAll<Nodes>({ray, tMost, faces, false, counts, visit});
   }
   /// The same for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
-  bool occluded(const Ray& ray, Real tMost, Faces faces, Statistics& statistics, VisitFound visit) const {
-    return crossAll({ray, tMost, faces, true, statistics, visit});
+  template <class Nodes>
+  bool occluded(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts, VisitFound visit) const {
+    return crossAll<Nodes>({ray, tMost, faces, true, counts, visit});
   }
 
   /// Calls visit(Found) for every crossing of that object at 0 < t < tMost, in no particular order.
@@ -101,7 +106,10 @@ class World {
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
   /// triangle.
-  MaterialMix materialMix(const Found& found) const;
+  MaterialMix materialMix(const Found& found) const {
+    const Instance& instance = objects_[found.object];
+    return instance.mixed ? mixOfParts(found) : MaterialMix::only(instance.material);
+  }
   /// Some material has holes, or is not wholly there.
   bool hasHoles() const { return hasHoles_; }
   /// The share of the surface that is there: through the rest a ray goes straight on.
@@ -198,6 +206,23 @@ class World {
   bool lightHasSize(std::size_t light) const {
     return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
+  /// The light of that number lights the object.
+  bool lights(std::size_t light, std::uint32_t object) const {
+    const std::vector<bool>& lit = litObjects_[light];
+    return lit.empty() || lit[object];
+  }
+  /// A choice among lights().
+  const LightTree& lightTree() const { return *lightTree_; }
+  const std::vector<Portal>& portals() const { return portals_; }
+  /// A light that a ray meets.
+  struct Lamp {
+    std::uint32_t light;  ///< its place in Scene::lights
+    LightSeen seen;
+  };
+  /// The nearest of those that rays see, before t.
+  std::optional<Lamp> lampAlong(const Ray& ray, Real t) const {
+    return visibleLights_.empty() ? std::nullopt : nearestLamp(ray, t);
+  }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   /// What rays see that meet nothing.
   const Outside& outside() const { return outside_; }
@@ -232,40 +257,51 @@ class World {
 
   // Queries, object by object. What is rarer than a mesh seen from both sides is kept apart, so that the way
   // to a mesh stays short; in the tree there is one copy of it.
-  void closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
+  template <class Nodes>
+  void closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, QueryCounts<Nodes>& counts,
                  Found& best) const;
+  template <class Nodes>
   [[gnu::noinline]] bool closestSeen(const Instance& instance, const Ray& ray, Faces faces,
-                                     Statistics& statistics, MeshHit& met) const;
+                                     QueryCounts<Nodes>& counts, MeshHit& met) const;
+  template <class Nodes>
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
-                                        Statistics& statistics, Found& best) const;
+                                        QueryCounts<Nodes>& counts, Found& best) const;
   /// What is asked of all crossings.
+  template <class Nodes>
   struct Across {
     const Ray& ray;  ///< in world space
     Real tMost;
     Faces faces;
     bool opaqueEnds;  ///< a crossing with an opaque object ends the query unvisited
-    Statistics& statistics;
+    QueryCounts<Nodes>& counts;
     VisitFound visit;
   };
   /// Whether something ended the query; here and below.
-  bool crossAll(const Across& query) const;
-  bool crossObject(std::uint32_t object, const Across& query) const;
-  [[gnu::noinline]] bool crossMesh(std::uint32_t object, const Ray& ray, const Across& query) const;
-  [[gnu::noinline]] bool crossShape(std::uint32_t object, const Ray& ray, const Across& query) const;
+  template <class Nodes>
+  bool crossAll(const Across<Nodes>& query) const;
+  template <class Nodes>
+  bool crossObject(std::uint32_t object, const Across<Nodes>& query) const;
+  template <class Nodes>
+  [[gnu::noinline]] bool crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const;
+  template <class Nodes>
+  [[gnu::noinline]] bool crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const;
 
+  [[gnu::noinline]] MaterialMix mixOfParts(const Found& found) const;
   /// The direction in which u grows.
   Vec3 along(const Hit& hit) const;
 
   /// Calls visit(Crossing) for every crossing of an analytic shape at 0 < t <= tMost, which may shrink during
   /// the calls, and for others; the ray is in its space.
-  template <class Visit>
-  void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, Statistics& statistics,
+  template <class Nodes, class Visit>
+  void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, QueryCounts<Nodes>& counts,
                         const Visit& visit) const;
 
   /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
   void measureMiddle();
 
   struct Forms;  ///< complete in world_queries.cpp
+  std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;
+  void addLights(const Scene& scene, const Settings& settings);
   /// Takes the forms out of the shapes of all objects, to lie side by side.
   void collectForms();
 
@@ -294,7 +330,11 @@ class World {
   }
   PlaceBsdf shade(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
                   const SurfacePoint& surface, const Differentials* arrived) const {
-    if (materials.count == 1 && !textured(materials)) return PlaceBsdf(bsdf(materials.material[0]));
+    if (materials.count == 1) {
+      const std::uint32_t only = materials.material[0];
+      if (only == MaterialMix::kClear) return PlaceBsdf(clear());
+      if (const Surface& s = surfaces_[only]; !s.textured) return PlaceBsdf(s.bsdf);
+    }
     return PlaceBsdf(mixedAt(object, part, materials, surface, arrived));
   }
   [[gnu::noinline]] Bsdf mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
@@ -314,6 +354,10 @@ class World {
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
+  std::vector<std::vector<bool>> litObjects_;  ///< by each light; none: all
+  std::vector<std::uint32_t> visibleLights_;
+  std::shared_ptr<const LightTree> lightTree_;
+  std::vector<Portal> portals_;
   bool nestedGlass_ = false;
   std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where a ray may start in one
   std::vector<MediumBody> media_;

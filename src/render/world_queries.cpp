@@ -19,59 +19,70 @@ void World::collectForms() {
   forms_ = std::move(forms);
 }
 
+namespace {
+
+/// The nodes of a mesh are told from those of the scene where somebody looks at them.
+void enter(NodeCount&, std::uint32_t) {}
+void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
+
+}  // namespace
+
 // --- the nearest crossing -----------------------------------------------------------------------------
 
-std::optional<Found> World::closest(const Ray& ray, Faces faces, Statistics& statistics) const {
+template <class Nodes>
+std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts) const {
   std::optional<Found> best(std::in_place);
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
-    closestOf(object, ray, faces, statistics, *best);
+    closestOf(object, ray, faces, counts, *best);
     return false;
   };
   checkBudget();
   for (std::uint32_t object : always_)
     if (object != ray.leaves) ask(object);
   if (!bvh_->nodes().empty())
-    bvh_->query(ray.origin, ray.direction, best->t, true, statistics.nodes, ask, ray.leaves);
+    bvh_->query(ray.origin, ray.direction, best->t, true, counts.nodes, ask, ray.leaves);
   if (best->t == kInfinity) best.reset();
   return best;
 }
 
-inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, Statistics& statistics,
-                             Found& best) const {
+template <class Nodes>
+inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces,
+                             QueryCounts<Nodes>& counts, Found& best) const {
   const Instance& instance = objects_[object];
   const auto inItsSpace = [&](const Ray& ray) {
     const MeshTree* mesh = instance.mesh.get();
-    if (!mesh) return closestOfShape(instance, object, ray, statistics, best);
+    if (!mesh) return closestOfShape(instance, object, ray, counts, best);
     const std::size_t kind = instance.kind;
     MeshHit met;
     met.hit.t = best.t;
-    statistics.nodes.owner = object;
+    enter(counts.nodes, object);
     const bool found = faces == Faces::both
-                           ? mesh->closest(ray, met, nullptr, {statistics.nodes, statistics.tests[kind]})
-                           : closestSeen(instance, ray, faces, statistics, met);
-    statistics.nodes.owner = NodeCount::kTop;
+                           ? mesh->closest(ray, met, nullptr, MeshCounts{counts.nodes, counts.tests[kind]})
+                           : closestSeen(instance, ray, faces, counts, met);
+    enter(counts.nodes, NodeWatch::kTop);
     // At the same distance the object that comes first in the scene counts.
     if (!found || (met.hit.t == best.t && object >= best.object)) return;
-    ++statistics.hits[kind];
+    ++counts.hits[kind];
     best = {met.hit.t, object, met.triangle, met.hit};
   };
   const Placement& placement = instance.placement;
   placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
 }
 
-bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, Statistics& statistics,
+template <class Nodes>
+bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
                         MeshHit& met) const {
   const MeshTree& mesh = *instance.mesh;
   const auto seen = [&](const MeshHit& hit) { return sees(faces, ray, mesh.data(), hit); };
-  return mesh.closest(ray, met, seen, {statistics.nodes, statistics.tests[instance.kind]});
+  return mesh.closest(ray, met, seen, MeshCounts{counts.nodes, counts.tests[instance.kind]});
 }
 
-template <class Visit>
+template <class Nodes, class Visit>
 inline void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost,
-                                    Statistics& statistics, const Visit& visit) const {
+                                    QueryCounts<Nodes>& counts, const Visit& visit) const {
   const Instance& instance = objects_[object];
-  ++statistics.tests[instance.kind];
+  ++counts.tests[instance.kind];
   match(forms_->all[object],
         Overloaded{[](const Mesh&) {},
                    [&](const auto& form) {
@@ -79,18 +90,22 @@ inline void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const 
                    }});
 }
 
+template <class Nodes>
 void World::closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
-                           Statistics& statistics, Found& best) const {
-  crossingsOfShape(object, ray, best.t, statistics, [&](const Crossing& crossing) {
+                           QueryCounts<Nodes>& counts, Found& best) const {
+  crossingsOfShape(object, ray, best.t, counts, [&](const Crossing& crossing) {
     if (!(crossing.t > 0 && crossing.t <= best.t)) return;
     const auto part = static_cast<std::uint64_t>(crossing.part);
     if (!best.after(crossing.t, object, part)) return;
-    ++statistics.hits[instance.kind];
+    ++counts.hits[instance.kind];
     best.t = crossing.t;
     best.object = object;
     best.part = part;
   });
 }
+
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeCount>&) const;
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeWatch>&) const;
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];
@@ -111,7 +126,8 @@ SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
 
 // --- every crossing -----------------------------------------------------------------------------------
 
-bool World::crossAll(const Across& query) const {
+template <class Nodes>
+bool World::crossAll(const Across<Nodes>& query) const {
   bool ended = false;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
@@ -122,17 +138,12 @@ bool World::crossAll(const Across& query) const {
   for (std::uint32_t object : always_)
     if (object != ray.leaves && ask(object)) return true;
   if (!bvh_->nodes().empty())
-    bvh_->query(ray.origin, ray.direction, query.tMost, false, query.statistics.nodes, ask, ray.leaves);
+    bvh_->query(ray.origin, ray.direction, query.tMost, false, query.counts.nodes, ask, ray.leaves);
   return ended;
 }
 
-void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
-                        VisitFound visit) const {
-  checkBudget();
-  crossObject(object, {ray, tMost, Faces::both, false, statistics, visit});
-}
-
-inline bool World::crossObject(std::uint32_t object, const Across& query) const {
+template <class Nodes>
+inline bool World::crossObject(std::uint32_t object, const Across<Nodes>& query) const {
   const Instance& instance = objects_[object];
   const auto inItsSpace = [&](const Ray& ray) {
     return instance.mesh ? crossMesh(object, ray, query) : crossShape(object, ray, query);
@@ -141,34 +152,44 @@ inline bool World::crossObject(std::uint32_t object, const Across& query) const 
   return placement.moved() ? inItsSpace(placement.into(query.ray)) : inItsSpace(query.ray);
 }
 
-bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across& query) const {
+template <class Nodes>
+bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
   const Instance& instance = objects_[object];
   const MeshTree& mesh = *instance.mesh;
-  Statistics& statistics = query.statistics;
   const bool ends = query.opaqueEnds && instance.opaque;
   bool ended = false;
   const auto met = [&](const MeshHit& hit) {
     if (!sees(query.faces, ray, mesh.data(), hit)) return false;
-    ++statistics.hits[instance.kind];
+    ++query.counts.hits[instance.kind];
     return ended = ends || query.visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
   };
-  statistics.nodes.owner = object;
-  mesh.crossings(ray, query.tMost, met, {statistics.nodes, statistics.tests[instance.kind]});
-  statistics.nodes.owner = NodeCount::kTop;
+  enter(query.counts.nodes, object);
+  mesh.crossings(ray, query.tMost, met, MeshCounts{query.counts.nodes, query.counts.tests[instance.kind]});
+  enter(query.counts.nodes, NodeWatch::kTop);
   return ended;
 }
 
-bool World::crossShape(std::uint32_t object, const Ray& ray, const Across& query) const {
+template <class Nodes>
+bool World::crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
   const bool ends = query.opaqueEnds && objects_[object].opaque;
   bool ended = false;
   Real wanted = query.tMost;
-  crossingsOfShape(object, ray, wanted, query.statistics, [&](const Crossing& crossing) {
+  crossingsOfShape(object, ray, wanted, query.counts, [&](const Crossing& crossing) {
     if (ended || !(crossing.t > 0 && crossing.t < query.tMost)) return;
-    ++query.statistics.hits[objects_[object].kind];
+    ++query.counts.hits[objects_[object].kind];
     ended = ends || query.visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
     if (ended) wanted = -kInfinity;
   });
   return ended;
 }
+
+void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
+                        VisitFound visit) const {
+  checkBudget();
+  crossObject(object, Across<NodeCount>{ray, tMost, Faces::both, false, statistics, visit});
+}
+
+template bool World::crossAll(const Across<NodeCount>&) const;
+template bool World::crossAll(const Across<NodeWatch>&) const;
 
 }  // namespace trace

@@ -23,7 +23,7 @@ class Displacement {
 
   /// None.
   Displacement() = default;
-  /// Of an object of that material, whose points may be of others.
+  /// For an object of that material, whose points may be of others.
   Displacement(const MeshData& mesh, std::uint32_t material, std::span<const Material> materials);
 
   bool none() const { return parts_.empty(); }

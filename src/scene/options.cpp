@@ -25,8 +25,10 @@ constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
-constexpr std::array<std::string_view, 8> kNames<IntegratorKind>{"whitted", "path",      "direct",  "mlt",
-                                                                 "photon",  "occlusion", "normals", "cost"};
+constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
+    "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<Chains>{"path", "bdpt"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -75,7 +77,10 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 template <>
 constexpr std::array<std::string_view, 4> kNames<EnvironmentKind>{"auto", "lat-long", "angular", "cube"};
 template <>
-constexpr std::array<std::string_view, 6> kNames<Pass>{"depth", "normal", "id", "uv", "position", "samples"};
+constexpr std::array<std::string_view, 9> kNames<Pass>{"depth",   "normal", "id",        "uv",    "position",
+                                                       "samples", "albedo", "occlusion", "change"};
+template <>
+constexpr std::array<std::string_view, 2> kNames<PassColors>{"grey", "heat"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
 template <>
@@ -358,6 +363,33 @@ const std::array kTable{
          .most = 1,
          .unit = "",
          .extra = true}),
+    row<&Settings::subdivide>(
+        {.name = "subdivide",
+         .group = "Picture",
+         .help =
+             "rays go through the corners of pixels; a pixel whose corners differ falls into four squares, "
+             "and those again, at most so often: many rays at edges, one elsewhere; 0 takes spp",
+         .source = "Whitted 1980; docs/sampling.md",
+         .least = 0,
+         .most = 6,
+         .unit = "times",
+         .extra = true}),
+    row<&Settings::subdivideThreshold>(
+        {.name = "subdivide-threshold",
+         .group = "Picture",
+         .help = "corners of a square differ where red, green or blue do by more, as a part of white; 0 "
+                 "divides all that is not the same",
+         .source = "Austin: supersample threshold",
+         .least = 0,
+         .most = 1}),
+    row<&Settings::denoise>(
+        {.name = "denoise",
+         .group = "Picture",
+         .help =
+             "take noise out of the finished picture, by the mean of pixels that are alike; how much that "
+             "changed is told; needs 8 samples a pixel or more",
+         .source = "Rousselle, Manzi and Zwicker 2013; docs/denoising.md",
+         .extra = true}),
     row<&Settings::time>({.name = "time",
                           .group = "Picture",
                           .help = "the moment shown of a scene whose values change with time: key(...)",
@@ -417,13 +449,25 @@ const std::array kTable{
          .least = 1,
          .most = 1024,
          .unit = "rays"}),
+    row<&Settings::lightChoices>(
+        {.name = "light-choices",
+         .group = "Sampling",
+         .help = "lights that every place asks, chosen by their distance, direction and strength: for scenes "
+                 "of many; 0 asks all, but path, direct, mlt and photon one of more than 32",
+         .source = "Conty Estevez and Kulla 2018; docs/lights.md",
+         .least = 0,
+         .most = 1024,
+         .unit = "lights",
+         .extra = true}),
     row<&Settings::integrator>(
         {.name = "integrator",
          .group = "Tracing",
          .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
                  "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; mlt is path, led by chains that look around where light was found; photon "
-                 "is path with one bounce, and photons tell what light it meets; occlusion "
+                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by "
+                 "chains that "
+                 "look around where light was found; photon is path with one bounce, and photons tell what "
+                 "light it meets; occlusion "
                  "shows how open places are, normals where surfaces face, cost how much work whitted has",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
@@ -452,6 +496,43 @@ const std::array kTable{
                                   .most = 1e9,
                                   .integrators = "path, direct, mlt, photon",
                                   .extra = true}),
+    row<&Settings::lightVertices>(
+        {.name = "light-vertices",
+         .group = "Tracing",
+         .help = "shows only paths of which so many places were chosen from the light's end; -1 shows all",
+         .source = "Veach 1997, chapter 10; docs/bidirectional.md",
+         .least = -1,
+         .most = 1000,
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::cameraVertices>(
+        {.name = "camera-vertices",
+         .group = "Tracing",
+         .help = "shows only paths of which so many places, the camera's among them, were chosen from its "
+                 "end; -1 shows all",
+         .source = "Veach 1997, chapter 10; docs/bidirectional.md",
+         .least = -1,
+         .most = 1000,
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::unweighted>(
+        {.name = "unweighted",
+         .group = "Tracing",
+         .help =
+             "a way to put paths together shows all that it finds by itself, and not what it counts beside "
+             "the others: to look at with --light-vertices",
+         .source = "Veach 1997, chapter 9; docs/bidirectional.md",
+         .integrators = "bdpt",
+         .extra = true}),
+    row<&Settings::chains>(
+        {.name = "chains",
+         .group = "Tracing",
+         .help =
+             "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
+             "its places",
+         .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; docs/metropolis.md",
+         .integrators = "mlt",
+         .extra = true}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",
@@ -518,6 +599,17 @@ const std::array kTable{
          .most = 50e6,
          .unit = "photons",
          .integrators = "photon"}),
+    row<&Settings::photonPasses>(
+        {.name = "photon-passes",
+         .group = "Tracing",
+         .help = "maps of as many photons each, among which the samples of a pixel are spread: in each later "
+                 "map fewer photons around a place count, so that their mean comes nearer to the truth",
+         .source = "Knaus and Zwicker 2011; docs/photons.md",
+         .least = 1,
+         .most = 1000,
+         .unit = "maps",
+         .integrators = "photon",
+         .extra = true}),
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
@@ -719,6 +811,14 @@ const std::array kTable{
                                 .least = -360,
                                 .most = 360,
                                 .unit = "degrees"}),
+    row<&Settings::aperturePicture>(
+        {.name = "aperture-picture",
+         .group = "Lens",
+         .help = "picture whose bright places are the lens opening, in place of blades: blurred lights take "
+                 "its shape",
+         .source = "docs/lens.md",
+         .repeats = Repeats::world,
+         .extra = true}),
     row<&Settings::tilt>({.name = "tilt",
                           .group = "Lens",
                           .help = "turns the plane in focus: above 0 its upper half comes nearer",
@@ -780,7 +880,7 @@ const std::array kTable{
                          .least = 0,
                          .most = 1e6,
                          .unit = "per unit",
-                         .integrators = "whitted, path, direct, mlt, photon",
+                         .integrators = "whitted, path, direct, bdpt, mlt, photon",
                          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -789,7 +889,7 @@ const std::array kTable{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path, direct, mlt, photon"}),
+         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogHeight>({.name = "fog-height",
                                .group = "Fog",
                                .help =
@@ -799,7 +899,7 @@ const std::array kTable{
                                .least = 0,
                                .most = 1e9,
                                .unit = "units",
-                               .integrators = "whitted, path, direct, mlt, photon"}),
+                               .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help =
@@ -808,7 +908,7 @@ const std::array kTable{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path, direct, mlt, photon"}),
+                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "places on every ray that ask for the lights, in fog and media",
@@ -816,7 +916,7 @@ const std::array kTable{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted"}),
+                                .integrators = "whitted, bdpt"}),
     row<&Settings::mediumDepth>(
         {.name = "medium-depth",
          .group = "Fog",
@@ -998,6 +1098,13 @@ const std::array kTable{
                               .help = "files of passes are called NAME.PASS, or NAME_PASS",
                               .source = "underscore in British Columbia",
                               .repeats = Repeats::nothing}),
+    row<&Settings::passColors>(
+        {.name = "pass-colors",
+         .group = "Passes",
+         .help = "levels of the passes depth, samples and change: grey, or from black over violet, red and "
+                 "yellow to white (heat)",
+         .source = "",
+         .repeats = Repeats::tone}),
     row<&Settings::passDepth>({.name = "pass-depth",
                                .group = "Passes",
                                .help = "the pass depth measures along the view direction, or along the ray",
@@ -1139,17 +1246,23 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
   return settings;
 }
 
-Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers) {
-  Chosen chosen;
+std::string chooserOf(const Option& option, std::initializer_list<std::span<const Choice>> layers,
+                      std::string (*place)(const Place&)) {
+  std::string chooser = "default";
   std::size_t number = 0;
   for (std::span<const Choice> layer : layers) {
     for (const bool byLike : {true, false})
-      for (const Choice& choice : layer)
-        if (byLike ? choice.option == "like" && isConvention(option) : choice.option == option.name)
-          chosen = {&choice, number, byLike};
+      for (const Choice& choice : layer) {
+        if (byLike ? choice.option != "like" || !isConvention(option) : choice.option != option.name)
+          continue;
+        const std::string names[] = {place(choice.place), "command line", "studio"};
+        chooser = names[number];
+        if (chooser.empty()) chooser = "scene file";  // the choice follows from the dialect, at no one place
+        if (byLike) chooser += ", by like";
+      }
     ++number;
   }
-  return chosen;
+  return chooser;
 }
 
 bool isConvention(const Option& option) { return option.group == "Conventions" && option.name != "like"; }

@@ -54,13 +54,11 @@ struct Choice {
 /// lies beside the scene. Throws Error with the choice's place.
 Settings resolve(std::initializer_list<std::span<const Choice>> layers);
 
-/// The choice that gives the option its value in resolve().
-struct Chosen {
-  const Choice* choice = nullptr;  ///< null: it has its default
-  std::size_t layer = 0;           ///< where that stands
-  bool byLike = false;             ///< the choice is one of `like`
-};
-Chosen chosenBy(const Option& option, std::initializer_list<std::span<const Choice>> layers);
+/// Tells who gives the option its value in resolve(), whose layers are the scene file, the command line and
+/// the studio: "default", the place in the file as `place` writes it, "command line" or "studio", perhaps ",
+/// by like".
+std::string chooserOf(const Option& option, std::initializer_list<std::span<const Choice>> layers,
+                      std::string (*place)(const Place&) = placeText);
 
 /// A colour as options have it: "0.2,0.5,1", or one number for a grey; nothing for any other text.
 std::optional<Color> colorOf(std::string_view text);

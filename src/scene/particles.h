@@ -34,7 +34,7 @@ struct Particles {
   Real step = 0.01;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"seed", &Particles::seed, "", 0, kNoLimit, "another number, other particles"},
         Field{"rate", &Particles::rate, "", 0, kNoLimit, "particles a second"},
         Field{"begin", &Particles::begin, "seconds", -kNoLimit, kNoLimit, "when the first is thrown"},
@@ -72,7 +72,7 @@ struct Particle {
   Real age = 0;  ///< from 0 at birth to 1 at the end
 };
 
-/// Those alive at that time, oldest first. Throws Error if there are more than can be followed.
+/// The particles alive at that time, oldest first. Throws Error if there are more than can be followed.
 std::vector<Particle> particlesAt(const Particles& system, Real time);
 
 }  // namespace trace

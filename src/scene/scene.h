@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/match.h"
 #include "geometry/shape.h"
 #include "math/transform.h"
 #include "scene/input_files.h"
@@ -16,6 +17,7 @@
 #include "shading/background.h"
 #include "shading/cameras/camera.h"
 #include "shading/lights/light.h"
+#include "shading/lights/light_links.h"
 #include "shading/material.h"
 
 namespace trace {
@@ -32,6 +34,7 @@ struct Object {
 struct LightSource {
   Light light;
   Place place;
+  LightLinks links{};
   bool operator==(const LightSource&) const = default;
 };
 
@@ -51,7 +54,16 @@ struct UnusedMaterial {
   bool operator==(const UnusedMaterial&) const = default;
 };
 
+/// Copied and compared in one .cpp: it is dear to compile.
 struct Scene {
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+  bool operator==(const Scene&) const;
+
   std::string file;
   std::string format;   ///< name of the format it was read from
   std::string picture;  ///< where a render goes that names no file; empty: the scene's name in this folder
@@ -65,14 +77,16 @@ struct Scene {
   std::vector<UnusedMaterial> unusedMaterials;
   InputFiles inputs;  ///< what it was read from
   Surroundings surroundings;
-
-  bool operator==(const Scene&) const = default;
 };
 
 /// Changes every picture that the scene puts on surfaces and around itself: change(Pixels&).
 template <class Change>
 void changePixels(Scene& scene, const Change& change) {
   for (Material& material : scene.materials) changePixels(material, change);
+  for (LightSource& source : scene.lights)
+    match(source.light, [&](auto& light) {
+      if constexpr (requires { changePixels(light, change); }) changePixels(light, change);
+    });
   changePixels(scene.background, change);
 }
 

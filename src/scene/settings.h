@@ -16,7 +16,9 @@
 namespace trace {
 
 enum class Accel { bvh, none };
-enum class IntegratorKind { whitted, path, direct, mlt, photon, occlusion, normals, cost };
+enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
+/// Which integrator's samples the chains of mlt move among.
+enum class Chains { path, bdpt };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -40,11 +42,13 @@ enum class VertexNormals { unit, mean };
 enum class ShapeKind {};
 
 /// A picture beside the picture: a row of render/passes.cpp.
-enum class Pass { depth, normal, id, uv, position, samples };
+enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
 /// What is measured in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
 /// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
 enum class PassName { dot, underscore };
+/// What levels of passes that are numbers look like.
+enum class PassColors { grey, heat };
 /// The file format of passes; same: that of the picture.
 enum class PassFormat { exr, png, same };
 
@@ -68,6 +72,9 @@ struct Settings {
   Region region{};
   int spp = 1;
   Real noiseTarget = 0;
+  int subdivide = 0;
+  Real subdivideThreshold = 0.05;
+  bool denoise = false;
   Real time = 0;
   Real shutter = 0;
   int moments = 16;
@@ -77,6 +84,7 @@ struct Settings {
   FilterKind filter = FilterKind::box;
   Real filterRadius = 0;
   int lightSamples = 1;
+  int lightChoices = 0;
   // Camera
   Projection projection = Projection::perspective;
   Real viewHeight = 0;
@@ -91,12 +99,16 @@ struct Settings {
   Real focus = 0;
   int blades = 0;
   Real bladeAngle = 0;
+  FilePath aperturePicture{};
   Real tilt = 0;
   // Tracing
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 5;
   Real threshold = 0;
   Real fireflyLimit = 0;
+  int lightVertices = -1, cameraVertices = -1;
+  bool unweighted = false;
+  Chains chains = Chains::path;
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;
   Real moveSize = 0.01;
@@ -104,6 +116,7 @@ struct Settings {
   int ambientOcclusion = 0;
   Real occlusionReach = 0;
   int photons = 200000;
+  int photonPasses = 1;
   bool smoothTerminator = false;
   int caustics = 0;
   Real causticRadius = 0;
@@ -160,6 +173,7 @@ struct Settings {
   EnumSet<Pass> passes{};
   PassFormat passFormat = PassFormat::exr;
   PassName passName = PassName::dot;
+  PassColors passColors = PassColors::grey;
   PassDepth passDepth = PassDepth::view;
   Real passNear = 0;
   Real passFar = 0;
@@ -175,6 +189,12 @@ struct Settings {
 /// When the moment of that number is, in seconds: while the shutter is open they lie evenly.
 inline Real timeOfMoment(const Settings& s, int moment) {
   return s.time + s.shutter * (moment + 0.5) / s.moments;
+}
+
+/// Paths start at lights, too: light through glass is found by them, and no shadow ray passes it.
+inline bool isBidirectional(const Settings& s) {
+  return s.integrator == IntegratorKind::bdpt ||
+         (s.integrator == IntegratorKind::mlt && s.chains == Chains::bdpt);
 }
 
 inline Optics opticsOf(const Settings& s) {

@@ -37,7 +37,7 @@ struct Background {
   Pixels front{}, back{}, left{}, right{}, top{}, bottom{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"colors", &Background::colors, "", 0, kNoLimit, "of the bands, from the top; none is black"},
         Field{"limits", &Background::limits, "", 0, 1,
               "where each band but the last ends, a share of the height from the top; none: equal bands"},

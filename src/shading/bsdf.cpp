@@ -32,7 +32,7 @@ Scatter scatterOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toLigh
   return match(bsdf, [&](const auto& model) { return scatterOf(model, frame, toLight, toEye); });
 }
 
-Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
+Color mirrorWeightOfOthers(const Bsdf& bsdf, Real cosine) {
   return match(bsdf, [&](const auto& model) { return model.mirrorWeight(cosine); });
 }
 
@@ -170,7 +170,7 @@ Real MixedBsdf::density(const Frame& frame, const Vec3& toEye, const Vec3& toLig
                  [&](const Bsdf& part) { return trace::density(part, frame, toEye, toLight); });
 }
 
-bool hasGrain(const Bsdf& bsdf) {
+bool hasGrainOfOthers(const Bsdf& bsdf) {
   return match(bsdf, Overloaded{[](const MixedBsdf& mixed) {
                                   return anyPart(*mixed.parts,
                                                  [](const Bsdf& part) { return hasGrain(part); });

@@ -38,7 +38,7 @@ struct BsdfVariant<std::variant<Model...>> {
   using Type = std::variant<typename Model::Bsdf..., MixedBsdf>;
 };
 /// Those of the models in the order of MaterialModel, and the mixed one.
-using Bsdf = BsdfVariant<MaterialModel>::Type;
+using Bsdf = BsdfVariant<VariantOf<MaterialModel>>::Type;
 
 Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
 /// Of a place on the material, with its textures.
@@ -49,6 +49,7 @@ inline const WhittedTerms& whitted(const Bsdf& bsdf) {
 }
 
 /// What of light from `toLight` goes toward `toEye` in Whitted's equation, the cosine to the normal included.
+/// Here and below Phong's model, the most frequent, is asked without a call.
 Scatter scatterOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye);
 inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
   if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->scatter(frame.normal, toLight, toEye);
@@ -57,7 +58,11 @@ inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight
 
 /// The weight of the mirrored ray, of which and the normal `cosine` is. Of a surface that is not smooth it
 /// stands, where an integrator sends no ray into the lobe around it, for the core of that lobe.
-Color mirrorWeight(const Bsdf& bsdf, Real cosine);
+Color mirrorWeightOfOthers(const Bsdf& bsdf, Real cosine);
+inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
+  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->mirrorWeight(cosine);
+  return mirrorWeightOfOthers(bsdf, cosine);
+}
 /// The weight of the ray that goes straight on, where the passage is straight.
 Color passWeight(const Bsdf& bsdf, Real cosine);
 /// False if `evaluate` has all that is mirrored.
@@ -77,7 +82,10 @@ Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3
 /// Lamps can be seen on it.
 bool scatters(const Bsdf& bsdf);
 /// It asks for Frame::along.
-bool hasGrain(const Bsdf& bsdf);
+bool hasGrainOfOthers(const Bsdf& bsdf);
+inline bool hasGrain(const Bsdf& bsdf) {
+  return !std::holds_alternative<PhongBsdf>(bsdf) && hasGrainOfOthers(bsdf);
+}
 
 /// Parts by weight: of one model their values are mixed, of several what they scatter.
 Bsdf mix(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]);

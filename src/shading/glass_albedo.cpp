@@ -4,6 +4,7 @@
 #include <mutex>
 #include <vector>
 
+#include "math/between.h"
 #include "shading/fresnel.h"
 
 namespace trace {
@@ -12,23 +13,6 @@ namespace {
 constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
 constexpr int kSamples = 32;  // along each side of the square of numbers for a facet
 constexpr Real kMostIndex = 4;
-
-/// The two entries around a number from 0 to 1, and how far it is on the way between them.
-struct Between {
-  int low;
-  Real share;
-  Between(Real x, int steps) {
-    const Real place = max(0, min(1, x)) * steps;
-    low = std::min(steps - 1, static_cast<int>(place));
-    share = place - low;
-  }
-  /// What `ask` gives of the two, mixed.
-  template <class Ask>
-  Real of(const Ask& ask) const {
-    const Real first = ask(low);
-    return share > 0 ? first + share * (ask(low + 1) - first) : first;
-  }
-};
 
 /// Of one index and width, by the root of the cosine, where the albedo changes evenly.
 struct Row {

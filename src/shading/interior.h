@@ -1,8 +1,6 @@
 // What fills a body, as light that runs in it asks: a part of the materials that refract.
 #pragma once
 
-#include <tuple>
-
 #include "base/field.h"
 #include "math/color.h"
 #include "shading/dispersion.h"
@@ -17,17 +15,16 @@ struct Interior {
   Real abbe = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"priority", &Interior::priority, "", -kNoLimit, kNoLimit,
-              "where bodies of glass overlap, that of the highest fills the place"},
-        Field{"attenuation_color", &Interior::attenuationColor, "", 0, 1,
-              "what passes of white light along attenuation_distance inside"},
-        Field{"attenuation_distance", &Interior::attenuationDistance, "units", 0, kNoLimit,
-              "way inside after which attenuation_color is left"},
-        Field{"dispersion", &Interior::dispersion, "", 0, 0,
-              "how the index changes with the wavelength: by abbe, or as that of an optical glass"},
-        Field{"abbe", &Interior::abbe, "", 0, kNoLimit,
-              "Abbe's number: the smaller, the more light is dispersed; 0 does not disperse"}};
+    return Fields{Field{"priority", &Interior::priority, "", -kNoLimit, kNoLimit,
+                        "where bodies of glass overlap, that of the highest fills the place"},
+                  Field{"attenuation_color", &Interior::attenuationColor, "", 0, 1,
+                        "what passes of white light along attenuation_distance inside"},
+                  Field{"attenuation_distance", &Interior::attenuationDistance, "units", 0, kNoLimit,
+                        "way inside after which attenuation_color is left"},
+                  Field{"dispersion", &Interior::dispersion, "", 0, 0,
+                        "how the index changes with the wavelength: by abbe, or as that of an optical glass"},
+                  Field{"abbe", &Interior::abbe, "", 0, kNoLimit,
+                        "Abbe's number: the smaller, the more light is dispersed; 0 does not disperse"}};
   }
   bool operator==(const Interior&) const = default;
 

@@ -40,6 +40,34 @@ void takeFields(const std::vector<AnyField>& fields, MaterialModel& model) {
 
 }  // namespace
 
+MaterialModel::MaterialModel() = default;
+MaterialModel::MaterialModel(const MaterialModel&) = default;
+MaterialModel::MaterialModel(MaterialModel&&) noexcept = default;
+MaterialModel& MaterialModel::operator=(const MaterialModel&) = default;
+MaterialModel& MaterialModel::operator=(MaterialModel&&) noexcept = default;
+MaterialModel::~MaterialModel() = default;
+bool MaterialModel::operator==(const MaterialModel& other) const {
+  return static_cast<const variant&>(*this) == static_cast<const variant&>(other);
+}
+
+std::optional<MaterialModel> modelCalled(std::string_view keyword) {
+  std::optional<MaterialModel> model;
+  forEachType<MaterialModel>([&]<class M>(M*) {
+    if (M::kKeyword == keyword) model = M{};
+  });
+  return model;
+}
+
+std::vector<std::string_view> modelKeywords() {
+  std::vector<std::string_view> words;
+  forEachType<MaterialModel>([&]<class M>(M*) { words.push_back(M::kKeyword); });
+  return words;
+}
+
+std::string_view keywordOf(const MaterialModel& model) {
+  return match(model, [](const auto& m) { return m.kKeyword; });
+}
+
 void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
                   const std::function<Color(const Color&)>& change) {
   match(model, [&]<class M>(M& m) {
@@ -72,6 +100,10 @@ Material withModel(Material material, const MaterialModel& to) {
     return !known;
   });
   return material;
+}
+
+Phong phongOf(const MaterialModel& model) {
+  return match(model, [](const auto& said) -> Phong { return said.asPhong(); });
 }
 
 Phong phongOf(const Material& material) {

@@ -33,28 +33,25 @@
 
 namespace trace {
 
-using MaterialModel = std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
-                                   Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
-                                   ThinGlass, Cel, Gooch, Hatching, Subsurface>;
+/// Copied and compared in one .cpp: where a variant of so many structs is copied, it is dear to compile.
+struct MaterialModel
+    : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance, Ward, SchlickModel,
+                   AshikhminShirley, Velvet, Hair, Marschner, RoughGlass, ThinGlass, Cel, Gooch, Hatching, Subsurface> {
+  using variant::variant;
+  using variant::operator=;
+  MaterialModel();
+  MaterialModel(const MaterialModel&);
+  MaterialModel(MaterialModel&&) noexcept;
+  MaterialModel& operator=(const MaterialModel&);
+  MaterialModel& operator=(MaterialModel&&) noexcept;
+  ~MaterialModel();
+  bool operator==(const MaterialModel&) const;
+};
 
 /// The model of that keyword, with its defaults; null if there is none.
-inline std::optional<MaterialModel> modelCalled(std::string_view keyword) {
-  std::optional<MaterialModel> model;
-  forEachType<MaterialModel>([&]<class M>(M*) {
-    if (M::kKeyword == keyword) model = M{};
-  });
-  return model;
-}
-
-inline std::vector<std::string_view> modelKeywords() {
-  std::vector<std::string_view> words;
-  forEachType<MaterialModel>([&]<class M>(M*) { words.push_back(M::kKeyword); });
-  return words;
-}
-
-inline std::string_view keywordOf(const MaterialModel& model) {
-  return match(model, [](const auto& m) { return m.kKeyword; });
-}
+std::optional<MaterialModel> modelCalled(std::string_view keyword);
+std::vector<std::string_view> modelKeywords();
+std::string_view keywordOf(const MaterialModel& model);
 
 struct Material {
   static constexpr std::string_view kKeyword = "material";
@@ -73,7 +70,7 @@ struct Material {
 
   /// What a material has whatever its model.
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
               "how high the surface seems to stand where the texture that it scales is white"},
         Field{"opacity", &Material::opacity, "", 0, 1,
@@ -119,9 +116,7 @@ void changePixels(Material& material, const Change& change) {
 
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
-inline Phong phongOf(const MaterialModel& model) {
-  return match(model, [](const auto& said) -> Phong { return said.asPhong(); });
-}
+Phong phongOf(const MaterialModel& model);
 /// Of one that is not wholly there it lets light through.
 Phong phongOf(const Material& material);
 /// The same for formats that have no holes: what a texture makes transparent in places is opaque.

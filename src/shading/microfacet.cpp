@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "math/between.h"
 #include "shading/fresnel.h"
 
 namespace trace {
@@ -130,17 +131,6 @@ Vec3 seenFrom(int step, int steps, Real along = 1) {
 }
 
 constexpr Real kMostRoughness = 1.8;  // of a width of 3.2, that of strong grain
-
-/// The two entries around a number from 0 to 1, and how far it is on the way between them.
-struct Between {
-  int low;
-  Real share;
-  Between(Real x, int steps) {
-    const Real place = max(0, min(1, x)) * steps;
-    low = std::min(steps - 1, static_cast<int>(place));
-    share = place - low;
-  }
-};
 
 /// Without grain: by the roots of cosine and width, where the albedo changes evenly.
 struct EvenTable {

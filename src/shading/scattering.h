@@ -70,11 +70,8 @@ struct SurfaceFields {
   Color emissive, ambient;
   Real shadow = 1;  ///< how dark shadows on it are: 0 shows none
 
-  /// A model's own fields and these.
-  template <class... Own>
-  static constexpr auto after(Own... own) {
-    return std::tuple{
-        own...,
+  static constexpr auto fields() {
+    return Fields{
         Field{"emissive", &SurfaceFields::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
         Field{"ambient", &SurfaceFields::ambient, "", 0, 1, "share of the ambient light given back"},
         Field{"shadow", &SurfaceFields::shadow, "", 0, 1,

@@ -8,8 +8,8 @@ namespace trace {
 
 struct Texture::Data {
   TextureNode node;
-  bool moved = false;
-  Affine patternFromObject;  ///< the identity where it is flat
+  bool moved = false, inUv = false;  ///< inUv: it or one in it looks at u and v
+  Affine patternFromObject;          ///< the identity where it is flat
   double size = 1;
 };
 
@@ -24,24 +24,71 @@ Affine patternFromObject(const TexturePlacement& p) {
   return invertible(placed) ? inverse(placed) : Affine{};
 }
 
-TexturePlace moved(const TexturePlace& p, const Affine& m) {
+template <class Model>
+bool looksAtUv(const Model& model) {
+  if constexpr (requires { model.space; })
+    return model.space == TextureSpace::uv;
+  else
+    return requires { model.wantsUv(); };
+}
+
+/// u and v where they are looked at.
+TexturePlace moved(const TexturePlace& p, const Affine& m, bool inUv) {
+  TexturePlace to{.point = m * p.point,
+                  .uv = {},
+                  .uvX = {},
+                  .uvY = {},
+                  .pointX = linear(m, p.pointX),
+                  .pointY = linear(m, p.pointY)};
+  if (!inUv) return to;
   const auto flat = [](const Vec3& v) { return Vec2{v.x, v.y}; };
   const auto step = [&](const Vec2& v) { return flat(linear(m, Vec3{v.x, v.y, 0})); };
-  return {.point = m * p.point,
-          .uv = flat(m * Vec3{p.uv.x, p.uv.y, 0}),
-          .uvX = step(p.uvX),
-          .uvY = step(p.uvY),
-          .pointX = linear(m, p.pointX),
-          .pointY = linear(m, p.pointY)};
+  to.uv = flat(m * Vec3{p.uv.x, p.uv.y, 0});
+  to.uvX = step(p.uvX);
+  to.uvY = step(p.uvY);
+  return to;
 }
 
 }  // namespace
 
+TextureModel::TextureModel() = default;
+TextureModel::TextureModel(const TextureModel&) = default;
+TextureModel::TextureModel(TextureModel&&) noexcept = default;
+TextureModel& TextureModel::operator=(const TextureModel&) = default;
+TextureModel& TextureModel::operator=(TextureModel&&) noexcept = default;
+TextureModel::~TextureModel() = default;
+bool TextureModel::operator==(const TextureModel& other) const {
+  return static_cast<const variant&>(*this) == static_cast<const variant&>(other);
+}
+
+const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field) {
+  for (const FieldTexture& t : textures)
+    if (t.field == field) return &t.texture;
+  return nullptr;
+}
+
+void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture) {
+  const auto at =
+      std::find_if(textures.begin(), textures.end(), [&](const FieldTexture& t) { return t.field >= field; });
+  if (at != textures.end() && at->field == field)
+    at->texture = std::move(texture);
+  else
+    textures.insert(at, {std::string(field), std::move(texture)});
+}
+
+Texture pictureTexture(std::string file, Place place) {
+  return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
+}
+
 Texture::Texture(TextureNode node) {
-  auto data = std::make_shared<Data>(Data{std::move(node), false, {}, 1});
+  auto data = std::make_shared<Data>(Data{std::move(node), false, false, {}, 1});
   data->moved = !(data->node.placement == TexturePlacement{});
   if (data->moved) data->patternFromObject = patternFromObject(data->node.placement);
-  for (const FieldTexture& input : data->node.inputs) data->size += input.texture.size();
+  data->inUv = match(data->node.model, [](const auto& model) { return looksAtUv(model); });
+  for (const FieldTexture& input : data->node.inputs) {
+    data->size += input.texture.size();
+    data->inUv |= input.texture.data_->inUv;
+  }
   data_ = std::move(data);
 }
 
@@ -54,7 +101,8 @@ bool Texture::operator==(const Texture& other) const {
 }
 
 Color Texture::at(const TexturePlace& place) const {
-  return data_->moved ? at(data_->node, moved(place, data_->patternFromObject)) : at(data_->node, place);
+  return data_->moved ? at(data_->node, moved(place, data_->patternFromObject, data_->inUv))
+                      : at(data_->node, place);
 }
 
 Color Texture::at(const TextureNode& node, const TexturePlace& place) {
@@ -97,12 +145,7 @@ bool wantsFootprint(const Texture& texture) {
 }
 
 bool wantsUv(const Texture& texture) {
-  return anyModel(texture, [](const auto& model) {
-    if constexpr (requires { model.space; })
-      return model.space == TextureSpace::uv;
-    else
-      return requires { model.wantsUv(); };
-  });
+  return anyModel(texture, [](const auto& model) { return looksAtUv(model); });
 }
 
 std::string summary(const Texture& texture) {

@@ -41,8 +41,19 @@
 
 namespace trace {
 
-using TextureModel = std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
-                                  Clouds, Cells, Ramp, Mix, Formula, Blackbody>;
+/// Copied and compared in one .cpp, as a MaterialModel is.
+struct TextureModel : std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
+                                   Clouds, Cells, Ramp, Mix, Formula, Blackbody> {
+  using variant::variant;
+  using variant::operator=;
+  TextureModel();
+  TextureModel(const TextureModel&);
+  TextureModel(TextureModel&&) noexcept;
+  TextureModel& operator=(const TextureModel&);
+  TextureModel& operator=(TextureModel&&) noexcept;
+  ~TextureModel();
+  bool operator==(const TextureModel&) const;
+};
 
 /// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
 /// and v is moved there, as if they were x and y.
@@ -51,7 +62,7 @@ struct TexturePlacement {
   Vec3 rotate{}, translate{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"scale", &TexturePlacement::scale, "", -kNoLimit, kNoLimit, "makes the pattern larger"},
         Field{"rotate", &TexturePlacement::rotate, "degrees", -kNoLimit, kNoLimit,
               "turns it about x, then y, then z"},
@@ -99,26 +110,13 @@ struct TextureNode {
 };
 
 /// That of the field; null if it has none.
-inline const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field) {
-  for (const FieldTexture& t : textures)
-    if (t.field == field) return &t.texture;
-  return nullptr;
-}
+const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field);
 
 /// Gives the field this texture. The list is in the order of the alphabet.
-inline void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture) {
-  const auto at =
-      std::find_if(textures.begin(), textures.end(), [&](const FieldTexture& t) { return t.field >= field; });
-  if (at != textures.end() && at->field == field)
-    at->texture = std::move(texture);
-  else
-    textures.insert(at, {std::string(field), std::move(texture)});
-}
+void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture);
 
 /// A picture on a field.
-inline Texture pictureTexture(std::string file, Place place = {}) {
-  return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
-}
+Texture pictureTexture(std::string file, Place place = {});
 
 /// It, or a texture in it, looks at how large a part of the surface a place stands for.
 bool wantsFootprint(const Texture& texture);

@@ -19,6 +19,27 @@ constexpr float kGap = 6;               // between two pictures side by side
 
 bool sameSize(const Picture& a, const Picture& b) { return a.width == b.width && a.height == b.height; }
 
+/// How far the render has come, and the plane that is looked at.
+void refreshPlane(Studio& studio, bool pictureChanged) {
+  PictureView& view = studio.picture;
+  const auto session = studio.workspace.render.session();
+  if (!session || (!pictureChanged && view.planeShown == view.plane)) return;
+  const Film& film = session->film();
+  if (pictureChanged) {
+    const std::uint64_t number = studio.workspace.render.state().number;
+    if (number != view.noiseOf) view.noise.clear();
+    view.noiseOf = number;
+    view.convergence = film.convergence();
+    if (view.convergence.judged) view.noise.push_back(static_cast<float>(255 * view.convergence.error));
+  }
+  view.planeShown = view.plane;
+  if (view.plane == Plane::picture || film.width() != view.shown.width || film.height() != view.shown.height)
+    return;
+  const PlaneView plane = planeView(view.plane, film, view.shown);
+  view.planeTexture.set(toBytes(plane.colours, Rounding::nearest));
+  view.planeLegend = plane.legend;
+}
+
 /// Brings the textures up to date.
 void refresh(Studio& studio) {
   PictureView& view = studio.picture;
@@ -38,6 +59,7 @@ void refresh(Studio& studio) {
     view.levels = developed(view.shown, developmentOf(settings));
   if (view.shown.width > 0 && (pictureChanged || toneChanged))
     view.pictureTexture.set(exposed(view.levels, view.exposure, settings.rounding));
+  refreshPlane(studio, pictureChanged);
   const auto& reference = workspace.reference();
   const bool referenceChanged = view.referenceVersion != workspace.referenceVersion();
   if (reference && referenceChanged) view.view = View::swipe;
@@ -102,6 +124,17 @@ void drawBar(Studio& studio) {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("stops: powers of two; only what is shown, not what is saved\nright click: 0");
   if (ImGui::IsItemClicked(1)) view.exposure = 0;
+  ImGui::SameLine();
+  roomFor(characters(17));
+  ImGui::SetNextItemWidth(characters(17));
+  int plane = static_cast<int>(view.plane);
+  if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
+    view.plane = static_cast<Plane>(plane);
+  landmark("plane");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
+        "changed");
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
     roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);
@@ -182,10 +215,23 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     const std::string left = state.remaining ? ", " + durationText(*state.remaining) + " left" : "";
     if (state.phase == BackgroundRender::Phase::building)
       std::snprintf(text, sizeof text, "building");
+    else if (state.phase == BackgroundRender::Phase::denoising)
+      std::snprintf(text, sizeof text, "taking noise out");
     else
       std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
                     durationText(state.elapsed).c_str(), left.c_str());
     ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(28), ImGui::GetFrameHeight()}, text);
+    ImGui::SameLine();
+  }
+  if (!hovered && view.noise.size() > 1) {  // how noise falls
+    const float most = *std::max_element(view.noise.begin(), view.noise.end());
+    ImGui::PlotLines("##noise", view.noise.data(), static_cast<int>(view.noise.size()), 0, nullptr, 0, most,
+                     {characters(12), ImGui::GetFrameHeight()});
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "the noise of the picture since the render began: the standard error of a pixel's mean, on "
+          "the average, in levels of 255; at the top %.3g",
+          most);
     ImGui::SameLine();
   }
   ImGui::AlignTextToFramePadding();
@@ -209,12 +255,16 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     }
   } else if (workspace.saving() || workspace.reading()) {
     ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");
-  } else if (!state.working() && view.shown.width > 0) {
+  } else if (state.working()) {
+    ImGui::TextDisabled("%s", view.convergence.samples > 0 ? convergenceText(view.convergence).c_str() : " ");
+  } else if (view.shown.width > 0) {
     const char* how = state.phase == BackgroundRender::Phase::finished ? "finished"
                       : state.phase == BackgroundRender::Phase::failed ? "failed: see the log"
                                                                        : "stopped";
-    ImGui::TextDisabled("%d x %d, %s after %s%s", view.shown.width, view.shown.height, how,
-                        durationText(state.elapsed).c_str(),
+    const bool several = view.convergence.samples > 1;
+    ImGui::TextDisabled("%d x %d, %s after %s%s%s%s", view.shown.width, view.shown.height, how,
+                        durationText(state.elapsed).c_str(), several ? ", " : "",
+                        several ? convergenceText(view.convergence).c_str() : "",
                         workspace.stale() ? "; the scene has changed since: F5 renders" : "");
   } else {
     ImGui::TextUnformatted(" ");
@@ -248,7 +298,8 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   PictureView& view = studio.picture;
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
-  const View mode = reference ? view.view : View::picture;
+  const bool ofPlane = view.plane != Plane::picture && !view.planeTexture.empty();
+  const View mode = reference && !ofPlane ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
   const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   const Frame frame = frameOf(view, canvas, part, width, height);
@@ -261,9 +312,14 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PopClipRect();
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
+  if (ofPlane) {
+    clipped(canvas, end, frame, view.planeTexture);
+    caption({canvas.x + 8, canvas.y + 8}, view.planeLegend.c_str());
+  }
   const bool comparable = reference && sameSize(*reference, view.shown);
   const bool differs = mode == View::difference || mode == View::falseColour;
-  if (mode == View::picture || (differs && !comparable)) clipped(canvas, end, frame, view.pictureTexture);
+  if (!ofPlane && (mode == View::picture || (differs && !comparable)))
+    clipped(canvas, end, frame, view.pictureTexture);
   if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "app/picture_views.h"
 #include "app/pixel_choice.h"
 #include "image/picture.h"
 #include "studio/texture.h"
@@ -16,6 +18,7 @@ inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by s
 
 struct PictureView {
   View view = View::picture;
+  Plane plane = Plane::picture;  ///< what of the render is seen
   bool fit = true;
   float zoom = 1;                       ///< screen pixels per pixel of the picture
   double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
@@ -36,6 +39,13 @@ struct PictureView {
   Rounding rounding = Rounding::truncate;
   View differenceView = View::picture;
   float differenceMagnify = 0;
+
+  Texture planeTexture;     ///< where another plane than the picture is seen
+  std::string planeLegend;  ///< what its colours mean
+  Plane planeShown = Plane::picture;
+  Convergence convergence;    ///< of what is shown
+  std::vector<float> noise;   ///< levels, one for each look at the render that goes on
+  std::uint64_t noiseOf = 0;  ///< the render's number
 
   /// Takes the pixel as if it were clicked, and brings it into view.
   void goTo(int x, int y) {

@@ -116,6 +116,13 @@ View viewOf(const std::string& word) {
   return static_cast<View>(number);
 }
 
+Plane planeOf(const std::string& word) {
+  const int number = whole(word);
+  if (number < 0 || number >= static_cast<int>(std::size(kPlaneNames)))
+    throw Error(Fault::usage, "expected 0 to 3, found " + word);
+  return static_cast<Plane>(number);
+}
+
 Studio::Selected kindOf(const std::string& word) {
   const auto& names = Studio::kSelectedNames;
   const auto kind = std::find(std::begin(names), std::end(names), word);
@@ -137,107 +144,110 @@ void checkOption(const Words& words) {
   findOption(words[0]).assign(scratch, words[1]);
 }
 
-/// `run` returns false to be called again after the next frame. `check`, if any, throws an Error if the
-/// arguments are wrong whatever the window shows. `settle`: frames until what it did shows everywhere.
+/// A command has one of `run`, which does it, and `until`, which is asked once in a frame until it says yes.
+/// `check`, if any, throws an Error if the arguments are wrong whatever the window shows. `settle`: frames
+/// until what it did shows everywhere.
 struct Command {
   const char* name;
   const char* arguments;
   std::size_t least, most;  // number of arguments
   const char* help;
-  bool (*run)(Studio&, const Words&);
+  void (*run)(Studio&, const Words&);
   void (*check)(const Words&) = nullptr;
   int settle = 3;
+  bool (*until)(Studio&, const Words&) = nullptr;
 };
 
 constexpr std::array kTable{
-    Command{"open", "FILE", 1, 1, "open a scene",
-            [](Studio& s, const Words& a) { return s.workspace.open(a[0]), true; }},
+    Command{"open", "FILE", 1, 1, "open a scene", [](Studio& s, const Words& a) { s.workspace.open(a[0]); }},
     Command{"drop", "FILE", 1, 1, "drop a file onto the window: a scene, or a picture to compare with",
-            [](Studio& s, const Words& a) { return s.window.drop(a[0]), true; }},
+            [](Studio& s, const Words& a) { s.window.drop(a[0]); }},
     Command{"reference", "FILE", 1, 1, "compare with a picture",
-            [](Studio& s, const Words& a) { return s.workspace.openReference(a[0]), true; }},
+            [](Studio& s, const Words& a) { s.workspace.openReference(a[0]); }},
     Command{"set", "OPTION VALUE", 2, 2, "choose an option",
-            [](Studio& s, const Words& a) { return s.workspace.choose(a[0], a[1]), true; }, checkOption},
-    Command{"wait", "", 0, 0, "until the picture and the view in space are finished",
+            [](Studio& s, const Words& a) { s.workspace.choose(a[0], a[1]); }, checkOption},
+    Command{"wait", "", 0, 0, "until the picture and the view in space are finished", nullptr, nullptr, 3,
             [](Studio& s, const Words&) {
               const auto state = s.workspace.render.state();
               if (state.phase == BackgroundRender::Phase::failed) fail(s.workspace);
               return !state.working() && !s.workspace.stale() && !s.rays.modelTask.busy();
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
-            [](Studio& s, const Words& a) { return actionOf(a).run(s), true; },
-            [](const Words& a) { actionOf(a); }},
+            [](Studio& s, const Words& a) { actionOf(a).run(s); }, [](const Words& a) { actionOf(a); }},
     Command{"panel", "NAME...", 1, 3, "bring a panel to the front",
-            [](Studio& s, const Words& a) { return s.show(std::string(panelOf(a).name)), true; },
+            [](Studio& s, const Words& a) { s.show(std::string(panelOf(a).name)); },
             [](const Words& a) { panelOf(a); }},
     Command{"view", "NUMBER", 1, 1,
             "0 picture, 1 reference, 2 side by side, 3 swipe, 4 difference, 5 false colour",
-            [](Studio& s, const Words& a) {
-              s.picture.view = viewOf(a[0]);
-              return true;
-            },
+            [](Studio& s, const Words& a) { s.picture.view = viewOf(a[0]); },
             [](const Words& a) { viewOf(a[0]); }},
-    Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
-            [](Studio& s, const Words& a) { return s.picture.goTo(whole(a[0]), whole(a[1])), true; },
+    Command{"plane", "NUMBER", 1, 1,
+            "what is seen of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
+            [](Studio& s, const Words& a) { return s.picture.plane = planeOf(a[0]), true; },
+            [](const Words& a) { planeOf(a[0]); }},
+    Command{"samples", "NUMBER", 1, 1,
+            "until pixels have so many samples on the average, or the picture is finished",
+            [](Studio& s, const Words& a) {
+              return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
+            },
             checkNumbers},
+    Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
+            [](Studio& s, const Words& a) { s.picture.goTo(whole(a[0]), whole(a[1])); }, checkNumbers},
     Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
             [](Studio& s, const Words& a) {
               const std::vector<BadSample> bad = s.workspace.render.result().badSamples;
               if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= bad.size())
                 throw Error(Fault::usage, "the render has no bad sample " + a[0]);
-              return showBadSample(s, bad[static_cast<std::size_t>(whole(a[0]))]), true;
+              showBadSample(s, bad[static_cast<std::size_t>(whole(a[0]))]);
             },
             checkNumbers},
     Command{"select", "KIND NUMBER", 2, 2,
             "in the panel Scene: camera, background, object, light, material or none, from 0",
             [](Studio& s, const Words& a) {
               s.select(kindOf(a[0]), static_cast<std::size_t>(std::max(0, whole(a[1]))));
-              return true;
             },
             [](const Words& a) {
               kindOf(a[0]);
               whole(a[1]);
             }},
-    Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown",
+    Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown", nullptr, nullptr, 3,
             [](Studio& s, const Words&) { return !s.workspace.inspector.busy(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
-            [](Studio& s, const Words&) {
-              return s.workspace.inspector.pin(!s.workspace.inspector.pinned()), true;
-            }},
+            [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
             [](Studio& s, const Words& a) {
               if (whole(a[0]) < 0 || static_cast<std::size_t>(whole(a[0])) >= s.rays.rays)
                 throw Error(Fault::usage, "the pixel has no ray " + a[0]);
               s.rays.selected = whole(a[0]);
-              return true;
             },
             checkNumbers},
     Command{"step", "NUMBER", 1, 1, "go so many rays on in the order of tracing, or back if it is negative",
-            [](Studio& s, const Words& a) { return stepRays(s, whole(a[0])), true; }, checkNumbers},
+            [](Studio& s, const Words& a) { stepRays(s, whole(a[0])); }, checkNumbers},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
-            [](Studio& s, const Words&) { return showBoxes(s), true; }},
+            [](Studio& s, const Words&) { showBoxes(s); }},
     Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
-            [](Studio& s, const Words& a) { return s.raysTab = a[0], true; }, checkTab},
+            [](Studio& s, const Words& a) { s.raysTab = a[0]; }, checkTab},
     Command{"save", "FILE", 1, 1, "write the picture",
-            [](Studio& s, const Words& a) { return s.workspace.savePicture(a[0]), true; }, checkPicture},
+            [](Studio& s, const Words& a) { s.workspace.savePicture(a[0]); }, checkPicture},
     Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
-            [](Studio& s, const Words& a) { return s.workspace.saveScene(a[0]), true; }},
+            [](Studio& s, const Words& a) { s.workspace.saveScene(a[0]); }},
     Command{"screenshot", "FILE [PART...]", 1, 9, "write what the window shows, or a part that `state` names",
             [](Studio& s, const Words& a) {
               const Picture all = fromBytes(s.window.screenshot());
-              return writePicture(a[0], a.size() > 1 ? part(all, joined(a, 1)) : all), true;
+              writePicture(a[0], a.size() > 1 ? part(all, joined(a, 1)) : all);
             },
             checkPicture},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
-            [](Studio& s, const Words& a) { return writeFile(a[0], state(s)), true; }, nullptr, 0},
+            [](Studio& s, const Words& a) { writeFile(a[0], state(s)); }, nullptr, 0},
     Command{"say", "WORDS...", 1, 9, "write these words to standard output, for who waits there",
             [](Studio&, const Words& a) {
-              return std::printf("%s\n", joined(a).c_str()), std::fflush(stdout), true;
+              std::printf("%s\n", joined(a).c_str());
+              std::fflush(stdout);
             },
             nullptr, 0},
-    Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen",
-            [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); },
-            nullptr, 0},
+    Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen", nullptr,
+            nullptr, 0,
+            [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); }},
 };
 
 const Command& commandOf(const Words& words) {
@@ -287,7 +297,9 @@ bool Script::step(Studio& studio) {
   try {
     if (failed) fail(workspace);
     const Command& command = commandOf(line.words);
-    waits_ = !command.run(studio, argumentsOf(line.words));
+    const Words arguments = argumentsOf(line.words);
+    if (command.run) command.run(studio, arguments);
+    waits_ = command.until && !command.until(studio, arguments);
     if (!waits_) {
       ++next_;
       framesToWait_ = command.settle;

@@ -32,14 +32,14 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   Session& session = *opened;
   session.build();
   session.renderPicture();
-  const Picture picture = session.picture();
+  const Film& film = session.film();
   std::size_t rays = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x)
       for (int k = 0; k < samplesOf(session.settings()); ++k) {
         const Explanation e = session.explain(x, y, k);
         const Color& sample = e.samples[static_cast<std::size_t>(k)];
-        if (!sameBits(e.pixel, picture.at(x, y)) || !sameBits(e.tree.nodes[0].radiance, sample) ||
+        if (!sameBits(e.pixel, film.ofSamples(x, y)) || !sameBits(e.tree.nodes[0].radiance, sample) ||
             !sumsUp(e.tree)) {
           ADD_FAILURE() << file << " pixel " << x << "," << y << " sample " << k;
           return rays;

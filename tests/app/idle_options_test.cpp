@@ -53,6 +53,15 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
   about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
+  about(kLit, {{"fog-color", "0.5", {}}}, "--fog-color changes nothing without --fog");
+  about(kLit, {{"moments", "4", {}}}, "--moments changes nothing without --shutter");
+  about(kLit, {{"subdivide-threshold", "0.2", {}}},
+        "--subdivide-threshold changes nothing without --subdivide");
+  about(kLit, {{"subdivide", "2", {}}, {"spp", "16", {}}}, "--spp changes nothing with --subdivide");
+  about(kLit, {{"denoise", "on", {}}}, "--denoise changes nothing: it compares two halves");
+  about(kLit, {{"denoise", "on", {}}, {"spp", "64", {}}, {"integrator", "mlt", {}}},
+        "--denoise changes nothing");
+  about(kLit, {{"light-choices", "2", {}}}, "fewer than two lights");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {

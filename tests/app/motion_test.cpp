@@ -47,6 +47,21 @@ TEST(Motion, LeavesAnEvenStreakOfItsLengthAndKeepsItsLight) {
   EXPECT_EQ(moving.at(135, 20).g, 0);
 }
 
+TEST(Motion, IsToldWhereAllKeysAreOver) {
+  const Folder folder;
+  const std::string file = written(folder, kMoving);
+  const auto told = [&](const char* time) {
+    Session session;
+    session.open(file, std::vector<Choice>{{"time", time, {}}, {"shutter", "0.5", {}}, {"moments", "3", {}}});
+    session.build();
+    std::string all;
+    for (const Message& message : session.messages().all()) all += message.what;
+    return all.find("nothing moves while the shutter is open") != std::string::npos;
+  };
+  EXPECT_FALSE(told("0.9"));
+  EXPECT_TRUE(told("1"));
+}
+
 TEST(Motion, HasTheSameBitsForAnyNumberOfThreadsAndIsExplained) {
   const Folder folder;
   const std::string file = written(folder, kMoving);

@@ -31,6 +31,45 @@ TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {
   EXPECT_EQ(pixelText(picture.at(0, 0), stretched.at(0, 0), Rounding::nearest), "1  1  1   (0 0 0)");
 }
 
+/// A film of two pixels and four samples: the left one sees 0.5, the right one 0 and 1 by turns.
+Film twoPixels(int waves) {
+  Film film(2, 1, 4);
+  for (int wave = 0; wave < waves; ++wave) {
+    TileSamples samples{.area = {0, 0, 2, 1}, .colors = {}, .layers = {}};
+    const Wave& w = film.waves()[static_cast<std::size_t>(wave)];
+    for (int k = w.first; k < w.end; ++k) samples.colors.push_back(Color(0.5));
+    for (int k = w.first; k < w.end; ++k) samples.colors.push_back(Color(k % 2));
+    film.add(0, static_cast<std::size_t>(wave), samples);
+  }
+  return film;
+}
+
+TEST(PictureViews, ConvergenceIsTheErrorThatIsLeft) {
+  const Convergence all = twoPixels(3).convergence();
+  EXPECT_EQ(all.samples, 4);
+  EXPECT_TRUE(all.judged);
+  EXPECT_NEAR(all.error, std::sqrt(0.25 * 4 / 3 / 4) / 2, 1e-12);
+  EXPECT_EQ(convergenceText(all), "4 samples a pixel, noise 36.8 levels");
+  EXPECT_FALSE(twoPixels(1).convergence().judged) << "one sample tells nothing";
+  EXPECT_EQ(convergenceText(twoPixels(1).convergence()), "1 sample a pixel");
+  EXPECT_LT(twoPixels(3).convergence().error, twoPixels(2).convergence().error) << "it falls";
+}
+
+TEST(PictureViews, PlanesAreHeatMapsWithALegend) {
+  const Film film = twoPixels(3);
+  const Picture shown = film.picture();
+  const PlaneView samples = planeView(Plane::samples, film, shown);
+  EXPECT_EQ(samples.colours.at(0, 0), Color(1)) << "the most";
+  EXPECT_EQ(samples.legend, "rays a pixel: 4 to 4, which is white; 4 on the average");
+  const PlaneView noise = planeView(Plane::noise, film, shown);
+  EXPECT_EQ(noise.colours.at(0, 0), Color(0));
+  EXPECT_EQ(noise.colours.at(1, 0), Color(1));
+  EXPECT_NE(noise.legend.find("36.8 on the average"), std::string::npos) << noise.legend;
+  const Film one = twoPixels(1);
+  EXPECT_NE(planeView(Plane::noise, one, one.picture()).legend.find("not known"), std::string::npos);
+  EXPECT_NE(planeView(Plane::change, film, shown).legend.find("denoise is off"), std::string::npos);
+}
+
 TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {
   Picture a(2, 1), b(2, 1);
   b.at(1, 0) = {0, 0, 0.5};

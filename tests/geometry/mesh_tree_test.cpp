@@ -24,7 +24,7 @@ struct Nearest {
 struct Counts {
   NodeCount nodes;
   std::uint64_t triangles = 0;
-  operator MeshCounts() { return {nodes, triangles}; }
+  MeshCounts<> both() { return {nodes, triangles}; }
 };
 
 /// The nearest of the triangles that `accept` likes.
@@ -33,7 +33,7 @@ Nearest nearest(const MeshTree& tree, const Ray& ray, Accept accept = {}) {
   Counts counts;
   MeshHit best;
   best.hit.t = kInfinity;
-  if (!tree.closest(ray, best, accept, counts)) return {};
+  if (!tree.closest(ray, best, accept, counts.both())) return {};
   const TriangleHit& hit = best.hit;
   EXPECT_NEAR(hit.b[0] + hit.b[1] + hit.b[2], 1, 1e-12);
   return {hit.t, best.triangle, hit.b[1], hit.b[2], hit.front};
@@ -46,7 +46,7 @@ std::set<std::uint32_t> allHits(const MeshTree& tree, const Ray& ray, Real tMost
     hits.insert(met.triangle);  // parts meet twice
     return false;
   };
-  tree.crossings(ray, tMost, insert, counts);
+  tree.crossings(ray, tMost, insert, counts.both());
   return hits;
 }
 
@@ -109,7 +109,7 @@ TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {
     int crossings = 0;
     Counts counts;
     tree.crossings(
-        ray, kInfinity, [&](const MeshHit&) { return ++crossings, false; }, counts);
+        ray, kInfinity, [&](const MeshHit&) { return ++crossings, false; }, counts.both());
     escapes += crossings % 2 == 0;
   }
   EXPECT_EQ(escapes, 0);
@@ -123,7 +123,8 @@ TEST(MeshTree, AnyOrderStopsWhenTold) {
     int calls = 0;
     Counts counts;
     tree.crossings(
-        {{0, 0, 5}, {0.001, 0.002, -1}}, kInfinity, [&](const MeshHit&) { return ++calls == 1; }, counts);
+        {{0, 0, 5}, {0.001, 0.002, -1}}, kInfinity, [&](const MeshHit&) { return ++calls == 1; },
+        counts.both());
     EXPECT_EQ(calls, 1);
   }
 }

@@ -69,6 +69,7 @@ TEST(Holes, WhatIsNotThereChangesNothingWhateverItsModel) {
         if (photons > 0 && (isTarget || settings.integrator != IntegratorKind::whitted)) break;
         if (isTarget && settings.integrator == IntegratorKind::photon) break;
         if (settings.integrator == IntegratorKind::cost) break;  // which shows what it costs to look there
+        if (settings.integrator == IntegratorKind::bdpt) break;  // its lights shine at the box around all
         Scene without = floorAndLamps();
         add(without, Sphere{}, at(1, 0, -2), Conductor{});
         Scene with = without;
@@ -243,7 +244,9 @@ TEST(Holes, AreExplained) {
     for (int y = 0; y < 12; y += 3)
       for (int k = 0; k < 4; ++k) {
         const Explanation e = explain(world, *integrator, settings, {12, 12}, 5, y, k);
-        EXPECT_EQ(e.pixel, rendered.at(5, y));
+        if (!row.throws) {
+          EXPECT_EQ(e.pixel, rendered.at(5, y));
+        }
         EXPECT_TRUE(sumsUp(e.tree));
         for (const RayNode& node : e.tree.nodes)
           for (const Ignored& ignored : node.ignored) {

@@ -1,6 +1,7 @@
 // Photons of all light, and the integrator that gathers by them, against path tracing and closed forms.
 #include <gtest/gtest.h>
 
+#include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
 #include "render/explain.h"
 #include "render/photons.h"
@@ -165,6 +166,79 @@ TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
         photons += term.kind == Term::Kind::photons ? term.photons->count : 0;
   }
   EXPECT_GT(photons, 0u);
+}
+
+TEST(Photons, APaneThatBendsNothingDoesNotCountTwice) {
+  Scene scene = room();
+  scene.materials.push_back({"", ThinGlass{}, {}});
+  scene.objects.push_back({"",
+                           Square{},
+                           Affine::translation({0, 0.2, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
+                               Affine::scaling({1.6, 1.6, 1}),
+                           static_cast<std::uint32_t>(scene.materials.size() - 1),
+                           {}});
+  scene.lights.push_back({PointLight{.position = {0, 0.7, 0.2}, .color = Color(0.6)}, {}});
+  expectAlike(scene, 0.05);
+}
+
+TEST(Photons, WhatLiesUnderWaterIsAsBrightAsPathsShowIt) {
+  Scene scene = room();
+  Phong water;
+  water.transmissive = water.reflective = Color(1), water.index = 1.33;
+  addObject(scene, Cube{}, Affine::translation({0, -0.5, 0}) * Affine::scaling({2.5, 0.6, 2.5}), water);
+  addObject(
+      scene, Square{},
+      Affine::translation({0, -0.6, 0}) * Affine::rotation({1, 0, 0}, -kPi / 2) * Affine::scaling({2, 2, 1}),
+      diffuse(Color(0.7)));
+  addObject(scene, Square{}, ceiling(1.2), diffuse(Color(0), 3));
+  scene.camera.position = {0, 0.6, 1.4}, scene.camera.viewdir = {0, -0.9, -1};
+  expectAlike(scene, 0.06);
+}
+
+/// What a place beside an edge of light is lit by, on the average of that many maps, relative to the truth.
+Real besideAnEdge(int passes) {
+  constexpr int kPhotons = 4000;
+  constexpr Real kAway = 0.03;
+  Random random(7);
+  Real sum = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<Photon> photons;
+    for (int i = 0; i < kPhotons; ++i)
+      photons.push_back({{random.uniform(-0.5, 0), random.uniform(-0.5, 0.5), 0},
+                         {0, 0, -1},
+                         {0, 0, 1},
+                         Color(0.5 / kPhotons)});
+    const auto nearest = static_cast<std::size_t>(areaOfPass(pass) * PhotonMap::kNearest + 0.5);
+    const PhotonMap map(std::move(photons), 1, 1, nearest);
+    const PhotonMap::Near near = map.near({-kAway, 0, 0}, {0, 0, 1});
+    for (std::size_t i = 0; i < near.count; ++i) sum += near.photons[i]->power.g * near.perArea(i) / passes;
+  }
+  return sum;
+}
+
+TEST(Photons, TheBlurOfManyMapsIsLess) {
+  EXPECT_EQ(areaOfPass(0), 1);
+  EXPECT_NEAR(areaOfPass(1), (1 + 2.0 / 3) / 2, 1e-15);
+  EXPECT_NEAR(areaOfPass(8000) / areaOfPass(1000), 0.5, 1e-3) << "it shrinks as n^(-1/3)";
+  const Real one = 1 - besideAnEdge(8), many = 1 - besideAnEdge(1000);
+  EXPECT_GT(one, 0.03) << "there is a blur";
+  EXPECT_LT(std::abs(many), 0.5 * one);
+}
+
+TEST(Photons, EachSampleTakesTheNextMap) {
+  Scene scene = room();
+  addObject(scene, Square{}, ceiling(0.5), diffuse(Color(0), 8));
+  Settings settings = settingsOf(IntegratorKind::photon, 1);
+  settings.photons = 5000;
+  const Picture first = picture(scene, settings);
+  settings.photonPasses = 3;
+  EXPECT_EQ(picture(scene, settings), first) << "the first sample takes the first map";
+  settings.spp = 4;
+  const Picture three = picture(scene, settings);
+  settings.threads = 3;
+  EXPECT_EQ(picture(scene, settings), three);
+  settings.photonPasses = 1;
+  EXPECT_NE(picture(scene, settings), three);
 }
 
 }  // namespace

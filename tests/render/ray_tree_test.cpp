@@ -137,7 +137,7 @@ TEST(RayTree, VisitedBoxesAreThoseThatWereCountedAndTheRayMeetsThem) {
         ASSERT_EQ(boxes.size(), node.nodes);
         for (size_t i = 0; i < boxes.size(); ++i) {
           const VisitedBox& box = boxes[i];
-          const bool top = box.object == NodeCount::kTop;
+          const bool top = box.object == NodeWatch::kTop;
           ASSERT_TRUE(top || scene.objects[box.object].shape.is<Mesh>());
           ++(top ? ofObjects : ofMeshes);
           if (i == 0 || boxes[i - 1].object != box.object) continue;  // a root is visited unseen

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace trace {
@@ -78,6 +79,16 @@ TEST(Sampler, NumbersAreFunctionsOfWhereTheyAreDrawn) {
 
 // What a pixel's samples estimate: the area of a quarter disk, over many pixels. Chance has a variance of
 // 0.1685 / n.
+TEST(Sampler, ASingleNumberIsTheFirstOfTwo) {
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, 16), {10, 5});
+    for (int k = 0; k < rules.samples(); ++k) {
+      Sampler one = Sampler(rules, 3, 1, k).branch(7), two = one;
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(one.next(), two.next2().x) << row.name;
+    }
+  }
+}
+
 TEST(Sampler, EvenPairsEstimateBetterThanChance) {
   constexpr int kSamples = 16, kPixels = 1000;
   for (const GeneratorRow& row : generators()) {
@@ -98,6 +109,70 @@ TEST(Sampler, EvenPairsEstimateBetterThanChance) {
       EXPECT_NEAR(square, byChance, 0.15 * byChance);
     else
       EXPECT_LT(square, 0.5 * byChance) << row.name;
+  }
+}
+
+// checks.md, E3: four times the samples, and all but chance become more than twice as exact.
+TEST(Sampler, FourTimesTheSamplesAreMoreThanTwiceAsExact) {
+  constexpr int kPixels = 100, kBranches = 16;  // "blue" scrambles all pixels of a branch alike
+  const auto error = [](const GeneratorRow& row, int samples) {
+    const SampleRules rules(with(row, samples), {kPixels, 1});
+    Real square = 0;
+    for (std::uint32_t branch = 0; branch < kBranches; ++branch)
+      for (int x = 0; x < kPixels; ++x) {
+        Real inside = 0;
+        for (int k = 0; k < samples; ++k) {
+          const Vec2 u = Sampler(rules, x, 0, k).branch(branch).next2();
+          inside += u.x * u.x + u.y * u.y < 1;
+        }
+        const Real off = inside / samples - kPi / 4;
+        square += off * off;
+      }
+    return std::sqrt(square);
+  };
+  for (const GeneratorRow& row : generators()) {
+    const Real ratio = error(row, 64) / error(row, 256);
+    if (row.kind == SampleKind::random)
+      EXPECT_NEAR(ratio, 2, 0.15);
+    else
+      EXPECT_GT(ratio, 2.2) << row.name;
+  }
+}
+
+// checks.md, E3: of as many samples as there are strata, each has one.
+TEST(Sampler, OneSampleInEachStratum) {
+  const auto fills = [](const GeneratorRow& row, int across, int up) {
+    const int samples = across * up;
+    const SampleRules rules(with(row, samples), {40, 40});
+    EXPECT_EQ(rules.samples(), samples) << row.name;
+    for (int pixel = 0; pixel < 40; ++pixel) {
+      std::set<std::pair<int, int>> strata;
+      for (int k = 0; k < samples; ++k) {
+        const Vec2 u = Sampler(rules, pixel, 3, k).branch(9).next2();
+        strata.insert({static_cast<int>(u.x * across), static_cast<int>(u.y * up)});
+      }
+      if (static_cast<int>(strata.size()) != samples) return false;
+    }
+    return true;
+  };
+  for (const GeneratorRow& row : generators()) {
+    const bool nets =
+        row.kind == SampleKind::grid || row.kind == SampleKind::sobol || row.kind == SampleKind::blue;
+    if (row.kind == SampleKind::random) {
+      EXPECT_FALSE(fills(row, 4, 4)) << "by chance";
+    } else if (row.kind == SampleKind::halton) {
+      EXPECT_TRUE(fills(row, 4, 9)) << "powers of 2 across, of 3 up";
+    } else {
+      EXPECT_TRUE(fills(row, 4, 4)) << row.name;
+    }
+    if (row.kind == SampleKind::stratified || nets) {
+      EXPECT_TRUE(fills(row, 16, 1)) << row.name;
+      EXPECT_TRUE(fills(row, 1, 16)) << row.name;
+    }
+    if (nets) {
+      EXPECT_TRUE(fills(row, 8, 2)) << row.name;
+      EXPECT_TRUE(fills(row, 2, 8)) << row.name;
+    }
   }
 }
 

@@ -68,7 +68,7 @@ class BinaryReader {
     const Vec3 v = vector();
     return {v.x, v.y, v.z};
   }
-  /// Of things that take at least `size` bytes each.
+  /// A number of things that take at least `size` bytes each.
   std::uint32_t count(std::size_t size) {
     const std::int32_t n = integer();
     if (n < 0 || static_cast<std::size_t>(n) > (bytes_.size() - at_) / size) {

@@ -99,7 +99,7 @@ class TextReader {
   void warn(const Token& at, std::string what, std::string hint = {}) {
     if (!warnings_.again(what)) warnings_.warn(tokens_.place(at), std::move(what), std::move(hint));
   }
-  /// Of things that the file counts before it gives them.
+  /// Checks the number of things that the file counts before it gives them.
   void compare(const Token& at, std::string_view name, std::optional<std::uint32_t> said, std::size_t found) {
     if (said && *said != found)
       warn(at, std::string(name) + " says " + std::to_string(*said) + ", but the file has " +

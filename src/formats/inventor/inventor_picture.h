@@ -27,7 +27,8 @@ struct PaintedPicture {
   Color blend;
 };
 
-/// Those of a material whose diffuse colour is `base` before light, of which the share `through` passes.
+/// The colours of a material whose diffuse colour is `base` before light, of which the share `through`
+/// passes.
 struct Painted {
   Color base;
   Real through = 0;
@@ -38,8 +39,8 @@ Painted under(const PaintedPicture& picture, const Painted& painted);
 /// Puts the picture on the material.
 void paint(Material& material, const PaintedPicture& picture, const TextureTransform& transform);
 
-/// Of a node's field `image`: width, height, components, pixels from the bottom left. Nothing if there are
-/// not so many numbers.
+/// The picture in a node's field `image`: width, height, components, pixels from the bottom left. Nothing if
+/// there are not so many numbers.
 std::optional<Raster> inlineImage(const std::vector<double>& numbers);
 
 /// VRML97's TextureTransform: -C S R C T, the last first (section 6.49).

@@ -144,7 +144,7 @@ class Reader {
   void texture2Transform(const Values& v, State& s);
   /// The picture of a texture node; of several only the first is rendered. Nothing if it has none.
   std::optional<PaintedPicture> pictureOf(const Values& v);
-  /// Of a texture node.
+  /// The name of a texture node.
   std::string nameOf(const Values& v) const;
   /// The first file of the field that is there, or the first that it names; empty if it names none.
   std::string fileOf(const Values& v, std::string_view field) const;

@@ -188,7 +188,7 @@ class Spine {
                                         : last;
     return cross(points_[after] - points_[i], points_[before] - points_[i]);
   }
-  /// Of a straight spine: z turned as y is turned to the spine's direction.
+  /// For a straight spine: z, turned as y is turned to the spine's direction.
   Vec3 straight() const {
     const Vec3 y{0, 1, 0}, d = along_.front(), axis = cross(y, d);
     const Real sine = length(axis), cosine = dot(y, d);

@@ -12,7 +12,7 @@ namespace trace::inventor {
 /// Axis and radians; the identity if there are not four numbers or no axis.
 Affine turn(const std::vector<double>& numbers);
 
-/// Of sixteen numbers for row vectors, the translation last.
+/// From sixteen numbers for row vectors, the translation last.
 Affine rowMatrix(const double* numbers);
 
 /// T C R SO S SO^-1 C^-1 of a node Transform; `scale` is the name of its field for S.

@@ -22,8 +22,8 @@ using nlohmann::json;
 
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression",
                            kLights = "KHR_lights_punctual";
-/// Those that the reader takes into account, and those of pictures that it may not be able to read, of which
-/// it tells.
+/// Extensions that the reader takes into account, and those of pictures that it may not be able to read,
+/// which it tells.
 constexpr std::string_view kRead[] = {kLights,
                                       "KHR_materials_ior",
                                       "KHR_materials_transmission",
@@ -131,7 +131,7 @@ class GltfCheck {
     object(owner, "extensions", [&](const Part& all) { object(all, name, visit); });
   }
 
-  /// Of the top list of that name; lights stand in an extension.
+  /// The length of the top list of that name; lights stand in an extension.
   std::size_t countOf(std::string_view list) const {
     const json* all = root_.find(list);
     if (list == "lights") {

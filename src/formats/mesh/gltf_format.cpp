@@ -331,7 +331,7 @@ class GltfReader {
     }
   }
 
-  /// Of the scene to be shown; of all nodes if there is no scene.
+  /// The roots of the scene to be shown; all nodes without a parent if there is no scene.
   std::vector<int> roots() const {
     const int scene = std::max(gltf_.defaultScene, 0);
     if (isIndex(scene, gltf_.scenes.size())) return gltf_.scenes[static_cast<std::size_t>(scene)].nodes;
@@ -677,7 +677,7 @@ class GltfReader {
 
   static std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri); }
 
-  /// Of a file, which are loaded later, or of the bytes in this one.
+  /// The pixels of a file, which are loaded later, or of the bytes in this one.
   Pixels pixelsOf(int number) {
     const tinygltf::Image& image = gltf_.images[static_cast<std::size_t>(number)];
     if (!image.uri.empty()) return {fileOf(image), nullptr, place_};
@@ -700,7 +700,7 @@ class GltfReader {
     return view.byteOffset <= all.size() ? all.substr(view.byteOffset, view.byteLength) : std::string_view();
   }
 
-  /// Of one that is not rendered: by the name of its file, or, if it is in this one, by its own.
+  /// Notes a texture that is not rendered by the name of its file, or, if it is in this one, by its own.
   void noteTexture(int texture) {
     if (texture < 0) return;
     const int number = imageOf(texture);

@@ -12,7 +12,7 @@ namespace {
 
 using Alpha = MetallicRoughness::Alpha;
 
-/// That of all of the surface; 1 where a picture has it.
+/// The opacity of all of the surface; 1 where a picture has it.
 double evenOpacity(const MetallicRoughness& m) {
   if (m.alpha == Alpha::opaque || m.hasAlphaMap) return 1;
   return m.alpha == Alpha::blend ? m.opacity : m.opacity >= m.cutoff;

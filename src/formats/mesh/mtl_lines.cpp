@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 21> kMaps{
     "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",  "map_Disp",
     "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
-/// Those whose picture is rendered.
+/// Maps whose picture is rendered.
 constexpr std::array<std::string_view, 10> kRendered{"map_Ka", "map_Kd",   "map_Ks",   "map_Ke", "map_Ns",
                                                      "map_d",  "map_Bump", "map_bump", "bump",   "norm"};
 
@@ -66,7 +66,7 @@ constexpr std::array<MapOption, 14> kMapOptions{{{"-blendu", 1},
                                                  {"-o", 3, "0"},
                                                  {"-s", 3, "1"},
                                                  {"-t", 3, "0"}}};
-/// Those without effect on what is rendered, or with one that is rendered.
+/// Options of maps without effect on what is rendered, or with one that is rendered.
 constexpr std::array<std::string_view, 10> kMapOptionsUsed{
     "-bm", "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
 

@@ -368,7 +368,7 @@ class ObjReader : public tinyobj::MaterialReader {
     repairs_.report(place_, messages_);
   }
 
-  /// Of materials that no file defines; where a file is missing, that is said.
+  /// Warns of materials that no file defines. Where a file is missing, that is said instead.
   void warnUndefined() {
     if (undefined_.empty() || materialsMissing_) return;
     constexpr std::size_t kMostNamed = 3;

@@ -7,8 +7,8 @@
 
 namespace trace::rayfile {
 
-/// Of a block `background { color = ...; }` or `background { colors = (...); limits = (...); }`. Reports what
-/// is wrong.
+/// Reads a block `background { color = ...; }` or `background { colors = (...); limits = (...); }`. Reports
+/// what is wrong.
 Background readBackground(Findings& findings, const Item& block);
 
 }  // namespace trace::rayfile

@@ -44,7 +44,7 @@ class TextEdits {
 
   bool empty() const { return edits_.empty() && fields_.empty() && appended_.empty(); }
   std::string text() const { return text(0, syntax_.source().size()) + tail(); }
-  /// That part of the text, changed.
+  /// The part of the text between these places, changed.
   std::string text(std::size_t begin, std::size_t end) const;
 
  private:

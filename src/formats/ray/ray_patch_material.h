@@ -20,7 +20,7 @@ class MaterialEdits {
 
   /// The object of this call, which has the material `was` of that index, is to have this one.
   void want(const Item& call, std::uint32_t has, const Material& was, const Material& material);
-  /// That part of the text goes.
+  /// Takes that part of the text out.
   void drop(std::size_t begin, std::size_t end) { dropped_.emplace_back(begin, end); }
   /// Changes the text. Then text() may be asked.
   void run();

@@ -31,7 +31,7 @@ struct Wanted {
   static constexpr std::size_t kNew = std::numeric_limits<std::size_t>::max();
 
   Scene scene;  ///< objects and lights in the order in which the text will have them
-  /// Of each object and light, which one of the present text it is; kNew if none.
+  /// Which object and light of the present text each one is; kNew if none.
   std::vector<std::size_t> objects, lights;
   /// What each material of the present text becomes.
   std::vector<std::optional<Material>> materials;

@@ -69,7 +69,7 @@ void checkFormula(const Tell& tell, const std::string& formula, const Vec3& low,
        "log and / need a number that is not negative, or not 0");
 }
 
-/// Of lists, whose fields have no range: the number at `index` of each is a length.
+/// Checks lists, whose fields have no range: the number at `index` of each tuple is a length.
 template <std::size_t N>
 void checkLengths(const Tell& tell, std::string_view list, const std::vector<std::array<Real, N>>& tuples,
                   std::size_t index, std::string_view length) {

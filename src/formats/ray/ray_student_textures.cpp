@@ -25,12 +25,12 @@ struct StudentMarble {
   int depth = 4;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"color", &StudentMarble::color, "", 0, kNoLimit, ""},
-                      Field{"lightness", &StudentMarble::lightness, "", 0, 1, ""},
-                      Field{"contrast", &StudentMarble::contrast, "", -kNoLimit, kNoLimit, ""},
-                      Field{"frequency", &StudentMarble::frequency, "", -kNoLimit, kNoLimit, ""},
-                      Field{"scale", &StudentMarble::scale, "", -kNoLimit, kNoLimit, ""},
-                      Field{"depth", &StudentMarble::depth, "", 1, FractalSum::kMostOctaves, ""}};
+    return Fields{Field{"color", &StudentMarble::color, "", 0, kNoLimit, ""},
+                  Field{"lightness", &StudentMarble::lightness, "", 0, 1, ""},
+                  Field{"contrast", &StudentMarble::contrast, "", -kNoLimit, kNoLimit, ""},
+                  Field{"frequency", &StudentMarble::frequency, "", -kNoLimit, kNoLimit, ""},
+                  Field{"scale", &StudentMarble::scale, "", -kNoLimit, kNoLimit, ""},
+                  Field{"depth", &StudentMarble::depth, "", 1, FractalSum::kMostOctaves, ""}};
   }
 };
 

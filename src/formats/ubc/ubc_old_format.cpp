@@ -8,6 +8,7 @@
 #include "formats/ubc/ubc_scene.h"
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"
+#include "math/perpendicular.h"
 
 namespace trace::ubc {
 namespace {
@@ -119,7 +120,7 @@ class Reader {
     const Vec3 n = vector("Plane");
     const Real d = tokens_.number("Plane"), l = length(n);
     if (!(l > 0)) tokens_.fail(token, "Plane: expected a normal that is not zero");
-    const Vec3 up = n / l, side = normalize(cross(std::abs(up.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up));
+    const Vec3 up = n / l, side = perpendicularTo(-up);
     const Vec3 other = cross(up, side);
     Affine m = Affine::translation(up * (-d / l));
     for (int i = 0; i < 3; ++i) m.row[i] = {side[i], other[i], up[i]};

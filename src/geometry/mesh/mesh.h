@@ -29,8 +29,8 @@ struct MeshData {
   bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
   bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
 
-  /// Of polygons with more than three corners: the first of their triangles and how many. What is seen is the
-  /// same without; subdivision begins with them.
+  /// The polygons with more than three corners: the first of their triangles and how many. They change
+  /// nothing that is seen; subdivision begins with them.
   std::vector<std::array<std::uint32_t, 2>> polygons;
 
   /// Is the same seen?
@@ -45,7 +45,7 @@ struct Mesh {
   static constexpr std::string_view kKeyword = "polymesh";
   static constexpr std::string_view kHelp =
       "triangle mesh: points, faces, and per-point normals, materials, uv";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return Fields{}; }
 
   std::shared_ptr<const MeshData> data = std::make_shared<MeshData>();
 

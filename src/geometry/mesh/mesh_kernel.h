@@ -83,8 +83,8 @@ class BlockTest {
 
 /// Calls meet(block, hits), which returns true to end and may lower q.best.hit.t, for blocks that the ray
 /// meets.
-template <bool kNearestFirst, class Meet>
-[[gnu::always_inline]] inline void blocksMet(MeshQuery& q, const Meet& meet) {
+template <bool kNearestFirst, class Nodes, class Meet>
+[[gnu::always_inline]] inline void blocksMet(MeshQuery& q, Nodes& nodes, const Meet& meet) {
   const double origin[3] = {q.ray.origin.x, q.ray.origin.y, q.ray.origin.z},
                direction[3] = {q.ray.direction.x, q.ray.direction.y, q.ray.direction.z};
   SlabRay ray;
@@ -99,7 +99,7 @@ template <bool kNearestFirst, class Meet>
     return ended;
   };
   traverse<kNearestFirst>(q.mesh.nodes, {q.mesh.blocks, sizeof(TriangleBlock)}, ray, ray.fromT(q.best.hit.t),
-                          q.nodes, visitBlock);
+                          nodes, visitBlock);
 }
 
 inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned lane,
@@ -123,8 +123,9 @@ inline bool accepted(MeshQuery& q, std::uint32_t block, unsigned lane, const Blo
   return q.accept(q.context, candidate);
 }
 
-inline void closestInMesh(MeshQuery& q) {
-  blocksMet<true>(q, [&](std::uint32_t block, const BlockHits& hits) {
+template <class Nodes>
+void closestInMesh(MeshQuery& q, Nodes& nodes) {
+  blocksMet<true>(q, nodes, [&](std::uint32_t block, const BlockHits& hits) {
     for (unsigned met = hits.met; met != 0; met &= met - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(met));
       const double t = hits.t[lane], best = q.best.hit.t;
@@ -135,8 +136,9 @@ inline void closestInMesh(MeshQuery& q) {
   });
 }
 
-inline void crossingsOfMesh(MeshQuery& q) {
-  blocksMet<false>(q, [&](std::uint32_t block, const BlockHits& hits) {
+template <class Nodes>
+void crossingsOfMesh(MeshQuery& q, Nodes& nodes) {
+  blocksMet<false>(q, nodes, [&](std::uint32_t block, const BlockHits& hits) {
     for (unsigned met = hits.met; met != 0; met &= met - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(met));
       if (hits.t[lane] < q.best.hit.t && accepted(q, block, lane, hits)) return true;
@@ -144,6 +146,9 @@ inline void crossingsOfMesh(MeshQuery& q) {
     return false;
   });
 }
+
+template <class Nodes>
+constexpr MeshWays<Nodes> inMesh{closestInMesh<Nodes>, crossingsOfMesh<Nodes>};
 
 }  // namespace
 }  // namespace trace::simd

@@ -4,6 +4,6 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelAvx2;
-const MeshKernel kMeshKernelAvx2{"avx2", simd::closestInMesh, simd::crossingsOfMesh};
+const MeshKernel kMeshKernelAvx2{"avx2", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
 
 }  // namespace trace

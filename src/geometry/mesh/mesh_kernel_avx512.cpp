@@ -5,6 +5,6 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelAvx512;
-const MeshKernel kMeshKernelAvx512{"avx512", simd::closestInMesh, simd::crossingsOfMesh};
+const MeshKernel kMeshKernelAvx512{"avx512", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
 
 }  // namespace trace

@@ -4,6 +4,6 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelBase;
-const MeshKernel kMeshKernelBase{"base", simd::closestInMesh, simd::crossingsOfMesh};
+const MeshKernel kMeshKernelBase{"base", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
 
 }  // namespace trace

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "accel/bvh.h"
@@ -39,11 +40,10 @@ struct MeshArrays {
   BvhExtent extent;
 };
 
-/// A ray's way through a mesh.
+/// What is sought on a ray's way through a mesh.
 struct MeshQuery {
   const Ray& ray;
   const MeshArrays& mesh;
-  NodeCount& nodes;
   MeshHit& best;  ///< the nearest accepted so far; best.hit.t bounds what is sought
   /// Whether a hit counts; null: every hit does.
   bool (*accept)(void* context, const MeshHit&) = nullptr;
@@ -54,23 +54,32 @@ struct MeshQuery {
   bool passes(std::uint32_t block, std::size_t lane) const;
 };
 
-/// The way through a mesh, compiled for one instruction set.
-struct MeshKernel {
-  std::string_view name;
+/// The ways through a mesh; `Nodes`, NodeCount or NodeWatch, hears of the nodes.
+template <class Nodes>
+struct MeshWays {
   /// The nearest accepted hit at 0 < t <= best.hit.t; of several at the same t the first triangle.
-  void (*closest)(MeshQuery&);
+  void (*closest)(MeshQuery&, Nodes&);
   /// Asks `accept` for every hit at 0 < t < best.hit.t, in any order, until it returns true.
-  void (*crossings)(MeshQuery&);
+  void (*crossings)(MeshQuery&, Nodes&);
 };
 
-/// Those that this machine can run, the best first.
+/// They, compiled for one instruction set.
+struct MeshKernel {
+  std::string_view name;
+  std::tuple<MeshWays<NodeCount>, MeshWays<NodeWatch>> ways;
+};
+
+/// The kernels that this machine can run, the best first.
 std::span<const MeshKernel> meshKernels();
 
 /// Counted on the way.
+template <class Nodes = NodeCount>
 struct MeshCounts {
-  NodeCount& nodes;
+  Nodes& nodes;              ///< or watched
   std::uint64_t& triangles;  ///< tested, four at a time
 };
+template <class Nodes>
+MeshCounts(Nodes&, std::uint64_t&) -> MeshCounts<Nodes>;
 
 class MeshTree {
  public:
@@ -82,15 +91,15 @@ class MeshTree {
 
   /// Whether there is a hit at 0 < t <= best.hit.t that accept(MeshHit) likes; `accept` may be nullptr, which
   /// likes all. Then `best` is the nearest, of several at the same t the triangle with the lowest number.
-  template <class Accept>
-  bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const;
+  template <class Accept, class Nodes>
+  bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts<Nodes> counts) const;
 
   /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
   /// A triangle that the hierarchy holds in parts may be met more than once.
-  template <class Visit>
-  void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const;
+  template <class Visit, class Nodes>
+  void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts<Nodes> counts) const;
 
-  /// Of the structure for tracing, without the mesh's own arrays.
+  /// The memory of the structure for tracing, without the mesh's own arrays.
   std::size_t bytes() const { return bvh_.bytes() + blocks_.size() * sizeof(TriangleBlock); }
 
   MeshTree(const MeshTree&) = delete;
@@ -100,7 +109,7 @@ class MeshTree {
   /// Without a hierarchy: the scalar test for every triangle.
   template <class Visit>
   [[gnu::noinline]] void everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit,
-                                       MeshCounts counts) const;
+                                       std::uint64_t& tested) const;
 
   std::shared_ptr<const MeshData> data_;
   Bvh bvh_;
@@ -112,18 +121,19 @@ class MeshTree {
 // ------------------------------------------------------------------------------------------------------
 
 template <class Visit>
-void MeshTree::everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit, MeshCounts counts) const {
+void MeshTree::everyTriangle(const Ray& ray, const Real& tMost, const Visit& visit,
+                             std::uint64_t& tested) const {
   const TriangleRay triangleRay(ray);
   MeshHit met;
   for (std::uint32_t triangle : bvh_.items()) {
-    ++counts.triangles;
+    ++tested;
     met.triangle = triangle;
     if (triangleRay.intersect(corners(*data_, triangle), tMost, met.hit) && visit(met)) return;
   }
 }
 
-template <class Accept>
-bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts counts) const {
+template <class Accept, class Nodes>
+bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts<Nodes> counts) const {
   constexpr bool kFiltered = !std::is_same_v<std::remove_cvref_t<Accept>, std::nullptr_t>;
   best.triangle = Bvh::kNoItem;
   if (bvh_.nodes().empty()) {
@@ -139,36 +149,36 @@ bool MeshTree::closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCount
           }
           return false;
         },
-        counts);
+        counts.triangles);
     return best.triangle != Bvh::kNoItem;
   }
-  MeshQuery query{ray, arrays_, counts.nodes, best};
+  MeshQuery query{ray, arrays_, best};
   if constexpr (kFiltered) {
     query.context = const_cast<void*>(static_cast<const void*>(&accept));
     query.accept = [](void* context, const MeshHit& met) {
       return (*static_cast<std::remove_reference_t<Accept>*>(context))(met);
     };
   }
-  kernel_.closest(query);
+  std::get<MeshWays<Nodes>>(kernel_.ways).closest(query, counts.nodes);
   counts.triangles += query.blocks * Bvh::kLeafSize;
   return best.triangle != Bvh::kNoItem;
 }
 
-template <class Visit>
-void MeshTree::crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts counts) const {
+template <class Visit, class Nodes>
+void MeshTree::crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts<Nodes> counts) const {
   if (bvh_.nodes().empty()) {
     everyTriangle(
-        ray, tMost, [&](const MeshHit& met) { return met.hit.t < tMost && visit(met); }, counts);
+        ray, tMost, [&](const MeshHit& met) { return met.hit.t < tMost && visit(met); }, counts.triangles);
     return;
   }
   MeshHit met;
   met.hit.t = tMost;
-  MeshQuery query{ray, arrays_, counts.nodes, met};
+  MeshQuery query{ray, arrays_, met};
   query.context = const_cast<void*>(static_cast<const void*>(&visit));
   query.accept = [](void* context, const MeshHit& hit) {
     return (*static_cast<std::remove_reference_t<Visit>*>(context))(hit);
   };
-  kernel_.crossings(query);
+  std::get<MeshWays<Nodes>>(kernel_.ways).crossings(query, counts.nodes);
   counts.triangles += query.blocks * Bvh::kLeafSize;
 }
 

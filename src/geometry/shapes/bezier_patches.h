@@ -43,8 +43,8 @@ struct BezierPatches {
                                {1, 1, 0}}};
 
   static constexpr auto fields() {
-    return std::tuple{Field{"patches", &BezierPatches::patches, "", -kNoLimit, kNoLimit,
-                            "list of patches, each a list of 16 points (x, y, z): four rows of four"}};
+    return Fields{Field{"patches", &BezierPatches::patches, "", -kNoLimit, kNoLimit,
+                        "list of patches, each a list of 16 points (x, y, z): four rows of four"}};
   }
   bool operator==(const BezierPatches&) const = default;
 
@@ -64,7 +64,7 @@ class TracedPatches {
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   /// As surface(), but the normal is that of the patch: along u across along v.
   SurfacePoint place(const Ray& ray, const Crossing& crossing) const;
-  /// Of a part: its patch, and whether it lies on an edge of that.
+  /// The patch of a part, and whether the part lies on an edge of that patch.
   static std::size_t patchOf(std::int64_t part) { return static_cast<std::size_t>(part >> (2 * kStepBits)); }
   static bool onEdge(std::int64_t part);
   std::int64_t partCount() const { return static_cast<std::int64_t>(patches_.size()) << (2 * kStepBits); }

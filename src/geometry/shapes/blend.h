@@ -31,7 +31,7 @@ struct Blend {
   Real radius = 0.2;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"objects", &Blend::objects, "", 0, 0, "solids; they stand in the block one after another"},
         Field{"operation", &Blend::operation, "", 0, 0, "what is made of them"},
         Field{"radius", &Blend::radius, "", 0, kNoLimit, "of the fillet"}};

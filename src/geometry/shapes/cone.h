@@ -124,10 +124,10 @@ struct Cone {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"height", &Cone::height, "", 0, kNoLimit, "length along z"},
-                      Field{"bottom_radius", &Cone::bottomRadius, "", 0, kNoLimit, "radius at z = 0"},
-                      Field{"top_radius", &Cone::topRadius, "", 0, kNoLimit, "radius at z = height"},
-                      Field{"capped", &Cone::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{Field{"height", &Cone::height, "", 0, kNoLimit, "length along z"},
+                  Field{"bottom_radius", &Cone::bottomRadius, "", 0, kNoLimit, "radius at z = 0"},
+                  Field{"top_radius", &Cone::topRadius, "", 0, kNoLimit, "radius at z = height"},
+                  Field{"capped", &Cone::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const Cone&) const = default;
 
@@ -149,8 +149,7 @@ struct Cylinder {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"capped", &Cylinder::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{Field{"capped", &Cylinder::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const Cylinder&) const = default;
 

@@ -18,11 +18,11 @@ struct Conic {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"bottom_radius", &Conic::bottomRadius, "", 0, kNoLimit, "radius at z_min"},
-                      Field{"top_radius", &Conic::topRadius, "", 0, kNoLimit, "radius at z_max"},
-                      Field{"z_min", &Conic::zMin, "", -kNoLimit, kNoLimit, "where it begins"},
-                      Field{"z_max", &Conic::zMax, "", -kNoLimit, kNoLimit, "where it ends"},
-                      Field{"capped", &Conic::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{Field{"bottom_radius", &Conic::bottomRadius, "", 0, kNoLimit, "radius at z_min"},
+                  Field{"top_radius", &Conic::topRadius, "", 0, kNoLimit, "radius at z_max"},
+                  Field{"z_min", &Conic::zMin, "", -kNoLimit, kNoLimit, "where it begins"},
+                  Field{"z_max", &Conic::zMax, "", -kNoLimit, kNoLimit, "where it ends"},
+                  Field{"capped", &Conic::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const Conic&) const = default;
 

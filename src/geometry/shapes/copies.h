@@ -36,8 +36,8 @@ struct Sierpinski {
   int levels = 4;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"levels", &Sierpinski::levels, "", 0, kMostLevels,
-                            "how often the middles are taken out; 0 is a tetrahedron"}};
+    return Fields{Field{"levels", &Sierpinski::levels, "", 0, kMostLevels,
+                        "how often the middles are taken out; 0 is a tetrahedron"}};
   }
   bool operator==(const Sierpinski&) const = default;
 
@@ -58,7 +58,7 @@ struct Ifs {
   int levels = 4;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{
             "maps", &Ifs::maps, "", -kNoLimit, kNoLimit,
             "list of (a, b, c, d, e, f, g, h, i, j, k, l): x' = a x + b y + c z + d, and so on; all shrink"},

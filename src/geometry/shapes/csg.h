@@ -46,7 +46,7 @@ struct Union {
   static constexpr std::string_view kHelp = "solids as one: what is inside any of them";
   Operands objects;
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"objects", &Union::objects, "", 0, 0, "solids; they stand in the block one after another"}};
   }
   bool operator==(const Union&) const = default;
@@ -59,8 +59,8 @@ struct Intersection {
   static constexpr std::string_view kHelp = "what is inside all of the solids";
   Operands objects;
   static constexpr auto fields() {
-    return std::tuple{Field{"objects", &Intersection::objects, "", 0, 0,
-                            "solids; they stand in the block one after another"}};
+    return Fields{Field{"objects", &Intersection::objects, "", 0, 0,
+                        "solids; they stand in the block one after another"}};
   }
   bool operator==(const Intersection&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
@@ -72,8 +72,7 @@ struct Difference {
   static constexpr std::string_view kHelp = "what is inside the first solid but in none of the others";
   Operands objects;
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"objects", &Difference::objects, "", 0, 0, "the solid, then what is cut out of it"}};
+    return Fields{Field{"objects", &Difference::objects, "", 0, 0, "the solid, then what is cut out of it"}};
   }
   bool operator==(const Difference&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;
@@ -86,7 +85,7 @@ struct Clip {
       "the part of the first object's surface inside all other solids; the cut stays open";
   Operands objects;
   static constexpr auto fields() {
-    return std::tuple{Field{"objects", &Clip::objects, "", 0, 0, "the object, solid or not, then solids"}};
+    return Fields{Field{"objects", &Clip::objects, "", 0, 0, "the object, solid or not, then solids"}};
   }
   bool operator==(const Clip&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;

@@ -51,8 +51,8 @@ class CsgTree {
   std::int64_t partCount() const { return partCount_; }
   /// The material of the operand, however deep, that the part belongs to.
   MaterialMix material(std::int64_t part, std::uint32_t own) const;
-  /// That of the operand that fills the whole there: of a union the one that the part belongs to, else the
-  /// first, of which the others cut away.
+  /// The material of the operand that fills the whole there. In a union it is the one that the part belongs
+  /// to, else the first, of which the others cut away.
   MaterialMix inside(std::int64_t part, std::uint32_t own) const;
   /// Adds the materials of all operands, however deep.
   void addMaterials(std::vector<std::uint32_t>& materials) const;

@@ -12,7 +12,7 @@ namespace trace {
 struct Cube {
   static constexpr std::string_view kKeyword = "box";
   static constexpr std::string_view kHelp = "cube from -0.5 to 0.5 in x, y and z";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return Fields{}; }
   bool operator==(const Cube&) const = default;
 
   bool solid() const { return true; }

@@ -17,8 +17,8 @@ struct Disk {
   Real radius = 1, innerRadius = 0;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"radius", &Disk::radius, "", 0, kNoLimit, "of the outer edge"},
-                      Field{"inner_radius", &Disk::innerRadius, "", 0, kNoLimit, "of the hole"}};
+    return Fields{Field{"radius", &Disk::radius, "", 0, kNoLimit, "of the outer edge"},
+                  Field{"inner_radius", &Disk::innerRadius, "", 0, kNoLimit, "of the hole"}};
   }
   bool operator==(const Disk&) const = default;
 

@@ -25,7 +25,7 @@ struct HeightField {
   bool smooth = false, capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"file", &HeightField::file, "", 0, 0,
               "a picture: the brighter, the higher; goes before formula"},
         Field{"formula", &HeightField::formula, "", 0, 0, "the height, of x and y"},

@@ -25,11 +25,11 @@ struct Isosurface {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"formula", &Isosurface::formula, "", 0, 0, "of x, y, z; negative inside"},
-                      Field{"low", &Isosurface::low, "", -kNoLimit, kNoLimit, "corner of the box"},
-                      Field{"high", &Isosurface::high, "", -kNoLimit, kNoLimit, "opposite corner"},
-                      Field{"capped", &Isosurface::capped, "", 0, 1,
-                            "closed where it reaches the box; else an open sheet"}};
+    return Fields{Field{"formula", &Isosurface::formula, "", 0, 0, "of x, y, z; negative inside"},
+                  Field{"low", &Isosurface::low, "", -kNoLimit, kNoLimit, "corner of the box"},
+                  Field{"high", &Isosurface::high, "", -kNoLimit, kNoLimit, "opposite corner"},
+                  Field{"capped", &Isosurface::capped, "", 0, 1,
+                        "closed where it reaches the box; else an open sheet"}};
   }
   bool operator==(const Isosurface&) const = default;
 

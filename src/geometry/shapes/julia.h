@@ -39,7 +39,7 @@ struct Julia {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"constant", &Julia::constant, "", -2, 2, "c: one number for each dimension"},
         Field{"normal", &Julia::normal, "", -1, 1, "of the hyperplane, of any length"},
         Field{"offset", &Julia::offset, "", -2, 2, "of the hyperplane from the origin, along its normal"},
@@ -56,7 +56,7 @@ struct Julia {
   /// Repetitions that a number can follow. The last number goes with the power 2^n or 3^n of the first, which
   /// is off by a unit in its last place or so: 3^36 makes e^17 of that, 3^38 more than any number holds.
   int mostIterations() const { return iteration == Iteration::cube ? 36 : JuliaSet::kMostIterations; }
-  /// Of values that are each in their range, but too much together: what is used in their place.
+  /// Values may each be in their range, but too much together: then it says what is used in their place.
   std::string excess() const;
 
   std::shared_ptr<const TracedJulia> prepared() const;

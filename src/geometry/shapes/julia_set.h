@@ -29,7 +29,7 @@ struct JuliaKernel {
   Look square, cube, hypercomplex;
 };
 
-/// Those the machine can run, the fastest first.
+/// The kernels that the machine can run, the fastest first.
 std::span<const JuliaKernel> juliaKernels();
 
 }  // namespace trace

@@ -27,7 +27,7 @@ struct Lathe {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"profile", &Lathe::profile, "", -kNoLimit, kNoLimit, "list of (distance from the axis, z)"},
         Field{"spline", &Lathe::spline, "", 0, 0, "how the points are joined"},
         Field{"capped", &Lathe::capped, "", 0, 1,

@@ -25,14 +25,14 @@ struct Mandelbox {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"scale", &Mandelbox::scale, "", -4, 4, "of the step; farther from 0 than 1.1"},
-                      Field{"min_radius", &Mandelbox::minRadius, "", 0.05, 1,
-                            "of the ball within which points only move out"},
-                      Field{"iterations", &Mandelbox::iterations, "", 1, 30,
-                            "how often the step is repeated: more show more detail"},
-                      Field{"trap", &Mandelbox::trap, "", 0, 0, "what the texture coordinates tell"},
-                      Field{"materials", &Mandelbox::materials, "", 0, 0,
-                            "that follow each other as the trap's least distance grows"}};
+    return Fields{Field{"scale", &Mandelbox::scale, "", -4, 4, "of the step; farther from 0 than 1.1"},
+                  Field{"min_radius", &Mandelbox::minRadius, "", 0.05, 1,
+                        "of the ball within which points only move out"},
+                  Field{"iterations", &Mandelbox::iterations, "", 1, 30,
+                        "how often the step is repeated: more show more detail"},
+                  Field{"trap", &Mandelbox::trap, "", 0, 0, "what the texture coordinates tell"},
+                  Field{"materials", &Mandelbox::materials, "", 0, 0,
+                        "that follow each other as the trap's least distance grows"}};
   }
   bool operator==(const Mandelbox&) const = default;
 

@@ -28,7 +28,7 @@ struct Mandelbulb {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"power", &Mandelbulb::power, "", 2, 16, "how often angles are turned: one less than the arms"},
         Field{"iterations", &Mandelbulb::iterations, "", 1, 30,
               "how often the step is repeated: more show more detail"},

@@ -22,7 +22,7 @@ struct Menger {
   int levels = 3;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"levels", &Menger::levels, "", 0, kMostLevels, "how often the cubes are drilled; 0 is a cube"}};
   }
   bool operator==(const Menger&) const = default;

@@ -26,7 +26,7 @@ struct Metaballs {
   std::vector<std::array<Real, 8>> capsules;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"threshold", &Metaballs::threshold, "", 0, kNoLimit, "the sum of the fields on the surface"},
         Field{"balls", &Metaballs::balls, "", -kNoLimit, kNoLimit, "list of (x, y, z, radius, strength)"},
         Field{"capsules", &Metaballs::capsules, "", -kNoLimit, kNoLimit,

@@ -18,7 +18,7 @@ void meshCrossings(const MeshTree& mesh, const Ray& ray, const VisitCrossing& vi
       met.push_back({side * m.hit.t, m.triangle});
       return false;
     };
-    mesh.crossings({ray.origin, ray.direction * side}, kInfinity, add, {nodes, triangles});
+    mesh.crossings({ray.origin, ray.direction * side}, kInfinity, add, MeshCounts{nodes, triangles});
     std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.part < b.part; });
     for (std::size_t i = 0; i < met.size(); ++i)
       if (i == 0 || met[i].part != met[i - 1].part) visit(met[i]);

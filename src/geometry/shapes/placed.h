@@ -25,7 +25,7 @@ class Placed {
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   const TracedShape& shape() const { return shape_; }
-  /// Of a mesh; null for other shapes.
+  /// The tree of a mesh; null for other shapes.
   const std::shared_ptr<const MeshTree>& meshTree() const { return mesh_; }
 
  private:

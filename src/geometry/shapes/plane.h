@@ -16,7 +16,7 @@ namespace trace {
 struct Plane {
   static constexpr std::string_view kKeyword = "plane";
   static constexpr std::string_view kHelp = "plane z = 0 without end, solid below; its normal is +z";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return Fields{}; }
   bool operator==(const Plane&) const = default;
 
   bool solid() const { return true; }

@@ -25,7 +25,7 @@ struct Plant {
   Real angle = 25, jitter = 0.2, height = 1, radius = 0.03, taper = 0.98, narrow = 0.7;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"axiom", &Plant::axiom, "", 0, 0, "the text to begin with"},
         Field{"rules", &Plant::rules, "", 0, 0,
               "list of \"X = text\"; of several for one symbol, chance chooses"},

@@ -35,7 +35,7 @@ struct Prism {
   Real height = 1, taper = 1, twist = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"outline", &Prism::outline, "", -kNoLimit, kNoLimit, "list of (x, y); it closes by itself"},
         Field{"holes", &Prism::holes, "", -kNoLimit, kNoLimit,
               "list of outlines; those within holes are solid again"},

@@ -20,7 +20,7 @@ struct Quadric {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"squares", &Quadric::squares, "", -kNoLimit, kNoLimit, "coefficients of x^2, y^2, z^2"},
         Field{"products", &Quadric::products, "", -kNoLimit, kNoLimit, "coefficients of x y, x z, y z"},
         Field{"linear", &Quadric::linear, "", -kNoLimit, kNoLimit, "coefficients of x, y, z"},
@@ -45,7 +45,7 @@ struct Ellipsoid {
   Vec3 radii{1, 0.75, 0.5};
 
   static constexpr auto fields() {
-    return std::tuple{Field{"radii", &Ellipsoid::radii, "", 0, kNoLimit, "half its width in x, y and z"}};
+    return Fields{Field{"radii", &Ellipsoid::radii, "", 0, kNoLimit, "half its width in x, y and z"}};
   }
   bool operator==(const Ellipsoid&) const = default;
 
@@ -81,10 +81,9 @@ struct Paraboloid {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"height", &Paraboloid::height, "", 0, kNoLimit, "length along z"},
-        Field{"radius", &Paraboloid::radius, "", 0, kNoLimit, "radius at z = height"},
-        Field{"capped", &Paraboloid::capped, "", 0, 1, "closed by a flat end; else an open sheet"}};
+    return Fields{Field{"height", &Paraboloid::height, "", 0, kNoLimit, "length along z"},
+                  Field{"radius", &Paraboloid::radius, "", 0, kNoLimit, "radius at z = height"},
+                  Field{"capped", &Paraboloid::capped, "", 0, 1, "closed by a flat end; else an open sheet"}};
   }
   bool operator==(const Paraboloid&) const = default;
 
@@ -103,13 +102,12 @@ struct Hyperboloid {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"height", &Hyperboloid::height, "", 0, kNoLimit,
-              "length along z, half of it on each side of z = 0"},
-        Field{"radius", &Hyperboloid::radius, "", 0, kNoLimit, "radius at both ends"},
-        Field{"waist", &Hyperboloid::waist, "", 0, kNoLimit,
-              "radius at z = 0; above `radius` it makes a barrel"},
-        Field{"capped", &Hyperboloid::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{Field{"height", &Hyperboloid::height, "", 0, kNoLimit,
+                        "length along z, half of it on each side of z = 0"},
+                  Field{"radius", &Hyperboloid::radius, "", 0, kNoLimit, "radius at both ends"},
+                  Field{"waist", &Hyperboloid::waist, "", 0, kNoLimit,
+                        "radius at z = 0; above `radius` it makes a barrel"},
+                  Field{"capped", &Hyperboloid::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const Hyperboloid&) const = default;
 
@@ -127,12 +125,11 @@ struct TwoSheets {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"height", &TwoSheets::height, "", 0, kNoLimit,
-              "length along z, half of it on each side of z = 0"},
-        Field{"radius", &TwoSheets::radius, "", 0, kNoLimit, "radius at both ends"},
-        Field{"gap", &TwoSheets::gap, "", 0, kNoLimit, "between the bowls, less than the height"},
-        Field{"capped", &TwoSheets::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{Field{"height", &TwoSheets::height, "", 0, kNoLimit,
+                        "length along z, half of it on each side of z = 0"},
+                  Field{"radius", &TwoSheets::radius, "", 0, kNoLimit, "radius at both ends"},
+                  Field{"gap", &TwoSheets::gap, "", 0, kNoLimit, "between the bowls, less than the height"},
+                  Field{"capped", &TwoSheets::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const TwoSheets&) const = default;
 
@@ -152,7 +149,7 @@ struct EllipticCone {
   bool capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"height", &EllipticCone::height, "", 0, kNoLimit, "length along z"},
         Field{"radius_x", &EllipticCone::radiusX, "", 0, kNoLimit, "half the width of the base in x"},
         Field{"radius_y", &EllipticCone::radiusY, "", 0, kNoLimit, "half the width of the base in y"},

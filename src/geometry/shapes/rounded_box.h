@@ -18,9 +18,9 @@ struct RoundedBox {
   Real radius = 0.1;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"size", &RoundedBox::size, "", 0, kNoLimit, "whole width in x, y and z"},
-                      Field{"radius", &RoundedBox::radius, "", 0, kNoLimit,
-                            "of the edges, at most half of the least width"}};
+    return Fields{Field{"size", &RoundedBox::size, "", 0, kNoLimit, "whole width in x, y and z"},
+                  Field{"radius", &RoundedBox::radius, "", 0, kNoLimit,
+                        "of the edges, at most half of the least width"}};
   }
   bool operator==(const RoundedBox&) const = default;
 

@@ -13,7 +13,7 @@ namespace trace {
 struct Sphere {
   static constexpr std::string_view kKeyword = "sphere";
   static constexpr std::string_view kHelp = "unit sphere at the origin";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return Fields{}; }
   bool operator==(const Sphere&) const = default;
 
   bool solid() const { return true; }

@@ -1,6 +1,6 @@
 // A sphere carried along a curve while its radius changes: hoses, necks, letters, roots.
 //
-// Of the sphere at u the ray's line is inside from t-(u) to t+(u), where D(u), a polynomial, is not negative.
+// The ray's line is inside the sphere at u from t-(u) to t+(u), where D(u), a polynomial, is not negative.
 // Each interval of such u is one stretch of the line inside the sweep, from the least t- to the greatest t+;
 // these lie where a polynomial of degree ten changes sign. Stretches that overlap are one. So the sweep is
 // the union of its spheres, with nothing inside, by construction.
@@ -29,9 +29,8 @@ struct SphereSweep {
   Spline spline = Spline::bezier;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"points", &SphereSweep::points, "", -kNoLimit, kNoLimit, "list of (x, y, z, radius)"},
-        Field{"spline", &SphereSweep::spline, "", 0, 0, "how the points are joined"}};
+    return Fields{Field{"points", &SphereSweep::points, "", -kNoLimit, kNoLimit, "list of (x, y, z, radius)"},
+                  Field{"spline", &SphereSweep::spline, "", 0, 0, "how the points are joined"}};
   }
   bool operator==(const SphereSweep&) const = default;
 

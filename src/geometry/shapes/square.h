@@ -12,7 +12,7 @@ namespace trace {
 struct Square {
   static constexpr std::string_view kKeyword = "square";
   static constexpr std::string_view kHelp = "square from -0.5 to 0.5 in x and y, at z = 0, two-sided";
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr auto fields() { return Fields{}; }
   bool operator==(const Square&) const = default;
 
   bool solid() const { return false; }

@@ -22,7 +22,7 @@ struct Superellipsoid {
   Real east = 0.5, north = 0.5;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"east", &Superellipsoid::east, "", 0.02, 2, "around z: towards 0 square, 1 round, 2 a diamond"},
         Field{"north", &Superellipsoid::north, "", 0.02, 2,
               "up and down: towards 0 flat, 1 round, 2 pointed"}};

@@ -22,7 +22,7 @@ struct Supertoroid {
   Real majorRadius = 1, minorRadius = 0.35, east = 0.5, north = 0.5;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"major_radius", &Supertoroid::majorRadius, "", 0, kNoLimit,
               "from the axis to the middle of the tube"},
         Field{"minor_radius", &Supertoroid::minorRadius, "", 0, kNoLimit, "of the tube"},

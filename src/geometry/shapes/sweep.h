@@ -35,7 +35,7 @@ struct Sweep {
   bool closed = true, capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"profile", &Sweep::profile, "", -kNoLimit, kNoLimit,
               "list of (x, y): x to the right of the path, y up"},
         Field{"profile_spline", &Sweep::profileSpline, "", 0, 0, "how the points of the profile are joined"},

@@ -22,7 +22,7 @@ struct Terrain {
   bool smooth = false, capped = true;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"seed", &Terrain::seed, "", 0, kNoLimit, "another number, another landscape"},
         Field{"points", &Terrain::points, "", 2, kMostPoints, "of the grid along each side"},
         Field{"octaves", &Terrain::octaves, "", 1, 20, "of noise, each twice as fine as the one before"},

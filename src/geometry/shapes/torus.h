@@ -20,9 +20,9 @@ struct Torus {
   Real majorRadius = 1, minorRadius = 0.25;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"major_radius", &Torus::majorRadius, "", 0, kNoLimit,
-                            "from the axis to the middle of the tube"},
-                      Field{"minor_radius", &Torus::minorRadius, "", 0, kNoLimit, "of the tube"}};
+    return Fields{Field{"major_radius", &Torus::majorRadius, "", 0, kNoLimit,
+                        "from the axis to the middle of the tube"},
+                  Field{"minor_radius", &Torus::minorRadius, "", 0, kNoLimit, "of the tube"}};
   }
   bool operator==(const Torus&) const = default;
 

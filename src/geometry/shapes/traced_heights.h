@@ -25,7 +25,7 @@ class TracedHeights {
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   std::int64_t partCount() const { return partsOf(grid_.columns, grid_.rows); }
-  /// Of a grid of that size.
+  /// How many parts a grid of that size has.
   static std::int64_t partsOf(int columns, int rows) { return kSurface + std::int64_t{columns} * rows; }
 
  private:

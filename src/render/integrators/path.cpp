@@ -1,6 +1,7 @@
 #include "render/integrators/path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "image/srgb.h"
@@ -21,6 +22,7 @@ struct PathTracer::Path {
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
   bool gathers = false;                          ///< photons tell what is scattered where it arrives
+  const Maps* maps = nullptr;                    ///< of these
   int scattered = 0;                             ///< so often by media
   bool within = false;                           ///< it runs in a body, from where light comes out
 };
@@ -55,16 +57,21 @@ Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
 void PathTracer::prepare(const World& world, const Settings& settings, Job& job) {
   lamps_ = Lamps(world, settings.threads);
   depth_ = light_ == Light::straight ? 0 : settings.depth;
+  maps_.resize(light_ == Light::photons ? static_cast<std::size_t>(settings.photonPasses) : 1);
   mostScattered_ = light_ == Light::bounced ? settings.mediumDepth : 1;
   if (light_ != Light::photons) return;
-  caustics_ = causticMap(world, settings, &lamps_, job);
-  if (!job.cancel) all_ = globalMap(world, settings, lamps_, job);
+  for (int pass = 0; pass < settings.photonPasses && !job.cancel; ++pass) {
+    Maps& maps = maps_[static_cast<std::size_t>(pass)];
+    maps.caustics = causticMap(world, settings, &lamps_, job, pass);
+    if (!job.cancel) maps.all = globalMap(world, settings, lamps_, job, pass);
+  }
 }
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
   path.differentials = camera.differentials;
   path.ink = camera.ink;
+  path.maps = &maps_[static_cast<std::size_t>(sampler.sample()) % maps_.size()];
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
@@ -73,12 +80,15 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  const auto lamp = path.kind == RayKind::bounce || path.within  // then the light was asked
+                        ? std::nullopt
+                        : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, hit ? hit->t : kInfinity, inside, onlyShines ? 0 : 1, path.weight,
-                         numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (!media->places.empty()) {
       const auto counts = [&](const Color& weight) {
         const Color c = path.weight * weight;
@@ -98,22 +108,29 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (media) coverWithMedia(sum, *media);
     sum.draw(path.ink);
   };
+  if (lamp) {
+    sum.add(*lamp);
+    seeMedia();
+    return sum.radiance(inside.passed(end));
+  }
   // Photons have brought what shines there.
-  const bool brought = path.gathers && path.kind != RayKind::bounce && !caustics_.empty();
+  const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
-      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
+      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
     seeMedia();
     return sum.radiance();
   }
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Sampler numbers = sampler.branch(kChoice);
   const Vec2 choice = numbers.next2();
-  Interaction at(tracer, ray, *hit, footprint.get(), inside, choice.y);
+  // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
+  const Real wavelength = choice.y * tracer.settings().wavelengths;
+  Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
   std::optional<SubsurfaceBsdf> body;
   if (path.within)
     at.letIn();
@@ -135,10 +152,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     return throughMedium();
   }
   if (path.gathers) {
-    at.addPhotons(sum, Term::Kind::photons, all_, true);
+    at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
   } else {
     at.addLights(sum, sampler);
-    at.addPhotons(sum, Term::Kind::caustic, caustics_, true);
+    at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
@@ -181,8 +198,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (!stands) return;
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
-    const Path next{kind, path.depth + 1, path.weight * factor, density, widened.get(),
-                    0,    gathers,        path.scattered};
+    const Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
+                    gathers, path.maps,      path.scattered};
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
@@ -194,8 +211,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
     const Color factor = in->weight * share;
-    const Path next{RayKind::refraction, path.depth, path.weight * factor, 0, nullptr, 0, path.gathers,
-                    path.scattered,      true};
+    const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
+                    path.gathers,        path.maps,  path.scattered,       true};
     sum.add(factor, along(tracer, in->ray, in->hit, next, inside, own.branch(1)), in->how);
   };
 
@@ -254,8 +271,8 @@ Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, c
   const Basis basis = Frame{ray.direction}.basis();
   const Vec3 direction = basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y));
   const Color factor = place.weight / goes;
-  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine),
-                  nullptr,         0,          path.gathers,         path.scattered + 1};
+  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine), nullptr, 0,
+                  path.gathers,    path.maps,  path.scattered + 1};
   const Ray onward{at.point, direction};
   Interfaces there = inside;
   const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));

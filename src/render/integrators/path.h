@@ -10,7 +10,8 @@
 //
 // With photons a path ends where its first ray from a scattering surface arrives: there the photons of all
 // light that lie around tell what it would find (the final gathering of Jensen 2001, section 7.4). What
-// mirrors and glass gather on surfaces that are seen is told by photons of their own.
+// mirrors and glass gather on surfaces that are seen is told by photons of their own. With several passes of
+// photons each sample of a pixel takes the next one's.
 #pragma once
 
 #include "render/gather.h"
@@ -43,7 +44,10 @@ class PathTracer : public Integrator {
   int depth_ = 0;          ///< the most bounces
   int mostScattered_ = 1;  ///< the most times that media scatter
   Lamps lamps_;
-  PhotonMap all_, caustics_;  ///< empty without photons
+  struct Maps {
+    PhotonMap all, caustics;
+  };
+  std::vector<Maps> maps_;  ///< of each pass; one of empty ones without photons
 };
 
 }  // namespace trace

@@ -60,6 +60,12 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
                      const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
+    sum.add(*lamp);
+    seeMedia(sum, tracer, ray, lamp->seen.t, inside, sampler);
+    sum.draw(path.ink);
+    return sum.radiance(inside.passed(lamp->seen.t));
+  }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
@@ -68,7 +74,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
     return sum.radiance();
   }
   const Settings& settings = tracer.settings();
-  Footprint footprint;  // null where none is wanted
+  Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
   std::optional<SubsurfaceBsdf> body;

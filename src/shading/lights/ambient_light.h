@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
 
 namespace trace {
 
@@ -18,7 +19,7 @@ struct AmbientLight {
   Color color{};
 
   static constexpr auto fields() {
-    return std::tuple{Field{"color", &AmbientLight::color, "", 0, kNoLimit, "its intensity"}};
+    return Fields{Field{"color", &AmbientLight::color, "", 0, kNoLimit, "its intensity"}};
   }
   bool operator==(const AmbientLight&) const = default;
   bool hasSize() const { return false; }
@@ -26,6 +27,7 @@ struct AmbientLight {
   std::optional<Illumination> illuminate(const Vec3&, const Rules&, const Vec2& = kCenter) const {
     return {};
   }
+  LightReach reach(const Rules&) const { return {}; }
 };
 
 }  // namespace trace

@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
 
 namespace trace {
 
@@ -20,13 +21,12 @@ struct DirectionalLight {
   Real size = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
-              "where its light travels to"},
-        Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
-        Field{"size", &DirectionalLight::size, "degrees", 0, 180,
-              "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
-              "soft"}};
+    return Fields{Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
+                        "where its light travels to"},
+                  Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
+                  Field{"size", &DirectionalLight::size, "degrees", 0, 180,
+                        "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
+                        "soft"}};
   }
   bool operator==(const DirectionalLight&) const = default;
   bool hasSize() const { return size > 0; }
@@ -35,6 +35,13 @@ struct DirectionalLight {
     Illumination arriving{normalize(-direction), kInfinity, color};
     if (size > 0) arriving.toLight = toCone(u, arriving.toLight, std::cos(size * kPi / 360));
     return arriving;
+  }
+  LightReach reach(const Rules&) const {
+    LightReach reach;
+    reach.axis = normalize(direction);
+    reach.power = strengthOf(color);
+    reach.everywhere = true;
+    return reach;
   }
 };
 

@@ -24,13 +24,14 @@ struct AshikhminShirley : SurfaceFields {
   Real shininess = 10, shininessAcross = 100, angle = 0;
 
   static constexpr auto fields() {
-    return after(Field{"diffuse", &AshikhminShirley::diffuse, "", 0, 1, "of the matt base"},
-                 Field{"specular", &AshikhminShirley::specular, "", 0, 1,
-                       "what is mirrored of light along the normal"},
-                 Field{"shininess", &AshikhminShirley::shininess, "", 0, kNoLimit,
-                       "sharpness of the highlight along the direction in which u grows"},
-                 Field{"shininess_across", &AshikhminShirley::shininessAcross, "", 0, kNoLimit, "across it"},
-                 Field{"angle", &AshikhminShirley::angle, "degrees", -360, 360, "turns these directions"});
+    return Fields{Field{"diffuse", &AshikhminShirley::diffuse, "", 0, 1, "of the matt base"},
+                  Field{"specular", &AshikhminShirley::specular, "", 0, 1,
+                        "what is mirrored of light along the normal"},
+                  Field{"shininess", &AshikhminShirley::shininess, "", 0, kNoLimit,
+                        "sharpness of the highlight along the direction in which u grows"},
+                  Field{"shininess_across", &AshikhminShirley::shininessAcross, "", 0, kNoLimit, "across it"},
+                  Field{"angle", &AshikhminShirley::angle, "degrees", -360, 360, "turns these directions"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const AshikhminShirley&) const = default;
 

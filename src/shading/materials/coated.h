@@ -27,14 +27,16 @@ struct Coated : SurfaceFields {
   Distribution distribution = Distribution::ggx;
 
   static constexpr auto fields() {
-    return after(Field{"diffuse", &Coated::diffuse, "", 0, 1, "of the base"},
-                 Field{"index", &Coated::index, "", 0, kNoLimit, "of refraction of the layer"},
-                 Field{"roughness", &Coated::roughness, "", 0, 1,
-                       "of the layer, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
-                 Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"},
-                 Field{"film", &Coated::film, "nanometres", 0, 5000,
-                       "thickness of a film on the layer, whose faces make colours; 0 is none"},
-                 Field{"film_index", &Coated::filmIndex, "", 1, kNoLimit, "of refraction of the film"});
+    return Fields{
+        Field{"diffuse", &Coated::diffuse, "", 0, 1, "of the base"},
+        Field{"index", &Coated::index, "", 0, kNoLimit, "of refraction of the layer"},
+        Field{"roughness", &Coated::roughness, "", 0, 1,
+              "of the layer, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
+        Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"},
+        Field{"film", &Coated::film, "nanometres", 0, 5000,
+              "thickness of a film on the layer, whose faces make colours; 0 is none"},
+        Field{"film_index", &Coated::filmIndex, "", 1, kNoLimit, "of refraction of the film"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Coated&) const = default;
 

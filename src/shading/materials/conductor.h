@@ -32,7 +32,7 @@ struct Conductor : SurfaceFields {
   Real film = 0, filmIndex = 2.4;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"metal", &Conductor::metal, "", 0, kNoLimit, "a metal, by its measured indices of refraction"},
         Field{"color", &Conductor::color, "", 0, 1,
               "what is mirrored of light along the normal; of a named metal a factor"},
@@ -44,7 +44,8 @@ struct Conductor : SurfaceFields {
         Field{"distribution", &Conductor::distribution, "", 0, kNoLimit, "how the facets lean"},
         Field{"film", &Conductor::film, "nanometres", 0, 5000,
               "thickness of a clear film on it, an oxide, whose faces make colours; 0 is none"},
-        Field{"film_index", &Conductor::filmIndex, "", 1, kNoLimit, "of refraction of the film"});
+        Field{"film_index", &Conductor::filmIndex, "", 1, kNoLimit, "of refraction of the film"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Conductor&) const = default;
 

@@ -26,12 +26,13 @@ struct CookTorrance : SurfaceFields {
   Real index = 1.5, absorption = 0;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"diffuse", &CookTorrance::diffuse, "", 0, 1, "share of light scattered evenly"},
         Field{"specular", &CookTorrance::specular, "", 0, 1, "share of light that the grooves get"},
         Field{"roughness", &CookTorrance::roughness, "", 0, 1, "root mean square slope m of the grooves"},
         Field{"index", &CookTorrance::index, "", 0, kNoLimit, "of refraction, its real part"},
-        Field{"absorption", &CookTorrance::absorption, "", 0, kNoLimit, "its imaginary part: 0 is no metal"});
+        Field{"absorption", &CookTorrance::absorption, "", 0, kNoLimit, "its imaginary part: 0 is no metal"},
+        SurfaceFields::fields()};
   }
   bool operator==(const CookTorrance&) const = default;
 

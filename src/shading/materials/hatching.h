@@ -27,12 +27,13 @@ struct Hatching : SurfaceFields {
   Real screen = 0.5, softness = 0.1, gain = 1;
 
   static constexpr auto fields() {
-    return after(Field{"paper", &Hatching::paper, "", 0, 1, "colour of the paper"},
-                 Field{"ink", &Hatching::ink, "", 0, 1, "colour of the strokes"},
-                 Field{"screen", &Hatching::screen, "", 0, kNoLimit,
-                       "light below which there is ink, as a rule a texture from 0 to 1"},
-                 Field{"softness", &Hatching::softness, "", 0, 1, "width of the edges of strokes"},
-                 Field{"gain", &Hatching::gain, "", 0, kNoLimit, "factor on the light, before the screen"});
+    return Fields{Field{"paper", &Hatching::paper, "", 0, 1, "colour of the paper"},
+                  Field{"ink", &Hatching::ink, "", 0, 1, "colour of the strokes"},
+                  Field{"screen", &Hatching::screen, "", 0, kNoLimit,
+                        "light below which there is ink, as a rule a texture from 0 to 1"},
+                  Field{"softness", &Hatching::softness, "", 0, 1, "width of the edges of strokes"},
+                  Field{"gain", &Hatching::gain, "", 0, kNoLimit, "factor on the light, before the screen"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const Hatching&) const = default;
 

@@ -20,7 +20,8 @@ struct Lambert : SurfaceFields {
   Color diffuse{0.8};
 
   static constexpr auto fields() {
-    return after(Field{"diffuse", &Lambert::diffuse, "", 0, 1, "share of light scattered evenly"});
+    return Fields{Field{"diffuse", &Lambert::diffuse, "", 0, 1, "share of light scattered evenly"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const Lambert&) const = default;
 

@@ -33,7 +33,7 @@ struct Marschner : SurfaceFields {
   Real roughness = 0.3, roughnessAround = 0.3, index = 1.55, tilt = 2, angle = 90;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"color", &Marschner::color, "", 0, 1, "of much hair; what a strand lets through follows"},
         Field{"roughness", &Marschner::roughness, "", 0, 1, "along the strand"},
         Field{"roughness_around", &Marschner::roughnessAround, "", 0, 1, "around the strand"},
@@ -41,7 +41,8 @@ struct Marschner : SurfaceFields {
         Field{"tilt", &Marschner::tilt, "degrees", -20, 20,
               "of the scales on the strand, which moves the highlights apart"},
         Field{"angle", &Marschner::angle, "degrees", -360, 360,
-              "from the direction in which u grows to that of the strand; 90 is the direction of v"});
+              "from the direction in which u grows to that of the strand; 90 is the direction of v"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Marschner&) const = default;
 

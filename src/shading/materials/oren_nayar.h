@@ -23,9 +23,10 @@ struct OrenNayar : SurfaceFields {
   Real roughness = 0.5;
 
   static constexpr auto fields() {
-    return after(Field{"diffuse", &OrenNayar::diffuse, "", 0, 1, "share of light that the facets scatter"},
-                 Field{"roughness", &OrenNayar::roughness, "radians", 0, 1.5,
-                       "standard deviation of the facets' slope angle; 0 is Lambert's surface"});
+    return Fields{Field{"diffuse", &OrenNayar::diffuse, "", 0, 1, "share of light that the facets scatter"},
+                  Field{"roughness", &OrenNayar::roughness, "radians", 0, 1.5,
+                        "standard deviation of the facets' slope angle; 0 is Lambert's surface"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const OrenNayar&) const = default;
 

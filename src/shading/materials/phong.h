@@ -26,20 +26,19 @@ struct Phong : Interior {
   Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{
-            Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-            Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
-            Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
-            Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
-            Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
-            Field{"transmissive", &Phong::transmissive, "", 0, 1,
-                  "weight of the refracted ray, filter of shadows"},
-            Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
-            Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
-            Field{"shadow", &Phong::shadow, "", 0, 1,
-                  "share of a light that a shadow on the surface takes away"}},
-        Interior::fields());
+    return Fields{
+
+        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
+        Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
+        Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
+        Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
+        Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
+        Field{"transmissive", &Phong::transmissive, "", 0, 1,
+              "weight of the refracted ray, filter of shadows"},
+        Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
+        Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
+        Field{"shadow", &Phong::shadow, "", 0, 1, "share of a light that a shadow on the surface takes away"},
+        Interior::fields()};
   }
   bool operator==(const Phong&) const = default;
 
@@ -65,7 +64,7 @@ struct PhongBsdf : WhittedTerms {
     const auto named = [](const char* keyword, auto member) {
       return Field{keyword, member, "", 0, kNoLimit, ""};
     };
-    return std::tuple{
+    return Fields{
         named("emissive", &PhongBsdf::emissive),     named("ambient", &PhongBsdf::ambient),
         named("diffuse", &PhongBsdf::diffuse),       named("specular", &PhongBsdf::specular),
         named("reflective", &PhongBsdf::reflective), named("transmissive", &PhongBsdf::transmissive),

@@ -35,7 +35,7 @@ struct Principled : SurfaceFields {
   Real iridescence = 0, iridescenceIndex = 1.3, iridescenceThickness = 400;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"color", &Principled::color, "", 0, 1, "of the matt base, or what the metal mirrors"},
         Field{"metallic", &Principled::metallic, "", 0, 1, "from 0, plastic, to 1, metal"},
         Field{"roughness", &Principled::roughness, "", 0, 1, "its square is the width of the facets' slopes"},
@@ -52,7 +52,8 @@ struct Principled : SurfaceFields {
         Field{"iridescence_index", &Principled::iridescenceIndex, "", 0, kNoLimit,
               "of refraction of the film"},
         Field{"iridescence_thickness", &Principled::iridescenceThickness, "nanometres", 0, 5000,
-              "of the film"});
+              "of the film"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Principled&) const = default;
 

@@ -35,15 +35,15 @@ struct RoughGlass : SurfaceFields, Interior {
   bool compensated = false;
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        after(Field{"color", &RoughGlass::color, "", 0, 1, "of what passes the surface"},
-              Field{"index", &RoughGlass::index, "", 0, kNoLimit, "of refraction"},
-              Field{"roughness", &RoughGlass::roughness, "", 0, 1,
-                    "from 0, clear glass, to 1; its square is the width of the facets' slopes"},
-              Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit, "how the facets lean"},
-              Field{"compensated", &RoughGlass::compensated, "", 0, 1,
-                    "light that meets several facets is not lost"}),
-        Interior::fields());
+    return Fields{Field{"color", &RoughGlass::color, "", 0, 1, "of what passes the surface"},
+                  Field{"index", &RoughGlass::index, "", 0, kNoLimit, "of refraction"},
+                  Field{"roughness", &RoughGlass::roughness, "", 0, 1,
+                        "from 0, clear glass, to 1; its square is the width of the facets' slopes"},
+                  Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit, "how the facets lean"},
+                  Field{"compensated", &RoughGlass::compensated, "", 0, 1,
+                        "light that meets several facets is not lost"},
+                  SurfaceFields::fields(),
+                  Interior::fields()};
   }
   bool operator==(const RoughGlass&) const = default;
 

@@ -25,13 +25,14 @@ struct SchlickModel : SurfaceFields {
   Real roughness = 0.2, isotropy = 1, angle = 0;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"color", &SchlickModel::color, "", 0, 1,
               "what is given back of light along the half-way vector"},
         Field{"roughness", &SchlickModel::roughness, "", 0, 1, "from 0, a mirror, to 1, Lambert's surface"},
         Field{"isotropy", &SchlickModel::isotropy, "", 0, 1, "from 0, all grain, to 1, no grain"},
         Field{"angle", &SchlickModel::angle, "degrees", -360, 360,
-              "of the grain to the direction in which u grows"});
+              "of the grain to the direction in which u grows"},
+        SurfaceFields::fields()};
   }
   bool operator==(const SchlickModel&) const = default;
 

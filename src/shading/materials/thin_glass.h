@@ -28,11 +28,12 @@ struct ThinGlass : SurfaceFields {
   Real index = 1.5, film = 0;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"color", &ThinGlass::color, "", 0, 1, "what is left of light that crosses it along the normal"},
         Field{"index", &ThinGlass::index, "", 0, kNoLimit, "of refraction"},
         Field{"film", &ThinGlass::film, "nanometres", 0, 5000,
-              "thickness of a film whose faces make colours, 100 to 1000 for soap; 0 is a pane without"});
+              "thickness of a film whose faces make colours, 100 to 1000 for soap; 0 is a pane without"},
+        SurfaceFields::fields()};
   }
   bool operator==(const ThinGlass&) const = default;
 

@@ -22,9 +22,10 @@ struct Velvet : SurfaceFields {
   Real roughness = 0.4;
 
   static constexpr auto fields() {
-    return after(Field{"diffuse", &Velvet::diffuse, "", 0, 1, "of the cloth below the fibres"},
-                 Field{"sheen", &Velvet::sheen, "", 0, 1, "of the fibres"},
-                 Field{"roughness", &Velvet::roughness, "", 0, 1, "how disorderly the fibres stand"});
+    return Fields{Field{"diffuse", &Velvet::diffuse, "", 0, 1, "of the cloth below the fibres"},
+                  Field{"sheen", &Velvet::sheen, "", 0, 1, "of the fibres"},
+                  Field{"roughness", &Velvet::roughness, "", 0, 1, "how disorderly the fibres stand"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const Velvet&) const = default;
 

@@ -18,7 +18,7 @@ struct Blackbody {
   Real brightness = 1;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"temperature", &Blackbody::temperature, "kelvin", 0, kNoLimit,
+    return Fields{Field{"temperature", &Blackbody::temperature, "kelvin", 0, kNoLimit,
                             "a candle has 1900; a texture scales it"},
                       Field{"brightness", &Blackbody::brightness, "", 0, kNoLimit,
                             "how bright it is at 1900 kelvin; hotter is brighter"}};

@@ -15,15 +15,15 @@ struct Brick {
   TextureSpace space = TextureSpace::point;
 
   static constexpr auto fields() {
-    return std::tuple{Field{"a", &Brick::a, "", 0, kNoLimit, "the colour of the bricks"},
-                      Field{"b", &Brick::b, "", 0, kNoLimit, "the colour of the mortar"},
-                      Field{"size", &Brick::size, "", 0, kNoLimit,
-                            "a brick with its mortar; 0 along an axis: no joints there"},
-                      Field{"mortar", &Brick::mortar, "", 0, kNoLimit, "the width of the joints"},
-                      Field{"offset", &Brick::offset, "", 0, 1,
-                            "how much of a brick a course is moved against the one below"},
-                      Field{"space", &Brick::space, "", -kNoLimit, kNoLimit,
-                            "solid, or in u and v, without joints along z"}};
+    return Fields{Field{"a", &Brick::a, "", 0, kNoLimit, "the colour of the bricks"},
+                  Field{"b", &Brick::b, "", 0, kNoLimit, "the colour of the mortar"},
+                  Field{"size", &Brick::size, "", 0, kNoLimit,
+                        "a brick with its mortar; 0 along an axis: no joints there"},
+                  Field{"mortar", &Brick::mortar, "", 0, kNoLimit, "the width of the joints"},
+                  Field{"offset", &Brick::offset, "", 0, 1,
+                        "how much of a brick a course is moved against the one below"},
+                  Field{"space", &Brick::space, "", -kNoLimit, kNoLimit,
+                        "solid, or in u and v, without joints along z"}};
   }
   bool operator==(const Brick&) const = default;
 

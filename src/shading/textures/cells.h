@@ -87,15 +87,15 @@ struct Cells : PatternColors {
   int seed = 0;
 
   static constexpr auto fields() {
-    return std::tuple_cat(
+    return Fields{
         PatternColors::fields(),
-        std::tuple{
-            Field{"value", &Cells::value, "", -kNoLimit, kNoLimit,
-                  "the distance to the nearest point, to the second, their difference, or a number for each "
-                  "cell"},
-            Field{"jitter", &Cells::jitter, "", 0, 1, "how far points leave the middle of their cube"},
-            Field{"space", &Cells::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"},
-            Field{"seed", &Cells::seed, "", -kNoLimit, kNoLimit, "chooses among patterns of the same kind"}});
+
+        Field{"value", &Cells::value, "", -kNoLimit, kNoLimit,
+              "the distance to the nearest point, to the second, their difference, or a number for each "
+              "cell"},
+        Field{"jitter", &Cells::jitter, "", 0, 1, "how far points leave the middle of their cube"},
+        Field{"space", &Cells::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"},
+        Field{"seed", &Cells::seed, "", -kNoLimit, kNoLimit, "chooses among patterns of the same kind"}};
   }
   bool operator==(const Cells&) const = default;
 

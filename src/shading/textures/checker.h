@@ -13,10 +13,9 @@ struct Checker {
   TextureSpace space = TextureSpace::point;
 
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"a", &Checker::a, "", 0, kNoLimit, "the colour at (0.5, 0.5, 0.5)"},
-        Field{"b", &Checker::b, "", 0, kNoLimit, "the other"},
-        Field{"space", &Checker::space, "", -kNoLimit, kNoLimit, "cubes, or squares of u and v"}};
+    return Fields{Field{"a", &Checker::a, "", 0, kNoLimit, "the colour at (0.5, 0.5, 0.5)"},
+                  Field{"b", &Checker::b, "", 0, kNoLimit, "the other"},
+                  Field{"space", &Checker::space, "", -kNoLimit, kNoLimit, "cubes, or squares of u and v"}};
   }
   bool operator==(const Checker&) const = default;
 

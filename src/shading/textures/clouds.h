@@ -18,12 +18,10 @@ struct Clouds : PatternColors, FractalSum {
   }
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        PatternColors::fields(),
-        std::tuple{Field{"cover", &Clouds::cover, "", 0, 1, "how much of the sky they hide"},
-                   Field{"softness", &Clouds::softness, "", 0, 1, "how slowly they begin"},
-                   Field{"time", &Clouds::time, "", -kNoLimit, kNoLimit, "lets them change"}},
-        FractalSum::fields());
+    return Fields{
+        PatternColors::fields(), Field{"cover", &Clouds::cover, "", 0, 1, "how much of the sky they hide"},
+        Field{"softness", &Clouds::softness, "", 0, 1, "how slowly they begin"},
+        Field{"time", &Clouds::time, "", -kNoLimit, kNoLimit, "lets them change"}, FractalSum::fields()};
   }
   bool operator==(const Clouds&) const = default;
 

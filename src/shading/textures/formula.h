@@ -42,13 +42,12 @@ struct Formula : PatternColors {
   FormulaText value, red, green, blue;
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{Field{"value", &Formula::value, "", -kNoLimit, kNoLimit,
-                         "the number that a, b and ramp colour, in place of red, green and blue"},
-                   Field{"red", &Formula::red, "", -kNoLimit, kNoLimit, "from 0 to 1"},
-                   Field{"green", &Formula::green, "", -kNoLimit, kNoLimit, "from 0 to 1"},
-                   Field{"blue", &Formula::blue, "", -kNoLimit, kNoLimit, "from 0 to 1"}},
-        PatternColors::fields());
+    return Fields{Field{"value", &Formula::value, "", -kNoLimit, kNoLimit,
+                        "the number that a, b and ramp colour, in place of red, green and blue"},
+                  Field{"red", &Formula::red, "", -kNoLimit, kNoLimit, "from 0 to 1"},
+                  Field{"green", &Formula::green, "", -kNoLimit, kNoLimit, "from 0 to 1"},
+                  Field{"blue", &Formula::blue, "", -kNoLimit, kNoLimit, "from 0 to 1"},
+                  PatternColors::fields()};
   }
   bool operator==(const Formula&) const = default;
 

@@ -22,11 +22,10 @@ struct Gradient : PatternColors {
   TextureSpace space = TextureSpace::point;
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        PatternColors::fields(),
-        std::tuple{Field{"shape", &Gradient::shape, "", -kNoLimit, kNoLimit, "which way it grows"},
-                   Field{"repeat", &Gradient::repeat, "", -kNoLimit, kNoLimit, "what is seen beyond 1"},
-                   Field{"space", &Gradient::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"}});
+    return Fields{PatternColors::fields(),
+                  Field{"shape", &Gradient::shape, "", -kNoLimit, kNoLimit, "which way it grows"},
+                  Field{"repeat", &Gradient::repeat, "", -kNoLimit, kNoLimit, "what is seen beyond 1"},
+                  Field{"space", &Gradient::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"}};
   }
   bool operator==(const Gradient&) const = default;
 

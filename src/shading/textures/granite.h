@@ -20,12 +20,11 @@ struct Granite : PatternColors, FractalSum {
   }
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        PatternColors::fields(),
-        std::tuple{
-            Field{"frequency", &Granite::frequency, "", -kNoLimit, kNoLimit, "grains in a step"},
-            Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "how far light and dark are apart"}},
-        FractalSum::fields());
+    return Fields{PatternColors::fields(),
+
+                  Field{"frequency", &Granite::frequency, "", -kNoLimit, kNoLimit, "grains in a step"},
+                  Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "how far light and dark are apart"},
+                  FractalSum::fields()};
   }
   bool operator==(const Granite&) const = default;
 

@@ -57,7 +57,7 @@ struct ImageMap {
   std::array<Real, 6> transform{1, 0, 0, 0, 1, 0};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"file", &ImageMap::file, "", -kNoLimit, kNoLimit, "the picture"},
         Field{"wrap_u", &ImageMap::wrapU, "", -kNoLimit, kNoLimit, "what lies beyond its sides"},
         Field{"wrap_v", &ImageMap::wrapV, "", -kNoLimit, kNoLimit, "what lies above and below it"},

@@ -21,16 +21,16 @@ struct Marble : PatternColors, FractalSum {
   }
 
   static constexpr auto fields() {
-    return std::tuple_cat(
+    return Fields{
         PatternColors::fields(),
-        std::tuple{
-            Field{"frequency", &Marble::frequency, "", -kNoLimit, kNoLimit, "layers in a step along x"},
-            Field{"turbulence", &Marble::turbulence, "", -kNoLimit, kNoLimit,
-                  "how many layers far they are bent"},
-            Field{"grain", &Marble::grain, "", -kNoLimit, kNoLimit,
-                  "how fine the turbulence is along x, y and z"},
-            Field{"wave", &Marble::wave, "", -kNoLimit, kNoLimit, "how a layer goes from a to b and back"}},
-        FractalSum::fields());
+
+        Field{"frequency", &Marble::frequency, "", -kNoLimit, kNoLimit, "layers in a step along x"},
+        Field{"turbulence", &Marble::turbulence, "", -kNoLimit, kNoLimit,
+              "how many layers far they are bent"},
+        Field{"grain", &Marble::grain, "", -kNoLimit, kNoLimit,
+              "how fine the turbulence is along x, y and z"},
+        Field{"wave", &Marble::wave, "", -kNoLimit, kNoLimit, "how a layer goes from a to b and back"},
+        FractalSum::fields()};
   }
   bool operator==(const Marble&) const = default;
 

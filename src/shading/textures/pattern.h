@@ -90,7 +90,7 @@ struct PatternColors {
   ColorRamp ramp;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"a", &PatternColors::a, "", 0, kNoLimit, "the colour where the pattern is 0"},
         Field{"b", &PatternColors::b, "", 0, kNoLimit, "the colour where it is 1"},
         Field{"ramp", &PatternColors::ramp, "", -kNoLimit, kNoLimit,

@@ -12,9 +12,8 @@ struct Ramp : PatternColors {
   Real value = 0;
 
   static constexpr auto fields() {
-    return std::tuple_cat(
-        std::tuple{Field{"value", &Ramp::value, "", -kNoLimit, kNoLimit, "a number, as a rule a texture"}},
-        PatternColors::fields());
+    return Fields{Field{"value", &Ramp::value, "", -kNoLimit, kNoLimit, "a number, as a rule a texture"},
+                  PatternColors::fields()};
   }
   bool operator==(const Ramp&) const = default;
 

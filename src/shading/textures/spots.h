@@ -15,7 +15,7 @@ struct Spots {
   int seed = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return Fields{
         Field{"a", &Spots::a, "", 0, kNoLimit, "the colour of the spots"},
         Field{"b", &Spots::b, "", 0, kNoLimit, "the colour between them"},
         Field{"radius", &Spots::radius, "", 0, 0.5, "of a spot"},

@@ -21,15 +21,14 @@ struct Wood : PatternColors, FractalSum {
   }
 
   static constexpr auto fields() {
-    return std::tuple_cat(PatternColors::fields(),
-                          std::tuple{Field{"frequency", &Wood::frequency, "", -kNoLimit, kNoLimit,
-                                           "rings in a step from the axis"},
-                                     Field{"turbulence", &Wood::turbulence, "", -kNoLimit, kNoLimit,
-                                           "how many rings far they are bent"},
-                                     Field{"fibres", &Wood::fibres, "", 0, 1, "how strong they are"},
-                                     Field{"wave", &Wood::wave, "", -kNoLimit, kNoLimit,
-                                           "how a ring goes from a to b; saw: slowly, and back at once"}},
-                          FractalSum::fields());
+    return Fields{
+        PatternColors::fields(),
+        Field{"frequency", &Wood::frequency, "", -kNoLimit, kNoLimit, "rings in a step from the axis"},
+        Field{"turbulence", &Wood::turbulence, "", -kNoLimit, kNoLimit, "how many rings far they are bent"},
+        Field{"fibres", &Wood::fibres, "", 0, 1, "how strong they are"},
+        Field{"wave", &Wood::wave, "", -kNoLimit, kNoLimit,
+              "how a ring goes from a to b; saw: slowly, and back at once"},
+        FractalSum::fields()};
   }
   bool operator==(const Wood&) const = default;
 

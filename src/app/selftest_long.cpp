@@ -1,0 +1,135 @@
+// Checks of `ray selftest` that take seconds each: whole light transport by every integrator that has it.
+#include <array>
+#include <cmath>
+
+#include "app/selftest.h"
+#include "formats/format.h"
+#include "render/agreement.h"
+#include "scene/picture_size.h"
+
+namespace trace {
+namespace {
+
+/// A room of coloured walls with an open lamp, 32 pixels wide: with two boxes, a ball that mirrors or one of
+/// glass; and one whose light comes through a door that stands ajar.
+enum class Room { diffuse, mirror, glass, door };
+
+std::string roomText(Room room) {
+  const bool door = room == Room::door;
+  std::string text = R"(
+settings { width = 32; height = 32; depth = 4; sampling = random; fresnel = exact; air-index = 1; integrator = path; }
+camera { position = (0, 1, 3.8); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 36; }
+material = { name = "white"; diffuse = (0.7, 0.7, 0.7); };
+rotate(1, 0, 0, -1.5707963267948966, scale(2, 2, 1, square { material = "white"; }))
+translate(0, 2, 0, rotate(1, 0, 0, 1.5707963267948966, scale(2, 2, 1, square { material = "white"; })))
+translate(0, 1, -1, scale(2, 2, 1, square { material = "white"; }))
+translate(-1, 1, 0, rotate(0, 1, 0, 1.5707963267948966, scale(2, 2, 1, square { material = { diffuse = (0.6, 0.1, 0.1); } })))
+translate(1, 1, 0, rotate(0, 1, 0, -1.5707963267948966, scale(2, 2, 1, square { material = { diffuse = (0.1, 0.5, 0.1); } })))
+)";
+  text += door ? R"(
+translate(-0.5, 1, 0.2, rotate(0, 1, 0, 1.3, scale(0.05, 1.99, 1.2, box { material = "white"; })))
+translate(-0.75, 1.9, -0.6, rotate(1, 0, 0, 1.5707963267948966, scale(0.4, 0.4, 1, square { material = { emissive = (60, 60, 60); diffuse = (0.5, 0.5, 0.5); } })))
+)"
+               : R"(
+translate(0, 1.99, 0, rotate(1, 0, 0, 1.5707963267948966, scale(0.7, 0.7, 1, square { material = { emissive = (8, 8, 8); diffuse = (0.5, 0.5, 0.5); } })))
+translate(-0.4, 0.45, -0.4, rotate(0, 1, 0, 0.3, scale(0.5, 0.9, 0.5, box { material = "white"; })))
+)";
+  if (room == Room::diffuse)
+    text +=
+        "translate(0.4, 0.3, 0.3, rotate(0, 1, 0, -0.3, scale(0.5, 0.6, 0.5, box { material = \"white\"; "
+        "})))\n";
+  else if (room == Room::mirror)
+    text +=
+        "translate(0.4, 0.36, 0.3, scale(0.35, sphere { material = { reflective = (0.9, 0.9, 0.9); } }))\n";
+  else if (room == Room::glass)
+    text +=
+        "translate(0.4, 0.36, 0.3, scale(0.35, sphere { material = { transmissive = (1, 1, 1); reflective = "
+        "(1, 1, 1); index = 1.5; } }))\n";
+  return text;
+}
+
+Agreement agreementOf(Room room, const std::vector<Choice>& a, const std::vector<Choice>& b, int seeds) {
+  Messages messages;
+  const Scene scene = readScene("room.ray", "SBT-raytracer 1.0\n" + roomText(room), messages, 0);
+  messages.throwIfFailed();
+  const auto settings = [&](const std::vector<Choice>& choices) {
+    return settingsFor(scene.camera, {scene.choices, choices});
+  };
+  constexpr int kTile = 8;
+  return agreement(scene, settings(a), settings(b), seeds, kTile);
+}
+
+std::vector<Choice> choices(std::initializer_list<std::pair<const char*, const char*>> pairs) {
+  std::vector<Choice> list;
+  for (const auto& [name, value] : pairs) list.push_back({name, value, {}});
+  return list;
+}
+
+const std::vector<Choice>
+    kPath = choices({{"integrator", "path"}, {"spp", "96"}}),
+    kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}}),
+    kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}}),
+    kMltBdpt =
+        choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}}),
+    kPhoton =
+        choices({{"integrator", "photon"}, {"photons", "200000"}, {"photon-passes", "8"}, {"spp", "16"}});
+constexpr int kSeeds = 8;
+
+/// The p-value of all tiles' p-values together.
+double alike(Room room, const std::vector<Choice>& other) {
+  return agreementOf(room, kPath, other, kSeeds).uniform;
+}
+/// How much brighter the picture is, relative to path's, in standard errors of the difference.
+double brighter(Room room, const std::vector<Choice>& other) {
+  const Agreement a = agreementOf(room, kPath, other, kSeeds);
+  return (a.meanB - a.meanA) / a.error;
+}
+/// ... in parts of it.
+double ratio(Room room, const std::vector<Choice>& other) {
+  constexpr int kFew = 2;
+  const Agreement a = agreementOf(room, kPath, other, kFew);
+  return a.meanB / a.meanA;
+}
+
+constexpr const char* kWelch = "Welch's test, 16 tiles, 8 seeds";
+constexpr const char* kMeans = "both means, in standard errors";
+constexpr const char* kBlur = "the light of path";
+
+/// A p-value above 0.01.
+constexpr double kMiddle = 0.505, kAround = 0.495;
+/// As rare as that.
+constexpr double kErrors = 2.8;
+
+constexpr std::array kTable{
+    SelfCheck{"bdpt and path: a room", kWelch, kMiddle, kAround, [] { return alike(Room::diffuse, kBdpt); }},
+    SelfCheck{"bdpt and path: with a mirror", kWelch, kMiddle, kAround,
+              [] { return alike(Room::mirror, kBdpt); }},
+    SelfCheck{"bdpt and path: with a ball of glass", kWelch, kMiddle, kAround,
+              [] { return alike(Room::glass, kBdpt); }},
+    SelfCheck{"bdpt and path: a door ajar", kWelch, kMiddle, kAround,
+              [] { return alike(Room::door, kBdpt); }},
+    SelfCheck{"mlt and path: a room", kMeans, 0, kErrors, [] { return brighter(Room::diffuse, kMlt); }},
+    SelfCheck{"mlt and path: with a mirror", kMeans, 0, kErrors, [] { return brighter(Room::mirror, kMlt); }},
+    SelfCheck{"mlt and path: with a ball of glass", kMeans, 0, kErrors,
+              [] { return brighter(Room::glass, kMlt); }},
+    SelfCheck{"mlt and path: a door ajar", kMeans, 0, kErrors, [] { return brighter(Room::door, kMlt); }},
+    SelfCheck{"mlt over bdpt and path: a room", kMeans, 0, kErrors,
+              [] { return brighter(Room::diffuse, kMltBdpt); }},
+    SelfCheck{"mlt over bdpt and path: with a mirror", kMeans, 0, kErrors,
+              [] { return brighter(Room::mirror, kMltBdpt); }},
+    SelfCheck{"mlt over bdpt and path: with a ball of glass", kMeans, 0, kErrors,
+              [] { return brighter(Room::glass, kMltBdpt); }},
+    SelfCheck{"mlt over bdpt and path: a door ajar", kMeans, 0, kErrors,
+              [] { return brighter(Room::door, kMltBdpt); }},
+    SelfCheck{"photon and path: a room", kBlur, 1, 0.02, [] { return ratio(Room::diffuse, kPhoton); }},
+    SelfCheck{"photon and path: with a mirror", kBlur, 1, 0.02, [] { return ratio(Room::mirror, kPhoton); }},
+    SelfCheck{"photon and path: with a ball of glass", kBlur, 1, 0.02,
+              [] { return ratio(Room::glass, kPhoton); }},
+    SelfCheck{"photon and path: a door ajar", kBlur, 1, 0.03, [] { return ratio(Room::door, kPhoton); }},
+};
+
+}  // namespace
+
+std::span<const SelfCheck> longSelfChecks() { return kTable; }
+
+}  // namespace trace

@@ -1,0 +1,22 @@
+// Do two integrators show the same picture? Each makes several by other seeds; of every tile the two means
+// are compared by Welch's test, and the p-values of all tiles have to be spread evenly.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+struct Agreement {
+  std::vector<double> p;        ///< of each tile, row by row
+  double uniform = 0;           ///< the p-value of their being spread evenly (Kolmogorov and Smirnov)
+  double meanA = 0, meanB = 0;  ///< light of the pictures
+  double error = 0;             ///< standard error of the difference of these
+};
+
+/// Of so many pictures of the scene by each of the settings; tiles have that many pixels a side.
+Agreement agreement(const Scene& scene, const Settings& a, const Settings& b, int seeds, int tile);
+
+}  // namespace trace

@@ -1,0 +1,73 @@
+// Where paths from lights start: at a light of the scene, at a lamp (an object that shines), or far away
+// where the sky is; and how likely each start was, which weighs paths against those that reach the same place
+// from the other end (Veach 1997, section 10.2; Pharr, Jakob and Humphreys 2023, section 12.1.2).
+//
+// Whitted's lights keep their own rules: the light that arrives at the first surface is what the light says
+// arrives there, whatever its law of distance. Lights with an extra highlight start no paths.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/lamps.h"
+#include "render/sampler.h"
+#include "render/tracer.h"
+
+namespace trace {
+
+class LightStarts {
+ public:
+  LightStarts() = default;
+  /// `lamps` must outlive it.
+  LightStarts(const World& world, const Lamps& lamps);
+
+  static constexpr std::size_t kNoLight = static_cast<std::size_t>(-1);
+
+  /// A path up to the first surface that it meets.
+  struct Start {
+    Ray ray;
+    Interfaces inside;
+    std::optional<Hit> hit;
+    std::size_t light = kNoLight;  ///< of the world, if it is one of them
+    Color power;                   ///< that arrives there, over the density of the place and its cosine
+    bool parallel = false;         ///< it comes from beyond all distances
+    /// Densities, over that with which the start was chosen and went that way, the latter per solid angle at
+    /// the start, or per area across parallel light: of the start, as places ask for it from the other end;
+    /// and of meeting it by chance, without what only the place knows. 0 where that cannot be.
+    Real asked = 0, met = 0;
+  };
+  std::optional<Start> start(Tracer& tracer, const Sampler& sampler) const;
+
+  /// With which starts go to a place that has asked for light, over the density with which it asked, but for
+  /// the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
+  Real overAsked(const World& world, std::size_t light, const Illumination& arriving, const Vec3& at) const;
+  Real overAsked(const Lamps::Place& place) const;
+  /// With which starts go along a ray that met a lamp or the sky: per area and solid angle, but for the
+  /// cosine at a lamp.
+  Real ofLamp(const Hit& hit) const;
+  Real ofSky(const Vec3& toLight) const;
+
+ private:
+  /// Of a light of the world, how its starts are spread.
+  struct Source {
+    Real share = 0;  ///< of all starts
+    Vec3 axis;       ///< of a point: directions lie in a cone
+    Real cosine = -1;
+  };
+  std::optional<Start> fromLight(Tracer& tracer, std::size_t light, const Sampler& sampler) const;
+  std::optional<Start> fromLamp(Tracer& tracer, Real which, const Sampler& sampler) const;
+  std::optional<Start> fromSky(Tracer& tracer, const Sampler& sampler) const;
+  void follow(Tracer& tracer, Start& start, const Sampler& sampler) const;
+  /// Where parallel light starts that runs in the direction.
+  Ray before(const Vec3& direction, const Vec2& u) const;
+  Real diskDensity() const { return 1 / (kPi * radius_ * radius_); }
+  Real powerOf(const World& world, std::size_t light) const;
+
+  const Lamps* lamps_ = nullptr;
+  Vec3 middle_;  ///< of a ball around the scene
+  Real radius_ = 0;
+  std::vector<Source> lights_;
+  Real lampShare_ = 0, skyShare_ = 0;
+};
+
+}  // namespace trace

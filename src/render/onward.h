@@ -1,0 +1,51 @@
+// Where a path goes on from a surface: into the lobe, as the mirrored ray or as a refracted one, of which one
+// is chosen by chance. For paths from the camera and from lights.
+#pragma once
+
+#include <optional>
+
+#include "render/interaction.h"
+
+namespace trace {
+
+/// What a surface scatters of the light from one direction to another, as a path from the camera sees it,
+/// times the cosine to the light; black where the normals between vertices would turn light through it. Of
+/// the light that Whitted's equation knows, if it is `lit`: its shadows may be pale, and it is seen from
+/// where the normals have turned away.
+Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
+
+/// The same for a path that came from the light, whose places are spread over the surface's true area, for
+/// what goes on from there over solid angle (Veach 1997, section 5.3).
+Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
+
+class Onward {
+ public:
+  /// `spectrum` from 0 up to 1 chooses the wavelength where the surface begins to split light: of all
+  /// surfaces of a sample the same.
+  Onward(const Interaction& at, Real spectrum);
+
+  /// A ray that goes on.
+  struct Ray {
+    RayKind kind;  ///< bounce, reflection or refraction
+    Vec3 direction;
+    Color weight;      ///< over the chance of the choice
+    Real density = 0;  ///< of a direction in the lobe, per solid angle; 0: there was one only
+    Real ratio = 1;    ///< of the indices before and behind
+    Interfaces there;
+  };
+  /// Of a path from the camera, or of one `fromLight`, which carries light itself; `lit`: light that
+  /// Whitted's equation knows.
+  std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
+  /// It was the choice of a refracted ray that is totally reflected.
+  bool totallyReflected(Real choice) const;
+  /// How much of a wavelength's light is one ray's, where the surface splits it.
+  const Color& response() const { return response_; }
+
+ private:
+  const Interaction& at_;
+  const SpectralShare* share_ = nullptr;
+  Color response_{1}, mirror_, through_;
+  Real toLobe_ = 0, toMirror_ = 0, toBehind_ = 0;
+};
+
+}  // namespace trace

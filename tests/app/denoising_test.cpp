@@ -1,0 +1,91 @@
+// --denoise from the scene to the picture.
+#include "app/denoising.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/session.h"
+#include "base/file.h"
+#include "image/codec.h"
+#include "support/folder.h"
+#include "support/paths.h"
+#include "support/random.h"
+
+namespace trace::test {
+namespace {
+
+const std::string kCornell = sourceFolder() + "/scenes/cornell.ray";
+
+std::unique_ptr<Session> rendered(const std::string& file, const std::vector<Choice>& choices) {
+  auto session = std::make_unique<Session>();
+  session->open(file, choices);
+  session->build();
+  EXPECT_EQ(session->renderPicture().end, End::finished);
+  return session;
+}
+
+double relativeError(const Picture& a, const Picture& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const Color &p = a.pixels[i], &q = truth.pixels[i];
+    for (const auto& [x, y] : {std::pair{p.r, q.r}, {p.g, q.g}, {p.b, q.b}})
+      sum += (x - y) * (x - y) / (y * y + 0.01);
+  }
+  return sum / (3 * static_cast<double>(a.pixels.size()));
+}
+
+TEST(Denoising, CornellBecomesManyTimesAsExact) {
+  const std::vector<Choice> small{{"width", "48", {}}, {"sampling", "sobol", {}}, {"depth", "5", {}}};
+  const auto with = [&](const char* spp, bool denoise) {
+    std::vector<Choice> choices = small;
+    choices.push_back({"spp", spp, {}});
+    if (denoise) choices.push_back({"denoise", "on", {}});
+    return rendered(kCornell, choices);
+  };
+  const Picture truth = with(kSanitized ? "64" : "512", false)->picture();
+  const auto session = with("16", true);
+  const Picture noisy = session->film().picture(), clean = session->picture();
+  const double before = relativeError(noisy, truth), after = relativeError(clean, truth);
+  EXPECT_LT(after, before / 3) << "before " << before << ", after " << after;
+  EXPECT_EQ(noisy, with("16", false)->picture()) << "the film is that of the plain render";
+  EXPECT_GT(meanChange(change(noisy, clean)), 0.5);
+}
+
+TEST(Denoising, ThePassChangeIsWhatIsAddedToThePicture) {
+  const Folder folder;
+  const auto session = rendered(kCornell, {{"width", "24", {}},
+                                           {"spp", "8", {}},
+                                           {"depth", "3", {}},
+                                           {"denoise", "on", {}},
+                                           {"passes", "change,albedo", {}}});
+  PictureFiles files = session->filesFor(folder / "c.exr");
+  session->save(files);
+  const Picture clean = readPicture(folder / "c.exr"), by = readPicture(folder / "c.change.exr");
+  const Picture noisy = session->film().picture();
+  ASSERT_TRUE(files.denoiseChange());
+  EXPECT_NEAR(*files.denoiseChange(), meanChange(by), 1e-3);
+  for (std::size_t i = 0; i < by.pixels.size(); ++i)
+    EXPECT_NEAR(noisy.pixels[i].g + by.pixels[i].g, clean.pixels[i].g, 1e-5 * (1 + clean.pixels[i].g));
+  EXPECT_GT(readPicture(folder / "c.albedo.exr").at(2, 12).r, 0.3) << "a wall";
+}
+
+TEST(Denoising, GoesOnFromWhatWasSaved) {
+  const std::vector<Choice> choices{
+      {"width", "40", {}}, {"spp", "16", {}}, {"depth", "3", {}}, {"denoise", "on", {}}};
+  const auto whole = rendered(kCornell, choices);
+  Session back;
+  back.open(kCornell, choices);
+  back.build();
+  back.film().restore(whole->film().saved());
+  EXPECT_EQ(back.picture(), whole->picture());
+}
+
+TEST(Denoising, OnePixelPerSampleTellsNothing) {
+  const auto session = rendered(kCornell, {{"width", "20", {}}, {"spp", "1", {}}, {"denoise", "on", {}}});
+  EXPECT_FALSE(denoised(session->film(), session->settings()));
+  EXPECT_EQ(session->picture(), session->film().picture());
+}
+
+}  // namespace
+}  // namespace trace::test
