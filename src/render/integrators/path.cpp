@@ -206,11 +206,11 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     sum.add(term, factor * allowed(tracer, kind, path.weight * factor * arriving), arriving, {density, 0, 1});
   };
 
-  const auto throughBody = [&](std::uint32_t n, Real share) {
+  const auto throughBody = [&](std::uint32_t n, Real part) {
     const Sampler own = sampler.branch(kBody).branch(n);
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
-    const Color factor = in->weight * share;
+    const Color factor = in->weight * part;
     const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
                     path.gathers,        path.maps,  path.scattered,       true};
     sum.add(factor, along(tracer, in->ray, in->hit, next, inside, own.branch(1)), in->how);
