@@ -70,12 +70,13 @@ Color less(const Color& c) { return {std::exp(-c.r), std::exp(-c.g), std::exp(-c
 /// Walks along a ray from stretch to stretch.
 class Walk {
  public:
-  Walk(Tracer& tracer, const Ray& ray, const Color& importance, bool wantsPlaces, Sampler& numbers)
+  Walk(Tracer& tracer, const Ray& ray, const Color& importance, int places, Sampler& numbers)
       : tracer_(tracer),
         ray_(ray),
         fog_(tracer.settings()),
         importance_(importance),
-        wantsPlaces_(wantsPlaces),
+        wantsPlaces_(places > 0),
+        leastSteps_(kLeastSteps + 3 * places),
         numbers_(numbers) {}
 
   void begin(const World::MediumBody* body) { active_.push_back(body); }
@@ -99,6 +100,7 @@ class Walk {
   std::vector<MediumWay::Place> places;
 
  private:
+  static constexpr int kLeastSteps = 6;
   Real fogPasses(Real t) const { return foggy ? fog_.passes(ray_, t) : 1; }
 
   Medium total(const Vec3* point) {
@@ -148,10 +150,9 @@ class Walk {
   }
 
   void byChance(Real from, Real to) {
-    constexpr Real kLeastSteps = 4;
     Color most;
     for (const World::MediumBody* body : active_) most += body->model.most().loses();
-    const Real rate = std::max(maxComponent(most), kLeastSteps / (to - from));
+    const Real rate = std::max(maxComponent(most), leastSteps_ / (to - from));
     for (Real t = from;;) {
       checkBudget();
       t += -std::log1p(-numbers_.next()) / rate;
@@ -179,6 +180,7 @@ class Walk {
   Fog fog_;
   Color importance_;
   bool wantsPlaces_;
+  Real leastSteps_;  ///< of a stretch that is cut by chance: more of them are less noise
   Sampler& numbers_;
   std::vector<const World::MediumBody*> active_;
   std::uint32_t object_ = Filling::kAir;
@@ -238,7 +240,7 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
   const Fog fog(settings);
   const bool foggy = open && !fog.none();
   if (borders.empty() && !foggy) return way;
-  Walk walk(tracer, ray, importance, places > 0, numbers);
+  Walk walk(tracer, ray, importance, places, numbers);
   walk.foggy = foggy;
   Color ofFog;
   if (foggy && places > 0) {
@@ -268,7 +270,7 @@ Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numb
     addBorders(borders, tracer, body, ray, distance, false);
   if (borders.empty()) return Color(1);
   if (first) *first = borders.front().body->object;
-  Walk walk(tracer, ray, Color(1), false, numbers);
+  Walk walk(tracer, ray, Color(1), 0, numbers);
   follow(walk, borders, distance, {}, 0);
   return walk.passes;
 }

@@ -22,6 +22,7 @@ Settings small(IntegratorKind integrator, int spp) {
   settings.integrator = integrator;
   settings.sampling = SampleKind::sobol;
   settings.spp = spp;
+  settings.subsurfaceSamples = 1;
   return settings;
 }
 Color mean(const Scene& scene, const Settings& settings) {

@@ -80,7 +80,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
-  const auto lamp = path.kind == RayKind::bounce  // then the light was asked
+  const auto lamp = path.kind == RayKind::bounce || path.within  // then the light was asked
                         ? std::nullopt
                         : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
@@ -88,8 +88,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight,
-                         numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (!media->places.empty()) {
       const auto counts = [&](const Color& weight) {
         const Color c = path.weight * weight;
@@ -173,7 +172,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const bool follows = scatters(at.bsdf()) && !path.gathers;
   const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
   const Real inBody = body ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
-  const Real all = intoLobe + mirrors + passes + inBody;
+  const bool both = body && path.depth == 0;  // what is seen first is followed into the body besides
+  const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
   const Real toBody = all > 0 ? inBody / all : 0;
   if (toLobe > 0) addLamp(sum, at, toLobe, sampler);
@@ -206,6 +206,18 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     sum.add(term, factor * allowed(tracer, kind, path.weight * factor * arriving), arriving, {density, 0, 1});
   };
 
+  const auto throughBody = [&](std::uint32_t n, Real share) {
+    const Sampler own = sampler.branch(kBody).branch(n);
+    const auto in = entrance(at, *body, path.weight, own.branch(0));
+    if (!in) return;
+    const Color factor = in->weight * share;
+    const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
+                    path.gathers,        path.maps,  path.scattered,       true};
+    sum.add(factor, along(tracer, in->ray, in->hit, next, inside, own.branch(1)), in->how);
+  };
+
+  const int places = both ? tracer.settings().subsurfaceSamples : 0;
+  for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
   if (all > 0 && choice.x < toLobe) {
     Sampler lobe = sampler.branch(kLobe);
     const Real choose = lobe.next();
@@ -219,13 +231,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   } else if (all > 0 && choice.x < toLobe + toMirror) {
     follow(RayKind::reflection, Term::Kind::reflection, mirrored(ray.direction, at.normal), mirror / toMirror,
            0, inside, mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal));
-  } else if (toBody > 0 && choice.x < toLobe + toMirror + toBody) {
-    if (const auto in = entrance(at, *body, path.weight, sampler.branch(kBody))) {
-      const Color factor = in->weight / toBody;
-      const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
-                      path.gathers,        path.maps,  path.scattered,       true};
-      sum.add(factor, along(tracer, in->ray, in->hit, next, inside, sampler.branch(kNext)), in->how);
-    }
+  } else if (!both && toBody > 0 && choice.x < toLobe + toMirror + toBody) {
+    throughBody(0, 1 / toBody);
   } else if (share && passes > 0) {
     if (const auto direction = at.through(*share)) {
       Interfaces behind = at.behind();
