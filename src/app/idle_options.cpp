@@ -95,6 +95,11 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              " samples on, and --spp gives " + std::to_string(samplesOf(s)),
          "choose a larger --spp, such as 256");
 
+  if (!s.aperturePicture.path.empty() && !(s.aperture > 0))
+    warn("--aperture-picture changes nothing: --aperture 0 is a pinhole", "--aperture 0.1 opens the lens");
+  if (s.lightChoices > 0 && world.lights().size() < 2)
+    warn("--light-choices changes nothing: the scene has fewer than two lights");
+
   const bool whitted = s.integrator == IntegratorKind::whitted;
   if (whitted && s.caustics > 0) {
     if (world.lights().empty())

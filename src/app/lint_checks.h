@@ -41,6 +41,8 @@ void lightInside(const LintScene& s, Findings& findings);
 void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
+void lightCut(const LintScene& s, Findings& findings);
+void lightLink(const LintScene& s, Findings& findings);
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
 void lightReachesNothing(const LintScene& s, Findings& findings);

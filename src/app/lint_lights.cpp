@@ -1,6 +1,9 @@
 // The checks of lights and of the camera.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/lint_checks.h"
 #include "base/match.h"
@@ -14,14 +17,19 @@ namespace {
 
 constexpr Real kHalfALevel = 0.5 / 255;
 
+/// Of a lamp; null for panels and for what is far away.
 const Vec3* positionOf(const Light& light) {
-  if (const auto* point = std::get_if<PointLight>(&light)) return &point->position;
-  if (const auto* spot = std::get_if<SpotLight>(&light)) return &spot->position;
-  return nullptr;
+  return match(light, [](const auto& l) -> const Vec3* {
+    if constexpr (requires { l.radius; }) return &l.position;
+    return nullptr;
+  });
 }
 
-const Color& colorOf(const Light& light) {
-  return match(light, [](const auto& l) -> const Color& { return l.color; });
+Color colorOf(const Light& light) {
+  return match(light, [](const auto& l) {
+    if constexpr (requires { l.color; }) return l.color;
+    return Color(0);
+  });
 }
 
 /// To three digits, for people.
@@ -208,6 +216,55 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
             ? "move it to the side that is seen, or take it out: a light that reaches nothing only takes time"
             : "move it, or what is in its way; or take it out: a light that reaches nothing only takes time");
   }
+}
+
+/// Lights that are shut by what they say themselves.
+void lightCut(const LintScene& s, Findings& findings) {
+  for (const LightSource& source : s.scene.lights) {
+    if (maxComponent(colorOf(source.light)) == 0) continue;  // it is switched off
+    if (const auto* measured = std::get_if<GoniometricLight>(&source.light)) {
+      if (measured->file.data && measured->file.data->brightest() == 0)
+        warn(findings, "light-cut", source.place,
+             "the photometric file of this light has no light: all its candelas are 0",
+             "take the file of a lamp that is lit, or a point_light");
+      continue;
+    }
+    const auto* studio = std::get_if<WarnLight>(&source.light);
+    if (!studio) continue;
+    const Box3 open = studio->open();
+    if (open.empty()) {
+      warn(findings, "light-cut", source.place,
+           "the flaps of this light leave nothing: one of its least values is above the largest",
+           "x_min, y_min and z_min lie below x_max, y_max and z_max");
+      continue;
+    }
+    const auto isLit = [&](const Object& object) {
+      Box3 box = boxAround(object);
+      box.low = max(box.low, open.low);
+      box.high = min(box.high, open.high);
+      return !box.empty();
+    };
+    if (std::none_of(s.scene.objects.begin(), s.scene.objects.end(), isLit))
+      warn(findings, "light-cut", source.place,
+           "the flaps of this light cut off everything: no object is in what they leave",
+           "flaps are planes in the space of the scene, not of the light: x_max = 1 leaves what lies at x < "
+           "1");
+  }
+}
+
+void lightLink(const LintScene& s, Findings& findings) {
+  std::vector<std::string_view> names;
+  for (const Object& object : s.scene.objects)
+    if (!object.name.empty()) names.push_back(object.name);
+  for (const LightSource& source : s.scene.lights)
+    for (const auto* list : {&source.links.lights, &source.links.excludes})
+      for (const std::string& name : *list)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+          warn(findings, "light-link", source.place,
+               std::string(list == &source.links.lights ? "lights" : "excludes") + " names \"" + name +
+                   "\", and no object is called so",
+               names.empty() ? "give objects names, as in sphere { name = \"ball\"; }"
+                             : didYouMean(name, names));
 }
 
 /// Spot lights that no object is in the cone of. True if there is one.

@@ -18,6 +18,7 @@ Real length(const RayNode& node) {
   if (!node.ends.empty()) {
     if (const auto* blocked = std::get_if<Blocked>(&node.ends.front())) return blocked->t;
     if (const auto* cut = std::get_if<CutOff>(&node.ends.front())) return cut->t;
+    if (const auto* met = std::get_if<MetLight>(&node.ends.front())) return met->t;
   }
   return node.tMost;
 }

@@ -33,6 +33,8 @@ Scene withoutNames(Scene scene) {
   }
   for (Material& material : scene.materials) material.name.clear();
   changePixels(scene, [](Pixels& pixels) { pixels.file.clear(); });
+  for (LightSource& source : scene.lights)
+    if (auto* light = std::get_if<GoniometricLight>(&source.light)) light->file.file.clear();
   return scene;
 }
 
@@ -65,9 +67,9 @@ std::string lost(const Scene& named, const Scene& back) {
     const std::string which = "object " + std::to_string(object + 1);
     return name.empty() ? which : which + ", \"" + name + "\",";
   }
-  const std::size_t light =
-      firstMissing(wanted.lights, found.lights,
-                   [](const LightSource& a, const LightSource& b) { return a.light == b.light; });
+  const std::size_t light = firstMissing(
+      wanted.lights, found.lights,
+      [](const LightSource& a, const LightSource& b) { return a.light == b.light && a.links == b.links; });
   if (light < wanted.lights.size()) return "light " + std::to_string(light + 1);
   if (found.objects.size() != wanted.objects.size()) return "the list of objects";
   if (found.lights.size() != wanted.lights.size()) return "the list of lights";

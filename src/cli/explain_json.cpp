@@ -186,7 +186,8 @@ class Writer {
                        {"diffuse", toJson(l.scatter.diffuse)},
                        {"specular", toJson(l.scatter.specular)},
                        {"extraHighlight", toJson(l.arriving.extraHighlight)},
-                       {"share", l.share}};
+                       {"share", l.share},
+                       {"probability", l.probability}};
     }
     return json;
   }
@@ -231,6 +232,10 @@ class Writer {
                           [&](const Blocked& w) {
                             json["object"] = object(w.object, w.materials);
                             json["part"] = w.part;
+                            json["distance"] = w.t;
+                          },
+                          [&](const MetLight& w) {
+                            json["light"] = w.light;
                             json["distance"] = w.t;
                           },
                           [](const auto&) {}});

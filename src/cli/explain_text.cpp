@@ -200,7 +200,12 @@ class TreeText {
     if (!isBlack(from.extraHighlight * light.scatter.specular))
       highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
     line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
-         ")" + (light.share == 1 ? "" : " * " + text(light.share) + " as one of several rays"));
+         ")" +
+         (light.share == 1 ? ""
+          : light.probability < 1
+              ? " * " + text(light.share) + ", for it was chosen among all lights with probability " +
+                    text(light.probability)
+              : " * " + text(light.share) + " as one of several rays"));
     const Real shadow = whitted(*node.bsdf).shadow;
     if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
     line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +

@@ -410,6 +410,7 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"camera-vertices", "1"},
                                                                        {"chains", "bdpt"},
                                                                        {"photon-passes", "16"},
+                                                                       {"light-choices", "4"},
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},
                                                                        {"caustics", "200000"},

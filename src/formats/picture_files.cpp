@@ -127,6 +127,12 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   SeenFrom seen{scene, {}};
   std::map<const InsideFile*, std::string> written;  ///< pictures from inside, and their names
   std::size_t left = 0;
+  /// As the other file names it.
+  const auto placed = [&](const std::string& name) {
+    if (same || name.empty() || fs::path(name).is_absolute()) return name;
+    const fs::path path = fs::absolute(pictureFile(scene.file, name), error).lexically_normal();
+    return fs::exists(path, error) ? path.lexically_relative(target).string() : name;
+  };
   const auto see = [&](Pixels& pixels) {
     if (pixels.inside) {
       const auto [known, fresh] = written.try_emplace(pixels.inside.get());
@@ -140,11 +146,16 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
       pixels.inside = nullptr;
       return;
     }
-    if (same || pixels.file.empty() || fs::path(pixels.file).is_absolute()) return;
-    const fs::path path = fs::absolute(pictureFile(scene.file, pixels.file), error).lexically_normal();
-    if (fs::exists(path, error)) pixels.file = path.lexically_relative(target).string();
+    pixels.file = placed(pixels.file);
   };
   for (const std::uint32_t used : usedMaterials(scene)) changePixels(seen.scene.materials.at(used), see);
+  for (LightSource& source : seen.scene.lights)
+    match(source.light, [&](auto& light) {
+      if constexpr (requires { changePixels(light, see); })
+        changePixels(light, see);
+      else if constexpr (requires { light.file.data; })
+        light.file.file = placed(light.file.file);
+    });
   changePixels(seen.scene.background, see);
   if (left > 0)
     messages.warn({scene.file, 0, 0, {}},

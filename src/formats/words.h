@@ -48,6 +48,9 @@ class Words {
     return rest;
   }
 
+  /// Goes on at that byte.
+  void skipTo(std::size_t at) { at_ = at; }
+
   /// Bytes not read yet: no count in a file can be larger.
   std::size_t left() const { return text_.size() - at_; }
 

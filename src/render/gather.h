@@ -35,11 +35,18 @@ class Gather {
   /// sum += factor * passed: of the world's light of that number arrives `arriving`, which the surface
   /// scatters; factor is their product, of which `passed` is not in shadow.
   void addLight(std::size_t light, const Illumination& arriving, const Scatter& scatter, const Color& factor,
-                const Color& passed, Real share = 1) {
+                const Color& passed, Real share = 1, Real probability = 1) {
     sum_ += factor * passed;
     if (Tracer::recorded(node_))
-      tracer_.record(node_, {Term::Kind::light, factor, passed, Tracer::kNoNode,
-                             LightTerm{tracer_.world().lightSource(light), arriving, scatter, share}});
+      tracer_.record(node_,
+                     {Term::Kind::light, factor, passed, Tracer::kNoNode,
+                      LightTerm{tracer_.world().lightSource(light), arriving, scatter, share, probability}});
+  }
+
+  /// Adds the radiance of a light that the ray meets.
+  void add(const World::Lamp& lamp) {
+    add(Term::Kind::emissive, lamp.seen.color);
+    stop(MetLight{lamp.light, lamp.seen.t});
   }
 
   /// The same of a path that was put together.

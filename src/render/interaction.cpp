@@ -2,6 +2,7 @@
 
 #include "math/low_discrepancy.h"
 #include "render/fog.h"
+#include "render/light_choice.h"
 #include "render/media.h"
 #include "shading/fresnel.h"
 #include "shading/optics.h"
@@ -79,7 +80,9 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const Vec3& from = lightPlace();
   const bool foggy = tracer.settings().fog > 0;
   constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
-  for (std::size_t i = 0; i < world.lights().size(); ++i) {
+  askLights(tracer, from, &normal, sampler, [&](const AskedLight& asked) {
+    const std::uint32_t i = asked.light;
+    if (!world.lights(i, hit.object)) return;
     const auto light = [&](const Vec2& place, Real share, int n) __attribute__((always_inline)) {
       auto arriving = world.illuminate(i, from, place);
       if (!arriving) return;
@@ -90,28 +93,25 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
       const Color scattered = arriving->scattered(parts) * share;
       Color passed;
       if (!isBlack(scattered)) {
-        Ray ray = leaveToLight(arriving->toLight);
-        if (material.litThrough) ray.leaves = hit.object;  // it is not in its own way
-        passed = tracer.visible(hit, ray, arriving->distance, inside);
+        Ray toward = leaveToLight(arriving->toLight);
+        if (material.litThrough) toward.leaves = hit.object;  // it is not in its own way
+        passed = tracer.visible(hit, toward, arriving->distance, inside);
         if (!world.media().empty())
           passed = throughBodies(
-              tracer, passed, ray, arriving->distance,
-              sampler.branch(kBodies + static_cast<std::uint32_t>(i)).branch(static_cast<std::uint32_t>(n)));
+              tracer, passed, toward, arriving->distance,
+              asked.sampler.branch(kBodies + asked.branch).branch(static_cast<std::uint32_t>(n)));
       }
-      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share);
+      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share, asked.probability);
       if (material.shadow < 1)
-        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share);
+        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share,
+                     asked.probability);
     };
-    if (!world.lightHasSize(i)) {
-      light(kCenter, 1, 0);
-      continue;
-    }
-    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(i));
+    if (!world.lightHasSize(i)) return light(kCenter, asked.share, 0);
     const int rays = tracer.settings().lightSamples;
-    const Vec2 first = numbers.next2();
+    const Vec2 first = asked.numbers().next2();
     for (int n = 0; n < rays; ++n)
-      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), 1.0 / rays, n);
-  }
+      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), asked.share / rays, n);
+  });
 }
 
 void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays,

@@ -46,8 +46,9 @@ class Interaction {
     return !raised_ && dot(direction, hit.surface.normal) * facing() < 0;
   }
 
-  /// Adds what arrives of each light of the scene, by shadow rays, and is scattered to where the ray comes
-  /// from. Lights with a size are asked for Settings::lightSamples of their places.
+  /// Adds what arrives of the lights of the scene, by shadow rays, and is scattered to where the ray comes
+  /// from: of all of them, or of Settings::lightChoices (render/light_choice.h). Lights with a size are asked
+  /// for Settings::lightSamples of their places.
   void addLights(Gather& sum, const Sampler& sampler) const;
 
   /// Adds `factor` times the part of the half space above the surface that is open, by so many rays, whose

@@ -10,6 +10,7 @@
 #include "math/warp.h"
 #include "render/fog.h"
 #include "render/gather.h"
+#include "shading/lights/panel.h"
 #include "shading/scattering.h"
 
 namespace trace {
@@ -54,6 +55,14 @@ Lamps::Lamps(const World& world, int threads)
     }
     if (parts_.size() > first) first_[object] = first;
   }
+  if (world.outside().isSeenBy(RayKind::bounce)) portals_ = world.portals();
+  constexpr std::size_t kFew = 32;
+  if (parts_.size() > kFew) {
+    std::vector<LightReach> reaches;
+    reaches.reserve(parts_.size());
+    for (const Part& part : parts_) reaches.push_back(part.reach(part.share / kPi));
+    tree_ = LightTree(reaches);
+  }
   Real sum = 0;
   for (const Part& part : parts_) sums_.push_back(sum += part.share);
   for (Part& part : parts_) part.share /= sum;
@@ -66,6 +75,55 @@ void Lamps::add(const Part& part, const Color& emissive) {
   parts_.back().share = area * luminanceOf(emissive);
   const Real sides = part.kind == Part::Kind::sphere ? 1 : 2;
   power_ += kPi * sides * parts_.back().share;
+}
+
+/// `power`: what its light is at distance 1 if it is turned to a place, as a part of pi.
+LightReach Lamps::Part::reach(Real power) const {
+  LightReach reach;
+  if (kind == Kind::sphere) {
+    reach.box = {origin - Vec3(size, size, size), origin + Vec3(size, size, size)};
+    reach.power = power / 4;  // the area of its disk
+    return reach;
+  }
+  for (const Vec3& corner : {origin, origin + edgeA, origin + edgeB}) reach.box.extend(corner);
+  if (kind == Kind::parallelogram) reach.box.extend(origin + edgeA + edgeB);
+  if (!(size > 0)) return reach;  // it is dark
+  reach.axis = normalize(cross(edgeA, edgeB));
+  reach.around = 0;
+  reach.beyond = kPi / 2;
+  reach.twoSided = true;
+  reach.power = power;
+  return reach;
+}
+
+std::pair<std::size_t, Real> Lamps::chosenPart(const Vec3& from, Real which) const {
+  if (tree_.empty()) {
+    const std::size_t part = partOf(which);
+    return {part, parts_[part].share};
+  }
+  const auto chosen = tree_.choose(from, nullptr, which);
+  return chosen ? std::pair<std::size_t, Real>{chosen->light, chosen->probability}
+                : std::pair<std::size_t, Real>{0, 0};
+}
+
+Vec3 Lamps::towardSky(const Vec3& from, Real which, const Vec2& u) const {
+  const Real tableShare = this->tableShare();
+  if (which < tableShare) return sky_.choose(u);
+  which = (which - tableShare) / (1 - tableShare) * static_cast<Real>(portals_.size());
+  const auto number = std::min(static_cast<std::size_t>(which), portals_.size() - 1);
+  return normalize(trace::placeOn(portals_[number], u) - from);
+}
+
+/// With which towardSky() gives the ray's direction.
+Real Lamps::skyDensity(const Ray& ray) const {
+  const Real tableShare = this->tableShare();
+  Real density = tableShare > 0 ? tableShare * sky_.density(ray.direction) : 0;
+  for (const Portal& portal : portals_)
+    if (const auto t = meetsPanel(portal, ray)) {
+      const Real area = std::abs(dot(cross(portal.u, portal.v), ray.direction));  // as seen from there
+      density += (1 - tableShare) * *t * *t / (area * static_cast<Real>(portals_.size()));
+    }
+  return density;
 }
 
 std::size_t Lamps::partOf(Real which) const {
@@ -96,13 +154,14 @@ Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
 std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Vec2& u) const {
   const Real skyShare = this->skyShare();
   if (which < skyShare) {
-    const Vec3 toLight = sky_.choose(u);
-    const Real density = this->density(toLight);
-    if (!(density > 0)) return {};
+    const Vec3 toLight = towardSky(from, which / skyShare, u);
+    const Real density = this->density(Ray{from, toLight});
+    if (!(density > 0 && density < kInfinity)) return {};
     return Place{kNone, 0, toLight, density, kInfinity};
   }
   which = (which - skyShare) / (1 - skyShare);
-  const std::size_t number = partOf(which);
+  const auto [number, share] = chosenPart(from, which);
+  if (!(share > 0)) return {};
   const Part& part = parts_[number];
   const std::uint64_t inObject = number - first_[part.object];
   Vec3 toLight;
@@ -120,7 +179,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     distance = length(at - from);
     toLight = normalize(at - from);
   }
-  const Real density = (1 - skyShare) * part.share * part.density(from, at);
+  const Real density = (1 - skyShare) * share * part.density(from, at);
   if (!(density > 0)) return {};
   return Place{part.object, inObject, toLight, density, distance};
 }
@@ -147,7 +206,8 @@ Lamps::SkyStart Lamps::startOfSky(const Vec2& u) const {
 Real Lamps::density(const Vec3& from, const Hit& hit) const {
   if (!isLamp(hit.object)) return 0;
   const Part& part = partOf(hit.object, hit.part);
-  return (1 - skyShare()) * part.share * part.density(from, hit.surface.point);
+  const auto number = static_cast<std::size_t>(&part - parts_.data());
+  return (1 - skyShare()) * shareOf(number, from) * part.density(from, hit.surface.point);
 }
 
 Real Lamps::Part::perArea() const {

@@ -2,14 +2,17 @@
 // places by chance.
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
-// objects are only met by chance. How often one is chosen follows from its area and its colour; what is
-// around is chosen half of the time, if it is brighter here than there.
+// objects are only met by chance. How often one is chosen follows from its area and its colour, and where
+// they have many parts also from the distance (render/light_tree.h). What is around is chosen half of the
+// time, if it is brighter here than there or if portals show where it is seen.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "render/light_tree.h"
 #include "render/sky_table.h"
 #include "render/tracer.h"
 
@@ -20,7 +23,7 @@ class Lamps {
   Lamps() = default;
   Lamps(const World& world, int threads);
 
-  bool empty() const { return parts_.empty() && sky_.empty(); }
+  bool empty() const { return parts_.empty() && !choosesSky(); }
 
   /// A place that was chosen.
   struct Place {
@@ -35,10 +38,8 @@ class Lamps {
   /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
   /// it met included; 0 for what is no lamp.
   Real density(const Vec3& from, const Hit& hit) const;
-  /// The same of a unit direction in which a ray met nothing.
-  Real density(const Vec3& direction) const {
-    return sky_.empty() ? 0 : skyShare() * sky_.density(direction);
-  }
+  /// The same of a ray that met nothing.
+  Real density(const Ray& ray) const { return choosesSky() ? skyShare() * skyDensity(ray) : 0; }
   /// Where a photon of an object that shines starts.
   struct Start {
     std::uint32_t object;
@@ -80,11 +81,12 @@ class Lamps {
     Vec3 origin;        ///< a corner, or the middle
     Vec3 edgeA, edgeB;  ///< from the corner
     Real size;          ///< the area, or the radius
-    Real share;         ///< of all choices
+    Real share;         ///< of all choices, where they are few
     /// Of the direction to `at`, which lies on it, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
     /// Per area and side, of all choices.
     Real perArea() const;
+    LightReach reach(Real power) const;
   };
   void add(const Part& part, const Color& emissive);
   /// That of the number from 0 up to 1.
@@ -96,13 +98,25 @@ class Lamps {
     return parts_[first_[object] + (mesh ? part : 0)];
   }
   bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
-  /// How often what is around is chosen.
-  Real skyShare() const { return sky_.empty() ? 0 : parts_.empty() ? 1 : 0.5; }
+  bool choosesSky() const { return !sky_.empty() || !portals_.empty(); }
+  /// How often what is around is chosen, and how often of these by its brightness, not through a portal.
+  Real skyShare() const { return !choosesSky() ? 0 : parts_.empty() ? 1 : 0.5; }
+  Real tableShare() const { return sky_.empty() ? 0 : portals_.empty() ? 1 : 0.5; }
+  Vec3 towardSky(const Vec3& from, Real which, const Vec2& u) const;
+  Real skyDensity(const Ray& ray) const;
+  /// The part that the number chooses for a place, and how often.
+  std::pair<std::size_t, Real> chosenPart(const Vec3& from, Real which) const;
+  Real shareOf(std::size_t part, const Vec3& from) const {
+    return tree_.empty() ? parts_[part].share
+                         : tree_.probability(from, nullptr, static_cast<std::uint32_t>(part));
+  }
   /// Whether the ray to the place met it.
   bool met(const Place& place, const Hit& hit) const;
 
   SkyTable sky_;
+  std::vector<Portal> portals_;
   std::vector<Part> parts_;
+  LightTree tree_;  ///< over the parts, where they are many
   Real power_ = 0;
   std::vector<Real> sums_;            ///< of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp

@@ -174,6 +174,7 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   start.inside = tracer.interfacesAt(start.ray.origin);
   follow(tracer, start, sampler);
   if (!start.hit) return start;
+  if (!world.lights(light, start.hit->object)) return {};
   const Vec3& at = start.hit->surface.point;
   const auto arriving = world.illuminate(light, at, u);
   if (!arriving) return {};
@@ -230,9 +231,10 @@ std::optional<LightStarts::Start> LightStarts::fromSky(Tracer& tracer, const Sam
   start.inside = tracer.interfacesAt(start.ray.origin);
   const Real density = skyShare_ * sky.density * diskDensity();
   start.power = tracer.world().outside().view({{}, sky.toLight}, RayKind::light).color * (1 / density);
-  start.asked = lamps_->density(sky.toLight) / density;
-  start.met = 1 / density;
   follow(tracer, start, sampler);
+  if (!start.hit) return start;
+  start.asked = lamps_->density(Ray{start.hit->surface.point, sky.toLight}) / density;
+  start.met = 1 / density;
   return start;
 }
 

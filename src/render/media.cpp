@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/fog.h"
+#include "render/light_choice.h"
 
 namespace trace {
 namespace {
@@ -283,26 +284,25 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
   constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   const World& world = tracer.world();
   const Fog fog(tracer.settings());
-  for (std::size_t i = 0; i < world.lights().size(); ++i) {
-    const auto number = static_cast<std::uint32_t>(i);
-    const Vec2 where = world.lightHasSize(i) ? numbers.branch(number).next2() : kCenter;
-    const auto arriving = world.illuminate(i, place.point, where);
+  askLights(tracer, place.point, nullptr, numbers, [&](const AskedLight& asked) {
+    const Vec2 where = world.lightHasSize(asked.light) ? asked.numbers().next2() : kCenter;
+    const auto arriving = world.illuminate(asked.light, place.point, where);
     // From beyond all numbers nothing comes.
-    if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) continue;
+    if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
     const Ray toLight{place.point, arriving->toLight};
     const Real left = fog.left(toLight, arriving->distance);
     // A light of colour 1 is one of irradiance pi.
     const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
-    const Color factor = place.share * arriving->intensity() * (kPi * scattered * left);
-    if (isBlack(factor)) continue;
+    const Color factor = place.share * arriving->intensity() * (kPi * scattered * left * asked.share);
+    if (isBlack(factor)) return;
     const Color passed = throughBodies(
         tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
-        arriving->distance, numbers.branch(kBodies + number));
+        arriving->distance, numbers.branch(kBodies + asked.branch));
     if (place.medium)
       sum.add(factor, passed, *place.medium);
     else
       sum.add(Term::Kind::fog, factor, passed);
-  }
+  });
 }
 
 void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,

@@ -10,6 +10,7 @@
 #include "math/warp.h"
 #include "render/fog.h"
 #include "render/interaction.h"
+#include "shading/lights/panel.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -104,10 +105,8 @@ std::optional<Aim> aimAlong(const Vec3& direction, const std::vector<Target>& ta
 std::optional<Vec3> placeOn(const Light& light, const Vec2& u) {
   return match(light, [&](const auto& l) -> std::optional<Vec3> {
     if constexpr (requires { l.twoSided; }) {
-      const Vec2 disk = toDisk(u);
-      const Vec2 at = l.round ? Vec2{disk.x / 2, disk.y / 2} : Vec2{u.x - 0.5, u.y - 0.5};
-      return l.position + l.u * at.x + l.v * at.y;
-    } else if constexpr (requires { l.position; }) {
+      return trace::placeOn(l, u);
+    } else if constexpr (requires { l.radius; }) {
       return l.position + sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y) * l.radius;
     } else {
       return {};
@@ -166,7 +165,8 @@ class Emitter {
     std::optional<Hit> hit;
     Color power;
     bool fromInfinity;  ///< whose light is what arrives, and loses nothing before
-    bool asked;         ///< shadow rays ask for it, which cross panes that bend nothing
+    /// Of the scene, whose number that is; shadow rays ask for it, which cross panes that bend nothing.
+    const std::size_t* light = nullptr;
   };
 
   struct Chances {
@@ -197,7 +197,7 @@ class Emitter {
     if (!arriving) return {};
     const Real away2 = point ? hit->t * hit->t : 1;
     const Color power = arriving->intensity() * (kPi * away2 * aim->share / static_cast<Real>(source.count));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, true};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, &source.light};
   }
 
   std::optional<Flight> fromLamp(const Source& source) {
@@ -244,12 +244,13 @@ class Emitter {
   }
 
   void fly(Flight& flight, Landed& landed) {
-    auto& [ray, inside, hit, power, fromInfinity, asked] = flight;
-    bool gathered = !asked;  // shadow rays do not bring it
+    auto& [ray, inside, hit, power, fromInfinity, light] = flight;
+    bool gathered = !light;  // shadow rays do not bring it
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
       power *= inside.passed(hit->t);
       if (!(bounces == 0 && fromInfinity) && isInOpenAir(inside, world_))
         power *= Color(fog_.passes(ray, hit->t));
+      if (bounces == 0 && light && !world_.lights(*light, hit->object)) return;
       const Interaction at(tracer_, ray, *hit, nullptr, inside, chance());
       const Vec3& normal = hit->surface.normal;
       const bool rests = scatters(at.bsdf());

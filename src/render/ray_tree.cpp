@@ -83,6 +83,9 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         for (const Filter& filter : node.filters)
                           names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
                         return "reached the light, filtered by " + names;
+                      },
+                      [&](const MetLight& e) {
+                        return "met " + lightName(scene, e.light) + " at distance " + shortText(e.t, 6);
                       }});
 }
 
@@ -189,6 +192,7 @@ std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& 
 
 std::string lightName(const Scene& scene, std::uint32_t index) {
   const LightSource& source = scene.lights[index];
+  if (!source.links.name.empty()) return source.links.name;
   return named(match(source.light, [](const auto& light) { return light.kKeyword; }), source.place);
 }
 

@@ -92,8 +92,14 @@ struct Blocked {
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };
+/// Met a light that is seen, before any surface.
+struct MetLight {
+  static constexpr std::string_view kName = "met-light";
+  std::uint32_t light;  ///< index into Scene::lights
+  Real t;
+};
 using RayEnd = std::variant<LeftScene, CutOff, Culled, Opaque, DepthLimit, BelowThreshold, Roulette,
-                            TotalInternalReflection, Blocked, ReachedLight>;
+                            TotalInternalReflection, Blocked, ReachedLight, MetLight>;
 
 // --- what a ray brings back ---
 
@@ -103,7 +109,8 @@ struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
   Scatter scatter;
-  Real share = 1;  ///< of the rays to a light with a size: one of --light-samples
+  Real share = 1;        ///< of the rays to a light with a size: one of --light-samples
+  Real probability = 1;  ///< with which the light was chosen among all, if they are many: share holds it, too
 };
 
 /// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
@@ -264,7 +271,7 @@ std::string sentence(const Ignored& ignored, const Scene& scene);
 std::string materialName(const Scene& scene, std::uint32_t material);
 /// The same of one, or "red 0.25 + blue 0.75".
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
-/// "point_light (scene.ray:7)".
+/// Its name, or "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);
 /// "scene.ray:12", without folders; "" for a place in no file.
 std::string shortPlace(const Place& place);

@@ -343,8 +343,15 @@ void Tracer::record(int node, Term term) {
   tree_->nodes[static_cast<std::size_t>(node)].terms.push_back(term);
 }
 
-void Tracer::record(int node, const RayEnd& why) {
-  tree_->nodes[static_cast<std::size_t>(node)].ends.push_back(why);
+void Tracer::record(int index, const RayEnd& why) {
+  RayNode& node = tree_->nodes[static_cast<std::size_t>(index)];
+  if (std::holds_alternative<MetLight>(why)) {  // it got no farther
+    node.hit.reset();
+    node.outside.reset();
+    node.materials.clear();
+    node.ends.clear();
+  }
+  node.ends.push_back(why);
 }
 
 void Tracer::record(int node, const Bsdf& bsdf) { tree_->nodes[static_cast<std::size_t>(node)].bsdf = bsdf; }

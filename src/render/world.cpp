@@ -349,15 +349,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       world.hasBumps_ |= t.field == "bump";
     }
 
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    match(scene.lights[i].light, Overloaded{[&](const AmbientLight& light) {
-                                              world.ambient_ += light.color * settings.ambientScale;
-                                            },
-                                            [&](const auto& light) {
-                                              world.lights_.push_back(light);
-                                              world.lightSources_.push_back(i);
-                                            }});
-  }
+  world.addLights(scene, settings);
 
   const Camera& camera = scene.camera;
   if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
@@ -365,7 +357,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
-  world.camera_ = frame(camera, settings.cameraAxes, opticsOf(settings));
+  Optics optics = opticsOf(settings);
+  optics.lens.picture = scene.surroundings.aperture;
+  world.camera_ = frame(camera, settings.cameraAxes, optics);
   world.outside_ = Outside(scene, settings, world.camera_);
 
   const bool bruteForce = settings.accel == Accel::none;

@@ -23,6 +23,7 @@
 #include "geometry/traced.h"
 #include "render/hit.h"
 #include "render/interfaces.h"
+#include "render/light_tree.h"
 #include "render/outside.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -205,6 +206,23 @@ class World {
   bool lightHasSize(std::size_t light) const {
     return match(lights_[light], [](const auto& l) { return l.hasSize(); });
   }
+  /// The light of that number lights the object.
+  bool lights(std::size_t light, std::uint32_t object) const {
+    const std::vector<bool>& lit = litObjects_[light];
+    return lit.empty() || lit[object];
+  }
+  /// A choice among lights().
+  const LightTree& lightTree() const { return *lightTree_; }
+  const std::vector<Portal>& portals() const { return portals_; }
+  /// A light that a ray meets.
+  struct Lamp {
+    std::uint32_t light;  ///< its place in Scene::lights
+    LightSeen seen;
+  };
+  /// The nearest of those that rays see, before t.
+  std::optional<Lamp> lampAlong(const Ray& ray, Real t) const {
+    return visibleLights_.empty() ? std::nullopt : nearestLamp(ray, t);
+  }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
   /// What rays see that meet nothing.
   const Outside& outside() const { return outside_; }
@@ -282,6 +300,8 @@ class World {
   void measureMiddle();
 
   struct Forms;  ///< complete in world_queries.cpp
+  std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;
+  void addLights(const Scene& scene, const Settings& settings);
   /// Takes the forms out of the shapes of all objects, to lie side by side.
   void collectForms();
 
@@ -334,6 +354,10 @@ class World {
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;
+  std::vector<std::vector<bool>> litObjects_;  ///< by each light; none: all
+  std::vector<std::uint32_t> visibleLights_;
+  std::shared_ptr<const LightTree> lightTree_;
+  std::vector<Portal> portals_;
   bool nestedGlass_ = false;
   std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where a ray may start in one
   std::vector<MediumBody> media_;

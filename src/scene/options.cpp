@@ -449,6 +449,16 @@ const std::array kTable{
          .least = 1,
          .most = 1024,
          .unit = "rays"}),
+    row<&Settings::lightChoices>(
+        {.name = "light-choices",
+         .group = "Sampling",
+         .help = "lights that every place asks, chosen by their distance, direction and strength: for scenes "
+                 "of many; 0 asks all, but path, direct, mlt and photon one of more than 32",
+         .source = "Conty Estevez and Kulla 2018; docs/lights.md",
+         .least = 0,
+         .most = 1024,
+         .unit = "lights",
+         .extra = true}),
     row<&Settings::integrator>(
         {.name = "integrator",
          .group = "Tracing",
@@ -801,6 +811,14 @@ const std::array kTable{
                                 .least = -360,
                                 .most = 360,
                                 .unit = "degrees"}),
+    row<&Settings::aperturePicture>(
+        {.name = "aperture-picture",
+         .group = "Lens",
+         .help = "picture whose bright places are the lens opening, in place of blades: blurred lights take "
+                 "its shape",
+         .source = "docs/lens.md",
+         .repeats = Repeats::world,
+         .extra = true}),
     row<&Settings::tilt>({.name = "tilt",
                           .group = "Lens",
                           .help = "turns the plane in focus: above 0 its upper half comes nearer",

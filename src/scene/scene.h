@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/match.h"
 #include "geometry/shape.h"
 #include "math/transform.h"
 #include "scene/input_files.h"
@@ -16,6 +17,7 @@
 #include "shading/background.h"
 #include "shading/cameras/camera.h"
 #include "shading/lights/light.h"
+#include "shading/lights/light_links.h"
 #include "shading/material.h"
 
 namespace trace {
@@ -32,6 +34,7 @@ struct Object {
 struct LightSource {
   Light light;
   Place place;
+  LightLinks links{};
   bool operator==(const LightSource&) const = default;
 };
 
@@ -80,6 +83,10 @@ struct Scene {
 template <class Change>
 void changePixels(Scene& scene, const Change& change) {
   for (Material& material : scene.materials) changePixels(material, change);
+  for (LightSource& source : scene.lights)
+    match(source.light, [&](auto& light) {
+      if constexpr (requires { changePixels(light, change); }) changePixels(light, change);
+    });
   changePixels(scene.background, change);
 }
 

@@ -84,6 +84,7 @@ struct Settings {
   FilterKind filter = FilterKind::box;
   Real filterRadius = 0;
   int lightSamples = 1;
+  int lightChoices = 0;
   // Camera
   Projection projection = Projection::perspective;
   Real viewHeight = 0;
@@ -98,6 +99,7 @@ struct Settings {
   Real focus = 0;
   int blades = 0;
   Real bladeAngle = 0;
+  FilePath aperturePicture{};
   Real tilt = 0;
   // Tracing
   IntegratorKind integrator = IntegratorKind::whitted;

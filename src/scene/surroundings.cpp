@@ -143,7 +143,7 @@ auto madeOr(const Scene& scene, const Option& option, const Settings& settings, 
 void readSurroundings(Scene& scene, const Settings& settings, const PictureLimits& limits, Messages& messages,
                       const Surroundings* before) {
   Surroundings& now = scene.surroundings;
-  if (before && !now.backdrop && !now.environment) now = *before;
+  if (before && !now.backdrop && !now.environment && !now.aperture) now = *before;
   Reader reader(now.files, limits);
   if (now.backdropFile != settings.backdrop) {
     now.backdrop = nullptr;
@@ -153,6 +153,16 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
       now.backdrop = std::make_shared<const Picture>(madeOr(
           scene, findOption("backdrop"), settings, messages, [&] { return reader.picture(file); },
           [] { return missingPicture(16, 12); }));
+    }
+  }
+  if (now.apertureFile != settings.aperturePicture) {
+    now.aperture = nullptr;
+    now.apertureFile = settings.aperturePicture;
+    if (const std::string& file = settings.aperturePicture.path; !file.empty()) {
+      const Work work("reading the lens opening");
+      now.aperture = std::make_shared<const Aperture>(madeOr(
+          scene, findOption("aperture-picture"), settings, messages, [&] { return reader.picture(file); },
+          [] { return missingPicture(8, 8); }));
     }
   }
   const bool sameMap = now.environmentFile == settings.environment && now.kind == settings.environmentKind;

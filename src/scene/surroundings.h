@@ -1,4 +1,4 @@
-// The pictures around a scene: those that its settings name as backdrop and environment.
+// The pictures that a scene's settings name: backdrop and environment around it, and the opening of the lens.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "image/codec.h"
 #include "scene/input_files.h"
 #include "scene/settings.h"
+#include "shading/cameras/aperture.h"
 #include "shading/environment_map.h"
 
 namespace trace {
@@ -20,8 +21,10 @@ struct Surroundings {
   std::shared_ptr<const EnvironmentMap> environment;         ///< blurred
   std::shared_ptr<const EnvironmentMap> sharpEnvironment{};  ///< as it was read
 
+  std::shared_ptr<const Aperture> aperture{};
+
   // The files and settings that they were made from.
-  FilePath backdropFile{}, environmentFile{};
+  FilePath backdropFile{}, environmentFile{}, apertureFile{};
   EnvironmentKind kind = EnvironmentKind::automatic;
   Real blur = 0;
   InputFiles files{};

@@ -78,6 +78,7 @@ bool editValue(const FieldFacts& facts, Color& value) {
 
 bool editValue(const FieldFacts&, Heights& value) { return showFile(value.file); }
 bool editValue(const FieldFacts&, Pixels& value) { return showFile(value.file); }
+bool editValue(const FieldFacts&, PhotometryFile& value) { return showFile(value.file); }
 
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);

@@ -16,6 +16,7 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/lights/photometry.h"
 
 namespace trace::studio {
 
@@ -38,6 +39,7 @@ bool editValue(const FieldFacts& facts, std::string& value);
 /// Shows the name of the picture: it is read with the scene.
 bool editValue(const FieldFacts& facts, Heights& value);
 bool editValue(const FieldFacts& facts, Pixels& value);
+bool editValue(const FieldFacts& facts, PhotometryFile& value);
 /// Several numbers, in rows of at most four.
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
 /// One of the names.

@@ -102,7 +102,7 @@ void addMenu(Studio& studio) {
     if (ImGui::MenuItem(std::string(T::kKeyword).c_str()))
       add(Selected::light, std::string(T::kKeyword), [](Scene& scene) {
         T light;
-        light.color = Color(1);
+        if constexpr (requires { light.color; }) light.color = Color(1);
         if constexpr (requires { light.position; }) light.position = scene.camera.position;
         scene.lights.push_back({light, {}});
       });
@@ -149,12 +149,12 @@ void editLight(Studio& studio) {
         [&](const auto& light) { heading(studio, entryName(source), light.kHelp, source.place); });
   if (buttonOnce("Delete")) return deleteSelected(studio);
   if (!beginFields("light")) return;
-  match(source.light, [&](auto& light) {
-    editFields(light, [&](std::string_view key) {
-      change(studio, entryName(source) + ": " + std::string(key),
-             [&](Scene& scene) { scene.lights[index] = source; });
-    });
-  });
+  const auto changed = [&](std::string_view key) {
+    change(studio, entryName(source) + ": " + std::string(key),
+           [&](Scene& scene) { scene.lights[index] = source; });
+  };
+  match(source.light, [&](auto& light) { editFields(light, changed); });
+  editFields(source.links, changed);
   endFields();
 }
 

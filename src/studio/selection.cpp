@@ -54,6 +54,7 @@ std::string entryName(const Object& object) {
 }
 
 std::string entryName(const LightSource& source) {
+  if (!source.links.name.empty()) return source.links.name;
   return withLine(std::string(match(source.light, [](const auto& l) { return l.kKeyword; })), source.place);
 }
 

@@ -44,10 +44,54 @@ class Pen {
 
 Color toColor(const ImVec4& c) { return {c.x, c.y, c.z}; }
 
+/// The sides of a cone or pyramid from a lamp, as long as `size`.
+void addBeam(const Vec3& from, const AimFrame& aim, const Vec2& half, Real size, const Color& c, Pen& pen) {
+  std::array<Vec3, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Real x = i == 0 || i == 3 ? -half.x : half.x, y = i < 2 ? -half.y : half.y;
+    corners[i] = from + normalize(aim.ahead + aim.right * x + aim.up * y) * size;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    pen.line(from, corners[i], c, 0.8f, 1);
+    pen.line(corners[i], corners[(i + 1) % 4], c, 0.8f, 1);
+  }
+}
+
+/// A panel's sides, and how it faces.
+template <class P>
+void addPanel(const P& panel, const Color& c, Pen& pen) {
+  const auto corner = [&](Real x, Real y) { return panel.position + panel.u * x + panel.v * y; };
+  const std::array<Vec3, 4> corners{corner(-0.5, -0.5), corner(0.5, -0.5), corner(0.5, 0.5),
+                                    corner(-0.5, 0.5)};
+  for (std::size_t i = 0; i < 4; ++i) pen.line(corners[i], corners[(i + 1) % 4], c, 1, 1.5f);
+  const Vec3 across = cross(panel.u, panel.v);
+  if (const Real area = length(across); area > 0)
+    pen.line(panel.position, panel.position + across / area * (0.5 * std::sqrt(area)), c, 1, 1.5f);
+}
+
+/// Half the width of a cone at distance 1; wide ones are not drawn as cones.
+std::optional<Real> halfWidth(Real degrees) {
+  constexpr Real kWidest = 80;
+  if (!(degrees < kWidest)) return {};
+  return std::tan(degrees * kPi / 180);
+}
+
 void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
   match(light, [&](const auto& l) {
-    const Color c = clamp01(l.color / std::max(maxComponent(l.color), 1e-9)) * 0.9 + Color(0.1);
+    Color c(0.6);
+    if constexpr (requires { l.color; })
+      c = clamp01(l.color / std::max(maxComponent(l.color), 1e-9)) * 0.9 + Color(0.1);
     const Real size = 0.1 * radius;
+    if constexpr (requires { l.u; }) addPanel(l, c, pen);
+    if constexpr (requires { l.angle; })
+      if (const auto half = halfWidth(l.angle))
+        addBeam(l.position, AimFrame(l.direction, {0, 1, 0}), {*half, *half}, 4 * size, c, pen);
+    if constexpr (requires { l.half(); })
+      addBeam(l.position, AimFrame(l.direction, l.up), l.half(), 4 * size, c, pen);
+    if constexpr (requires { l.perCandela; }) {
+      const Vec3 d = normalize(l.direction);
+      pen.line(l.position, l.position + d * (2 * size), c, 1, 1.5f);
+    }
     if constexpr (requires { l.position; }) {
       for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)

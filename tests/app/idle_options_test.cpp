@@ -61,6 +61,7 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(kLit, {{"denoise", "on", {}}}, "--denoise changes nothing: it compares two halves");
   about(kLit, {{"denoise", "on", {}}, {"spp", "64", {}}, {"integrator", "mlt", {}}},
         "--denoise changes nothing");
+  about(kLit, {{"light-choices", "2", {}}}, "fewer than two lights");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {

@@ -7,6 +7,7 @@
 
 #include "base/match.h"
 #include "formats/ray/ray_texture.h"
+#include "formats/ray/ray_writer.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/bezier_patches.h"
@@ -554,17 +555,107 @@ TEST(RayFormat, ReadsTheAreaLightsOfStudents) {
   }
 }
 
+TEST(RayFormat, RowsCopyTheirObjects) {
+  const Scene scene = load(
+                          "translate(0, 0, 5, rows { count = (3, 2, 1); step = (2, 10, 7); scale(2, sphere { "
+                          "name = \"s\"; }) box { } })")
+                          .scene;
+  ASSERT_EQ(scene.objects.size(), 12u);
+  expectNear(scene.objects[0].worldFromObject * Vec3{1, 0, 0}, {2, 0, 5});
+  expectNear(scene.objects[11].worldFromObject * Vec3{}, {4, 10, 5});
+  EXPECT_EQ(scene.objects[10].name, "s");
+  EXPECT_EQ(scene.objects[0].material, scene.objects[11].material);
+  // Rows in rows, and chance: the same each time, within its bounds.
+  const std::string chance =
+      "rows { count = (1, 1, 4); step = (0, 0, 1); rows { count = (5, 1, 1); step = (1, 0, 0); "
+      "spread = (0.1, 0.2, 0); size_spread = 0.25; seed = 3; sphere { } } }";
+  const Scene some = load(chance).scene;
+  EXPECT_EQ(some.objects, load(chance).scene.objects);
+  ASSERT_EQ(some.objects.size(), 20u);
+  Real most = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    const Vec3 at = some.objects[i].worldFromObject * Vec3{}, off = at - Vec3(i % 5, 0, i / 5);
+    EXPECT_LE(std::abs(off.x), 0.1);
+    EXPECT_LE(std::abs(off.y), 0.2);
+    EXPECT_EQ(off.z, 0);
+    most = std::max(most, std::abs(off.y));
+    const Real size = length(linear(some.objects[i].worldFromObject, Vec3{1, 0, 0}));
+    EXPECT_TRUE(size >= 0.75 && size <= 1.25);
+  }
+  EXPECT_GT(most, 0.05);
+  // Lights, at the top of the file only.
+  const Scene lit = load(
+                        "rows { count = (1, 3, 1); step = (0, 2, 0); point_light { position = (1, 1, 1); "
+                        "color = (1, 1, 1); } } sphere { }")
+                        .scene;
+  ASSERT_EQ(lit.lights.size(), 3u);
+  EXPECT_EQ(std::get<PointLight>(lit.lights[2].light).position, (Vec3{1, 5, 1}));
+  EXPECT_NE(errorsOf("translate(1, 0, 0, rows { point_light { position = (1, 1, 1); color = (1, 1, 1); } })")
+                .find("belongs to the top of a file"),
+            std::string::npos);
+  EXPECT_EQ(errorsOf("rows { count = (2.5, 1, 1); sphere { } }"),
+            "2:1: rows: expected whole numbers of copies, at least 1, found 2.5");
+  EXPECT_NE(errorsOf("rows { count = (2000, 2000, 1); sphere { } }").find("are more than 2000000 objects"),
+            std::string::npos);
+  EXPECT_EQ(warningsOf("rows { count = (2, 1, 1); }"), "2:1: rows without objects are empty");
+}
+
+TEST(RayFormat, ReadsTheSpotLightsOfStudents) {
+  const auto spot = [](const std::string& fields) {
+    const Loaded loaded =
+        load("spot_light { position = (0, 4, 0); direction = (0, -1, 0); colour = (1, 1, 1); " + fields +
+             " } sphere { }");
+    EXPECT_TRUE(loaded.warnings.empty()) << fields << ": " << loaded.warnings.front().what;
+    return std::get<SpotLight>(loaded.scene.lights.at(0).light);
+  };
+  // Half of Blender's angle; what fades is a part of the cone, measured along its axis.
+  const SpotLight blender = spot("size = 70; blend = 0.4;");
+  EXPECT_EQ(blender.angle, 35);
+  const Real edge = std::cos(35 * kPi / 180);
+  EXPECT_NEAR(std::cos(blender.fullAngle * kPi / 180), edge + 0.4 * (1 - edge), 1e-12);
+  EXPECT_EQ(spot("blend = 0; size = 160;").fullAngle, 80) << "nothing fades";
+  EXPECT_EQ(spot("edgeplace = (30, 0, 0);").angle, 30);
+  EXPECT_EQ(spot("edgeplace = (60, 0, 0);").fullAngle, 60);
+  EXPECT_EQ(spot("edgeplace = 20;").angle, 20);
+  EXPECT_EQ(spot("angle = 30;").angle, 30);
+  EXPECT_EQ(spot("atten_angle = 25; fall_rate = 3;").angle, 25);
+  EXPECT_EQ(spot("atten_angle = 25; fall_rate = 3;").exponent, 3);
+}
+
+TEST(RayFormat, ReadsAndWritesLinksAndFlaps) {
+  const std::string text =
+      "warn_light { position = (0, 4, 0); direction = (0, -1, 0); color = (1, 1, 1); exponent = 8; x_min = "
+      "-2; "
+      "z_max = 0.5; name = \"key light\"; lights = (\"ball\", floor); excludes = (\"wall\"); }\n"
+      "sphere { name = \"ball\"; }";
+  const Loaded loaded = load(text);
+  EXPECT_EQ(loaded.warnings.size(), 0u);
+  const LightSource& source = loaded.scene.lights.at(0);
+  const auto& light = std::get<WarnLight>(source.light);
+  EXPECT_EQ(light.xMin, -2);
+  EXPECT_EQ(light.xMax, kInfinity);
+  EXPECT_EQ(source.links.name, "key light");
+  EXPECT_EQ(source.links.lights, (std::vector<std::string>{"ball", "floor"}));
+  EXPECT_EQ(source.links.excludes, (std::vector<std::string>{"wall"}));
+  Messages messages;
+  const Scene back =
+      readScene("back.ray", writeRay(loaded.scene, "back.ray", {}, messages).front().bytes, messages);
+  EXPECT_EQ(back.lights.at(0).light, source.light);
+  EXPECT_EQ(back.lights.at(0).links, source.links);
+}
+
 // --- what is not rendered, and what is unknown --------------------------------------------------------
 
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
-      "warn_light { position = (0, 0, 1); }\nwarn_light { }\n"
+      "shape_light { position = (0, 0, 1); }\nshape_light { }\n"
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
       "sphere { material = { normal_map = \"b.png\"; diffuse = meteorite { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(
       warningsOf(text),
-      "2:1: \"warn_light\" is not rendered yet (2 times, first here)\n"
+      "2:1: \"shape_light\" is not rendered yet (2 times, first here) [Trace has warn_light { }, with a cone "
+      "and flaps, and projector_light { }, with a picture]\n"
       "4:20: \"metaball\" is not rendered yet [Trace has metaballs { threshold = 0.5; balls = ((x, y, z, "
       "radius, strength), ...); }]\n"
       "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
@@ -572,8 +663,8 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "6:23: \"normal_map\" is not rendered yet\n"
       "6:55: \"meteorite\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
-  EXPECT_EQ(loaded.scene.unrendered[0].kind, "warn_light");
-  EXPECT_EQ(loaded.scene.unrendered[0].text, "warn_light { position = (0, 0, 1); }");
+  EXPECT_EQ(loaded.scene.unrendered[0].kind, "shape_light");
+  EXPECT_EQ(loaded.scene.unrendered[0].text, "shape_light { position = (0, 0, 1); }");
   EXPECT_EQ(loaded.scene.unrendered[0].place.line, 2);
   EXPECT_EQ(loaded.scene.unrendered[2].text,
             "transform((1, 0, 0, 1), (0, 1, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1),\nmetaball { a = 1; })");

@@ -70,5 +70,129 @@ TEST(Light, WithoutASizeItIsWhereItWas) {
   EXPECT_EQ(light.illuminate({}, {}, {0.1, 0.9})->toLight, light.illuminate({}, {}, {0.7, 0.3})->toLight);
 }
 
+// --- Warn's light -------------------------------------------------------------------------------------
+
+TEST(WarnLight, ItsLobeIsAPowerOfTheCosine) {
+  for (const Real exponent : {0.0, 1.0, 2.5, 40.0}) {
+    const WarnLight light{
+        .position = {1, 2, 3}, .direction = {0, 0, -2}, .color = Color(1), .exponent = exponent};
+    const auto at = [&](const Vec3& d) {
+      const auto arriving = light.illuminate(light.position + d * 2, {});
+      return arriving ? arriving->intensity().g : 0;
+    };
+    for (const Real off : {0.0, 0.3, 1.0, 1.5})
+      EXPECT_NEAR(at({std::sin(off), 0, -std::cos(off)}), std::pow(std::cos(off), exponent), 1e-12);
+    EXPECT_EQ(at({0, 0, 1}), 0) << "behind it";
+    // Over the sphere it is 2 pi / (exponent + 1).
+    constexpr int kRows = 20000;
+    Real power = 0;
+    for (int i = 0; i < kRows; ++i) {
+      const Real z = (i + 0.5) / kRows;
+      power += at({std::sqrt(1 - z * z), 0, -z}) * 2 * kPi / kRows;
+    }
+    EXPECT_NEAR(power, 2 * kPi / (exponent + 1), 1e-6) << exponent;
+  }
+}
+
+TEST(WarnLight, FlapsAreHalfSpacesAndTheConeIsSharp) {
+  WarnLight light{.position = {0, 5, 0}, .direction = {0, -1, 0}, .color = Color(1), .exponent = 0};
+  light.xMin = -1, light.xMax = 0.5, light.zMax = 2;
+  const auto lit = [&](const Vec3& p) { return light.illuminate(p, {}).has_value(); };
+  const auto next = [](Real x) { return std::nextafter(x, kInfinity); };
+  const auto before = [](Real x) { return std::nextafter(x, -kInfinity); };
+  for (const Real z : {-3.0, 0.0, 2.0}) {
+    EXPECT_TRUE(lit({0.5, 0, z}) && lit({-1, 0, z}));
+    EXPECT_FALSE(lit({next(0.5), 0, z}) || lit({before(-1), 0, z}));
+  }
+  EXPECT_FALSE(lit({0, 0, next(2)}));
+  EXPECT_TRUE(lit({0, 0, -100})) << "no flap there";
+  light = {.position = {0, 5, 0}, .direction = {0, -1, 0}, .color = Color(1), .exponent = 3, .angle = 30};
+  const auto at = [&](Real degrees) { return Vec3{std::tan(degrees * kPi / 180), 4, 0}; };
+  EXPECT_TRUE(light.illuminate(at(29.999), {}));
+  EXPECT_NEAR(light.illuminate(at(29.999), {})->intensity().r, std::pow(std::cos(kPi / 6), 3), 1e-4);
+  EXPECT_FALSE(light.illuminate(at(30.001), {}));
+}
+
+// --- the projector ------------------------------------------------------------------------------------
+
+/// Four texels: red, green above blue, white.
+std::shared_ptr<const MipMap> slide() {
+  Picture picture(2, 2);
+  picture.at(0, 0) = {1, 0, 0}, picture.at(1, 0) = {0, 1, 0};
+  picture.at(0, 1) = {0, 0, 1}, picture.at(1, 1) = Color(1);
+  return std::make_shared<const MipMap>(picture);
+}
+
+TEST(Projector, ThrowsItsPictureUprightAndTheRightWayRound) {
+  ProjectorLight light{.position = {0, 0, 5}, .direction = {0, 0, -1}, .color = Color(2)};
+  light.file.map = slide();
+  light.filter = TexelFilter::nearest;
+  light.fov = 90;
+  const auto at = [&](Real x, Real y) {
+    const auto arriving = light.illuminate({x, y, 0}, {});
+    return arriving ? arriving->intensity() : Color(-1);
+  };
+  // As seen from the projector, which looks along -z with x to the right.
+  EXPECT_EQ(at(-2, 2), Color(2, 0, 0));
+  EXPECT_EQ(at(2, 2), Color(0, 2, 0));
+  EXPECT_EQ(at(-2, -2), Color(0, 0, 2));
+  EXPECT_EQ(at(2, -2), Color(2));
+  EXPECT_EQ(at(4.99, 4.99), Color(0, 2, 0)) << "it is 10 wide and high there";
+  EXPECT_EQ(at(5.01, 0), Color(-1));
+  EXPECT_EQ(at(0, -5.01), Color(-1));
+  EXPECT_FALSE(light.illuminate({0, 0, 6}, {})) << "behind it";
+  light.aspectRatio = 0.5;
+  EXPECT_EQ(at(2.51, 0), Color(-1));
+  EXPECT_EQ(at(2.49, 1), Color(0, 2, 0));
+  light.filter = TexelFilter::bilinear;
+  EXPECT_NEAR(at(0, 0).r, 2 * 0.5, 1e-12) << "the mean of four texels";
+  EXPECT_NEAR(at(0, 0).g, 2 * 0.5, 1e-12);
+  light.filter = TexelFilter::trilinear;
+  light.blur = 1;
+  EXPECT_NEAR(at(-1, 3).r, 2 * 0.5, 1e-9) << "all of it is blurred into one";
+}
+
+TEST(Projector, NumbersOfSrgbBecomeLinear) {
+  Picture grey(1, 1);
+  grey.at(0, 0) = Color(0.5);
+  ProjectorLight light{.position = {0, 0, 5}, .direction = {0, 0, -1}, .color = Color(1)};
+  light.file.map = std::make_shared<const MipMap>(grey);
+  EXPECT_NEAR(light.illuminate({}, {})->intensity().g, 0.5, 1e-6);
+  light.srgb = true;
+  EXPECT_NEAR(light.illuminate({}, {})->intensity().g, 0.2140, 1e-3);
+}
+
+// --- lights that are seen -----------------------------------------------------------------------------
+
+TEST(Light, WhatIsSeenOfItIsWhatLights) {
+  RectangleLight panel{.position = {0.2, 0, 3}, .u = {2, 0, 0}, .v = {0.5, -1, 0}, .color = Color(3)};
+  PointLight ball{.position = {0.3, 0.2, 3}, .color = Color(5)};
+  ball.radius = 0.5;
+  const auto check = [](auto light) {
+    EXPECT_FALSE(light.seen(Ray{{}, {0, 0, 1}}, {})) << "not asked for";
+    light.visible = true;
+    // The mean over directions of the radiance that is seen, by the cosine, is what a white surface gives
+    // back.
+    constexpr int kSide = 1500;
+    Real seen = 0;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        const Vec2 disk{2 * (i + 0.5) / kSide - 1, 2 * (j + 0.5) / kSide - 1};
+        const Real r2 = disk.x * disk.x + disk.y * disk.y;
+        if (r2 >= 1) continue;
+        const Vec3 d{disk.x, disk.y, std::sqrt(1 - r2)};
+        if (const auto met = light.seen(Ray{{}, d}, {})) seen += met->color.g * 4 / (kPi * kSide * kSide);
+      }
+    const Real lights = given(light, {0, 0, 1});
+    EXPECT_NEAR(seen, lights, 0.002 * lights);
+  };
+  check(panel);
+  check(ball);
+  panel.visible = true;
+  EXPECT_FALSE(panel.seen(Ray{{0, 0, 6}, {0, 0, -1}}, {})) << "from behind";
+  panel.twoSided = true;
+  EXPECT_EQ(panel.seen(Ray{{0, 0, 6}, {0, 0, -1}}, {})->t, 3);
+}
+
 }  // namespace
 }  // namespace trace

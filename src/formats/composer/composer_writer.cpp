@@ -83,8 +83,32 @@ class Writer {
                            .position = light.position,
                            .color = light.color * (length(across) / kPi)});
   }
+  void add(const WarnLight& light) {
+    fading(light);
+    if (light.open() != WarnLight{}.open()) warn("the flaps of lights are left out");
+    cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
+    lamp.color = light.color;
+    lamp.dropOffRate = light.exponent / kShininessScale;
+    lamp.cutOffAngle = light.angle * kPi / 180;
+    file_.lamps.push_back(lamp);
+  }
+  void add(const ProjectorLight& light) {
+    fading(light);
+    warn("projectors become spot lights without their pictures");
+    cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
+    lamp.color = light.color;
+    lamp.cutOffAngle = std::atan(std::hypot(light.half().x, light.half().y));
+    file_.lamps.push_back(lamp);
+  }
+  void add(const GoniometricLight& light) {
+    fading(light);
+    warn("lights with photometric files become points that shine to all sides");
+    file_.lamps.push_back({.kind = cf::Lamp::Kind::point, .position = light.position, .color = light.color});
+  }
   /// It is in the materials; see material().
   void add(const AmbientLight&) {}
+  /// It gives no light.
+  void add(const Portal&) {}
 
   template <class L>
   void fading(const L& light) {

@@ -5,7 +5,9 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "formats/ies.h"
 #include "formats/ray/ray_texture.h"
+#include "formats/textures.h"
 #include "image/codec.h"
 
 namespace trace::rayfile {
@@ -205,6 +207,29 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
     return false;
   }
 }
+
+bool read(Findings& findings, std::string_view name, const Item& value, PhotometryFile& to) {
+  std::string file;
+  if (!read(findings, name, value, file)) return false;
+  to = {file, nullptr, findings.syntax().shortPlace(value.offset())};
+  if (file.empty()) return true;
+  const std::string path = pictureFile(findings.syntax().file(), file);
+  try {
+    const std::string bytes = readBeside("", path, findings.scene().inputs);
+    Messages messages;
+    to.data = std::make_shared<const Photometry>(readIes(path, bytes, messages));
+    for (const Message& message : messages.all()) findings.warn(value, message.what, message.hint);
+    return true;
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    const Message& first = error.messages().front();
+    const std::string at = first.place.line > 0 ? placeText(first.place) + ": " : "";
+    findings.error(value, std::string(name) + ": " + at + first.what, first.hint);
+    return false;
+  }
+}
+
+std::string written(const PhotometryFile& value, int digits) { return written(value.file, digits); }
 
 std::string written(const Heights& value, int digits) { return written(value.file, digits); }
 

@@ -17,6 +17,7 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/lights/photometry.h"
 #include "shading/textures/formula.h"
 #include "shading/textures/image_map.h"
 
@@ -40,6 +41,8 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
 /// The name of a picture, which is read when the whole scene is.
 bool read(Findings& findings, std::string_view name, const Item& value, Pixels& to);
 bool read(Findings& findings, std::string_view name, const Item& value, FormulaText& to);
+/// The name of a photometric file beside the scene, which is read.
+bool read(Findings& findings, std::string_view name, const Item& value, PhotometryFile& to);
 
 /// What read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
@@ -51,6 +54,7 @@ std::string written(const std::string& value, int digits);
 std::string written(const Heights& value, int digits);
 std::string written(const Pixels& value, int digits);
 std::string written(const FormulaText& value, int digits);
+std::string written(const PhotometryFile& value, int digits);
 inline std::string written(const EnumValue& value, int) { return std::string(value.name()); }
 template <class Enum>
 requires std::is_enum_v<Enum> std::string written(Enum value, int digits) {

@@ -10,22 +10,24 @@ namespace trace::rayfile {
 namespace {
 
 /// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
-constexpr std::array<std::string_view, 23> kRelatives{
+constexpr std::array<std::string_view, 22> kRelatives{
     "bump",      "bump_mapping", "checkerboard", "csg",        "displace", "environment",
     "fog",       "hyperbolic",   "map",          "map_points", "marble",   "metaball",
     "meteorite", "noise",        "normal",       "normal_map", "obj_mesh", "shape_light",
-    "skybox",    "texture",      "warn_light",   "warn_model", "wood"};
+    "skybox",    "texture",      "warn_model",   "wood"};
 
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;
 
 /// What Trace has for words of others.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kInstead{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kInstead{{
     {"csg", "Trace has union, intersection and difference, as in difference { box { } sphere { } }"},
     {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
     {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
     {"obj_mesh", "Trace has mesh { file = \"name.obj\"; }"},
     {"displace", "Trace has displacement = texture(noise { }, 0.1) in the material of a mesh"},
+    {"shape_light",
+     "Trace has warn_light { }, with a cone and flaps, and projector_light { }, with a picture"},
     {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
 }};
 

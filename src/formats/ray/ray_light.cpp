@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "base/match.h"
 #include "base/text.h"
@@ -18,6 +20,51 @@ namespace {
 /// What students called a point light with a size, and that size.
 constexpr std::string_view kAreaLight = "area_light";
 constexpr std::array<std::string_view, 3> kRadius{"bottom_radius", "light_radius", "area"};
+
+/// What students called the fields of spot lights (docs/lights.md).
+class StudentSpot {
+ public:
+  /// Reads the field if it is one of these.
+  bool read(Findings& findings, const Item& item, SpotLight& light) {
+    const std::string_view key = item.key();
+    const auto number = [&](Real& to) { rayfile::read(findings, key, item.value(), to); };
+    if (key == "size") {
+      Real whole = 2 * light.angle;
+      number(whole);
+      light.angle = std::min(whole / 2, 180.0);
+    } else if (key == "edgeplace" && !item.value().is(Kind::number)) {
+      Vec3 edge{light.angle, 0, 0};
+      rayfile::read(findings, key, item.value(), edge);
+      light.angle = edge.x;
+    } else if (key == "edgeplace" || key == "atten_angle") {
+      number(light.angle);
+    } else if (key == "blend") {
+      number(blend_);
+      return true;
+    } else if (key == "fall_rate") {
+      number(light.exponent);
+      return true;
+    } else {
+      return false;
+    }
+    sharp_ = true;
+    return true;
+  }
+
+  /// What follows for the part that does not fade, if the light says nothing of it.
+  void settle(SpotLight& light) const {
+    // Blender's: the part of the cone that fades, measured along the axis.
+    const Real edge = std::cos(light.angle * kPi / 180), soft = std::clamp(blend_, 0.0, 1.0);
+    if (blend_ > 0)
+      light.fullAngle = std::acos(std::min(1.0, edge + (1 - edge) * soft)) * 180 / kPi;
+    else if (sharp_)
+      light.fullAngle = light.angle;
+  }
+
+ private:
+  Real blend_ = 0;
+  bool sharp_ = false;
+};
 
 /// Calls visit(a null pointer to the type) for the type of light with that keyword; false if none has
 /// it.
@@ -64,6 +111,8 @@ void read(Findings& findings, const Item& call) {
   const std::optional<Item> block = blockOf(findings, call);
   if (!block) return;
   L light;
+  LightLinks links;
+  StudentSpot spot;
   const std::size_t errors = findings.errors();
   std::vector<std::string_view> given;
   RepeatedFields repeats(findings, L::kKeyword);
@@ -76,8 +125,11 @@ void read(Findings& findings, const Item& call) {
         rayfile::read(findings, item.key(), item.value(), light.radius);
         continue;
       }
+    if constexpr (std::is_same_v<L, SpotLight>)
+      if (spot.read(findings, item, light)) continue;
+    if (assignField(findings, links, item)) continue;
     if (!assignField(findings, light, item)) {
-      findings.unknownField(L::kKeyword, item, keywords<L>({"colour"}));
+      findings.unknownField(L::kKeyword, item, keywords<L>({"colour", "name", "lights", "excludes"}));
       continue;
     }
     checkRange(findings, light, item);
@@ -89,12 +141,14 @@ void read(Findings& findings, const Item& call) {
   });
   if (findings.errors() != errors || !checkDirection(findings, call, light)) return;
   checkArea(findings, call, light);
-  if constexpr (requires { light.fullAngle; })
-    if (light.fullAngle > light.angle &&
-        std::find(given.begin(), given.end(), std::string_view("full_angle")) != given.end())
+  if constexpr (requires { light.fullAngle; }) {
+    const bool fullAngle = std::find(given.begin(), given.end(), "full_angle") != given.end();
+    if (!fullAngle) spot.settle(light);
+    if (light.fullAngle > light.angle && fullAngle)
       findings.warn(call, "spot_light: expected a full_angle of at most the angle, found " +
                               toText(light.fullAngle) + " and " + toText(light.angle));
-  findings.scene().lights.push_back({light, findings.syntax().shortPlace(call.offset())});
+  }
+  findings.scene().lights.push_back({light, findings.syntax().shortPlace(call.offset()), std::move(links)});
 }
 
 }  // namespace

@@ -16,14 +16,20 @@
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/julia.h"
 #include "scene/particles.h"
+#include "scene/rows.h"
 #include "shading/cameras/camera.h"
 
 namespace trace::rayfile {
 
 std::vector<std::string_view> knownWords() {
-  std::vector<std::string_view> words{
-      "trimesh",          "mesh", Camera::kKeyword, Material::kKeyword, Background::kKeyword, kSettings,
-      Particles::kKeyword};
+  std::vector<std::string_view> words{"trimesh",
+                                      "mesh",
+                                      Camera::kKeyword,
+                                      Material::kKeyword,
+                                      Background::kKeyword,
+                                      kSettings,
+                                      Particles::kKeyword,
+                                      Rows::kKeyword};
   for (const ShapeType& type : shapeTypes()) words.push_back(type.keyword);
   addLightWords(words);
   addTransformWords(words);
@@ -89,6 +95,7 @@ void ObjectReader::noObject(const Item& item) {
 void ObjectReader::otherNode(const Item& call, const Affine& worldFromObject) {
   const std::string_view key = call.key();
   if (key == Particles::kKeyword) return particles(call, worldFromObject);
+  if (key == Rows::kKeyword) return rows(call, worldFromObject);
   const bool topLevelOnly = isLight(key) || key == Camera::kKeyword || key == Background::kKeyword ||
                             key == kSettings || key == Material::kKeyword;
   if (topLevelOnly)

@@ -81,6 +81,8 @@ class ObjectReader {
            std::uint32_t material);
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.
   void particles(const Item& call, const Affine& worldFromObject);
+  /// Copies of the objects of the block.
+  void rows(const Item& call, const Affine& worldFromObject);
 
   const Syntax& syntax_;
   Real time_;

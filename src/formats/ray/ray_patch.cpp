@@ -203,7 +203,9 @@ class Patch {
   static bool sameButObjects(const Scene& is, const Scene& to) {
     return is.camera == to.camera && is.background == to.background && sameSettings(is, to) &&
            std::equal(is.lights.begin(), is.lights.end(), to.lights.begin(),
-                      [](const LightSource& a, const LightSource& b) { return a.light == b.light; });
+                      [](const LightSource& a, const LightSource& b) {
+                        return a.light == b.light && a.links == b.links;
+                      });
   }
 
   static void addMaterials(const Shape& shape, std::uint32_t material, std::set<std::uint32_t>& used) {

@@ -82,8 +82,9 @@ class Round {
     if (!call) return;
     const std::size_t* mine = find(wanted_.lights, index);
     if (!mine) return edits_.erase(*call);
-    const Light &was = from_.lights[index].light,
-                &is = to_.lights[static_cast<std::size_t>(mine - wanted_.lights.data())].light;
+    const LightSource& now = to_.lights[static_cast<std::size_t>(mine - wanted_.lights.data())];
+    const Light &was = from_.lights[index].light, &is = now.light;
+    changeFields(edits_, call->value(), from_.lights[index].links, now.links);
     if (was == is) return;
     match(was, [&]<class L>(const L& light) {
       if (const L* other = std::get_if<L>(&is))

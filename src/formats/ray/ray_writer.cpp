@@ -51,7 +51,7 @@ class Writer {
     writeSettings();
     writeCamera();
     writeBackground();
-    for (const LightSource& light : scene_.lights) writeLight(light.light);
+    for (const LightSource& light : scene_.lights) writeLight(light.light, light.links);
     for (const Object& object : scene_.objects) writeObject(object);
     writeUnrendered();
     return std::move(out_);
@@ -61,7 +61,7 @@ class Writer {
     return std::move(out_);
   }
   std::string write(const Light& light) {
-    writeLight(light);
+    writeLight(light, {});
     return std::move(out_);
   }
 
@@ -70,7 +70,7 @@ class Writer {
   template <class Value>
   void field(std::string_view keyword, const Value& value) {
     if constexpr (std::is_same_v<Value, Real>)
-      if (value == kNoLimit) return;
+      if (std::isinf(value)) return;
     out_ += "  " + std::string(keyword) + " = " + written(value, digits_) + ";\n";
   }
   template <class Struct>
@@ -147,10 +147,13 @@ class Writer {
     out_ += "}\n\n";
   }
 
-  void writeLight(const Light& light) {
+  void writeLight(const Light& light, const LightLinks& links) {
     match(light, [&](const auto& from) {
       out_ += std::string(from.kKeyword) + " {\n";
       fields(from);
+    });
+    forEachField<LightLinks>([&](const auto& f) {
+      if (!(links.*f.member).empty()) field(f.keyword, links.*f.member);
     });
     out_ += "}\n\n";
   }

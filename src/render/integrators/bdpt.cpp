@@ -246,9 +246,16 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
     const Real counts = share(0, t, others, sample);
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };
+  if (path.kind != RayKind::bounce)  // else the light was asked
+    if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
+      sum.add(*lamp);
+      seeMedia(lamp->seen.t);
+      sum.draw(path.ink);
+      return sum.radiance(inside.passed(lamp->seen.t));
+    }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
-      met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray.direction),
+      met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray),
           starts_.ofSky(ray.direction));
     seeMedia(kInfinity);
     sum.draw(path.ink);
@@ -335,6 +342,7 @@ void Bidirectional::askLights(Gather& sum, const Interaction& at, const Path& pa
   const Vec3 toEye = -at.ray.direction;
   const Vec3& from = at.hit.surface.point;
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
+    if (!world.lights(i, at.hit.object)) continue;
     const Vec2 place =
         world.lightHasSize(i) ? sampler.branch(static_cast<std::uint32_t>(i)).next2() : kCenter;
     auto arriving = world.illuminate(i, from, place);

@@ -80,11 +80,15 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  const auto lamp = path.kind == RayKind::bounce  // then the light was asked
+                        ? std::nullopt
+                        : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, hit ? hit->t : kInfinity, inside, onlyShines ? 0 : 1, path.weight,
+    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight,
                          numbers.branch(0));
     if (!media->places.empty()) {
       const auto counts = [&](const Color& weight) {
@@ -105,11 +109,16 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (media) coverWithMedia(sum, *media);
     sum.draw(path.ink);
   };
+  if (lamp) {
+    sum.add(*lamp);
+    seeMedia();
+    return sum.radiance(inside.passed(end));
+  }
   // Photons have brought what shines there.
   const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
-      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.direction) : 0);
+      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }

@@ -60,6 +60,12 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
                      const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
+    sum.add(*lamp);
+    seeMedia(sum, tracer, ray, lamp->seen.t, inside, sampler);
+    sum.draw(path.ink);
+    return sum.radiance(inside.passed(lamp->seen.t));
+  }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);

@@ -1,6 +1,7 @@
 // Cameras: what a scene says, what the options say, and the frame that turns places of the picture into rays.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 #include "geometry/ray.h"
 #include "math/vec.h"
 #include "math/warp.h"
+#include "shading/cameras/aperture.h"
 
 namespace trace {
 
@@ -47,14 +49,17 @@ enum class CameraAxes {
 /// A thin lens in place of a pinhole: all rays from one place of the plane in focus meet in one place of the
 /// picture (Cook, Porter and Carpenter, Distributed Ray Tracing, 1984).
 struct Lens {
-  Real radius = 0;  ///< 0: a pinhole
-  Real focus = 0;   ///< distance of that plane along the view; 0 until it is known
-  int blades = 0;   ///< corners of the opening; below 3 it is round
-  Real angle = 0;   ///< of its first corner from the right, radians
+  Real radius = 0;                            ///< 0: a pinhole
+  Real focus = 0;                             ///< distance of that plane along the view; 0 until it is known
+  int blades = 0;                             ///< corners of the opening; below 3 it is round
+  Real angle = 0;                             ///< of its first corner from the right, radians
+  std::shared_ptr<const Aperture> picture{};  ///< the opening's shape, if it has one of its own
+
+  bool operator==(const Lens&) const = default;
 
   /// A place of the opening.
   Vec2 at(const Vec2& u) const {
-    const Vec2 place = blades < 3 ? toDisk(u) : toPolygon(u, blades, angle);
+    const Vec2 place = picture ? picture->at(u) : blades < 3 ? toDisk(u) : toPolygon(u, blades, angle);
     return {place.x * radius, place.y * radius};
   }
 };

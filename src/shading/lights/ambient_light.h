@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
 
 namespace trace {
 
@@ -26,6 +27,7 @@ struct AmbientLight {
   std::optional<Illumination> illuminate(const Vec3&, const Rules&, const Vec2& = kCenter) const {
     return {};
   }
+  LightReach reach(const Rules&) const { return {}; }
 };
 
 }  // namespace trace

@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
 
 namespace trace {
 
@@ -34,6 +35,13 @@ struct DirectionalLight {
     Illumination arriving{normalize(-direction), kInfinity, color};
     if (size > 0) arriving.toLight = toCone(u, arriving.toLight, std::cos(size * kPi / 360));
     return arriving;
+  }
+  LightReach reach(const Rules&) const {
+    LightReach reach;
+    reach.axis = normalize(direction);
+    reach.power = strengthOf(color);
+    reach.everywhere = true;
+    return reach;
   }
 };
 

@@ -1,6 +1,10 @@
 // What arrives of a light at a point.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "math/color.h"
 #include "math/vec.h"
 #include "math/warp.h"
@@ -19,6 +23,35 @@ struct Illumination {
   /// What a surface gives back that scatters so.
   Color scattered(const Scatter& scatter) const {
     return intensity() * scatter.sum() + extraHighlight * attenuation * scatter.specular;
+  }
+};
+
+/// What is left, at that distance, of a light that has the three coefficients: 1 / (a + b d + c d^2).
+template <class L>
+Real faded(const L& light, Real distance, const Rules& rules) {
+  const Real attenuation =
+      1 / (light.constant + light.linear * distance + light.quadratic * distance * distance);
+  return rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation;
+}
+
+/// What arrives at p of a point at the light's position that shines evenly; nothing at that place itself.
+template <class L>
+std::optional<Illumination> fromPlace(const L& light, const Vec3& p, const Rules& rules) {
+  const Vec3 d = light.position - p;
+  const Real l = length(d);
+  if (!(l > 0)) return {};
+  return Illumination{d / l, l, light.color, faded(light, l, rules), {}};
+}
+
+/// Where a light is aimed: unit vectors, `up` as nearly upward as it can be.
+struct AimFrame {
+  Vec3 ahead, right, up;
+
+  AimFrame(const Vec3& direction, const Vec3& upward) : ahead(normalize(direction)) {
+    right = cross(ahead, upward);
+    const Real l = length(right);
+    right = l > 0 ? right / l : perpendicularTo(ahead);
+    up = cross(right, ahead);
   }
 };
 

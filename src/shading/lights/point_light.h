@@ -8,6 +8,8 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
+#include "shading/lights/light_seen.h"
 
 namespace trace {
 
@@ -21,30 +23,48 @@ struct PointLight {
   Real constant = 0, linear = 0, quadratic = 1;
   Color extraHighlight{};
   Real radius = 0;
+  bool visible = false;
 
   static constexpr auto fields() {
     return Fields{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-                  Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
-                  Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
-                  Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
-                  Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
-                  Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
-                        "added to color in highlights"},
-                  Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
-                        "of the ball that shines; more than 0 makes shadows soft"}};
+                      Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
+                      Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
+                      Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
+                      Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
+                      Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
+                            "added to color in highlights"},
+                      Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
+                            "of the ball that shines; more than 0 makes shadows soft"},
+                      Field{"visible", &PointLight::visible, "", 0, 1,
+                            "the ball is seen, in mirrors and through glass, too"}};
   }
   bool operator==(const PointLight&) const = default;
   bool hasSize() const { return radius > 0; }
 
   std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules, const Vec2& u = kCenter) const {
-    const Vec3 d = position - p;
-    const Real l = length(d);
-    if (!(l > 0)) return {};
-    const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
-    Illumination arriving{d / l, l, color, rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation,
-                          extraHighlight};
-    towardBall(arriving, radius, u);
+    std::optional<Illumination> arriving = fromPlace(*this, p, rules);
+    if (!arriving) return {};
+    arriving->extraHighlight = extraHighlight;
+    towardBall(*arriving, radius, u);
     return arriving;
+  }
+  LightReach reach(const Rules& rules) const {
+    LightReach reach = reachOfLamp(*this, rules);
+    reach.power = max(strengthOf(color), strengthOf(color + extraHighlight));
+    return reach;
+  }
+
+  /// A ray from outside that meets the ball sees what lights a surface there as the whole light does.
+  std::optional<LightSeen> seen(const Ray& ray, const Rules& rules) const {
+    if (!visible || !(radius > 0)) return {};
+    const Vec3 toMiddle = position - ray.origin;
+    const Real away2 = dot(toMiddle, toMiddle), radius2 = radius * radius;
+    if (!(away2 > radius2)) return {};
+    const Real along = dot(toMiddle, ray.direction), off2 = away2 - along * along;
+    if (!(along > 0) || off2 > radius2) return {};
+    const Real sine2 = radius2 / away2, solidAngle = 2 * kPi * sine2 / (1 + std::sqrt(1 - sine2));
+    return LightSeen{along - std::sqrt(radius2 - off2),
+                     color * (faded(*this, std::sqrt(away2), rules) * kPi / solidAngle)};
   }
 };
 

@@ -8,6 +8,9 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
+#include "shading/lights/light_seen.h"
+#include "shading/lights/panel.h"
 
 namespace trace {
 
@@ -20,7 +23,7 @@ struct RectangleLight {
   Vec3 position{};
   Vec3 u{1, 0, 0}, v{0, 1, 0};
   Color color{};
-  bool round = false, twoSided = false;
+  bool round = false, twoSided = false, visible = false;
 
   static constexpr auto fields() {
     return Fields{
@@ -30,7 +33,9 @@ struct RectangleLight {
         Field{"u", &RectangleLight::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
         Field{"v", &RectangleLight::v, "", -kNoLimit, kNoLimit, "along the other; it shines toward u x v"},
         Field{"round", &RectangleLight::round, "", 0, 1, "only the ellipse in the rectangle shines"},
-        Field{"two_sided", &RectangleLight::twoSided, "", 0, 1, "it shines to both sides"}};
+        Field{"two_sided", &RectangleLight::twoSided, "", 0, 1, "it shines to both sides"},
+        Field{"visible", &RectangleLight::visible, "", 0, 1,
+              "it is seen where it shines, in mirrors and through glass, too"}};
   }
   bool operator==(const RectangleLight&) const = default;
   bool hasSize() const { return true; }
@@ -38,9 +43,7 @@ struct RectangleLight {
   /// E = the integral of color / pi over the light's solid angle, by one place of it, chosen evenly over its
   /// area.
   std::optional<Illumination> illuminate(const Vec3& p, const Rules&, const Vec2& chosen = kCenter) const {
-    const Vec2 disk = toDisk(chosen);
-    const Vec2 at = round ? Vec2{disk.x / 2, disk.y / 2} : Vec2{chosen.x - 0.5, chosen.y - 0.5};
-    const Vec3 d = position + u * at.x + v * at.y - p, across = cross(u, v);
+    const Vec3 d = placeOn(*this, chosen) - p, across = cross(u, v);
     const Real l = length(d);
     if (!(l > 0)) return {};
     // The cosine at the light times its area; of an ellipse pi / 4 of the rectangle's.
@@ -48,6 +51,26 @@ struct RectangleLight {
     if (twoSided) facing = std::abs(facing);
     if (!(facing > 0)) return {};
     return Illumination{d / l, l, color, facing * (round ? kPi / 4 : 1) / (kPi * l * l), {}};
+  }
+  LightReach reach(const Rules&) const {
+    LightReach reach;
+    for (const Real x : {-0.5, 0.5})
+      for (const Real y : {-0.5, 0.5}) reach.box.extend(position + u * x + v * y);
+    const Vec3 across = cross(u, v);
+    const Real area = length(across);
+    if (!(area > 0)) return reach;  // it is dark
+    reach.axis = across / area;
+    reach.around = 0;
+    reach.beyond = kPi / 2;
+    reach.twoSided = twoSided;
+    reach.power = strengthOf(color) * area * (round ? kPi / 4 : 1) / kPi;
+    return reach;
+  }
+
+  std::optional<LightSeen> seen(const Ray& ray, const Rules&) const {
+    if (!visible || !(twoSided || dot(ray.direction, cross(u, v)) < 0)) return {};
+    const std::optional<Real> t = meetsPanel(*this, ray);
+    return t ? std::optional(LightSeen{*t, color}) : std::nullopt;
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
 
 namespace trace {
 
@@ -44,19 +45,22 @@ struct SpotLight {
   bool hasSize() const { return radius > 0; }
 
   std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules, const Vec2& u = kCenter) const {
-    const Vec3 d = position - p;
-    const Real l = length(d);
-    if (!(l > 0)) return {};
-    const Real cosine = std::clamp(-dot(d, normalize(direction)) / l, -1.0, 1.0);
+    std::optional<Illumination> arriving = fromPlace(*this, p, rules);
+    if (!arriving) return {};
+    const Real cosine = std::clamp(-dot(position - p, normalize(direction)) / arriving->distance, -1.0, 1.0);
     const Real off = std::acos(cosine) * 180 / kPi;
     if (off > angle) return {};
-    const Real attenuation = 1 / (constant + linear * l + quadratic * l * l);
-    Real factor = rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation;
+    Real& factor = arriving->attenuation;
     if (exponent > 0) factor *= std::pow(std::max(0.0, cosine), exponent);
     if (off > fullAngle) factor *= (angle - off) / (angle - fullAngle);
-    Illumination arriving{d / l, l, color, factor, {}};
-    towardBall(arriving, radius, u);
+    towardBall(*arriving, radius, u);
     return arriving;
+  }
+  LightReach reach(const Rules& rules) const {
+    LightReach reach = reachOfLamp(*this, rules);
+    reach.axis = normalize(direction);
+    reach.around = std::min(angle * kPi / 180, kPi);
+    return reach;
   }
 };
 

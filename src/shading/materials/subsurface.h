@@ -35,7 +35,7 @@ struct Subsurface : SurfaceFields {
   Spreading spreading = Spreading::diffusion;
 
   static constexpr auto fields() {
-    return after(
+    return Fields{
         Field{"scatters", &Subsurface::scatters, "per millimetre", 0, kNoLimit,
               "reduced scattering coefficient: how much light is turned round along a millimetre"},
         Field{"absorbs", &Subsurface::absorbs, "per millimetre", 0, kNoLimit,
@@ -46,7 +46,8 @@ struct Subsurface : SurfaceFields {
         Field{"roughness", &Subsurface::roughness, "", 0, 1,
               "of the surface, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
         Field{"spreading", &Subsurface::spreading, "", 0, kNoLimit,
-              "by what light spreads in the body: two profiles, or step by step"});
+              "by what light spreads in the body: two profiles, or step by step"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Subsurface&) const = default;
 

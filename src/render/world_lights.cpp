@@ -1,0 +1,58 @@
+// The lights of a World: which there are, what each lights, and which of them rays see.
+#include <algorithm>
+#include <set>
+
+#include "base/match.h"
+#include "render/world.h"
+
+namespace trace {
+namespace {
+
+/// Of each object whether the links name it; none where they name nothing.
+std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& objects) {
+  if (links.lights.empty() && links.excludes.empty()) return {};
+  const std::set<std::string_view> lights(links.lights.begin(), links.lights.end()),
+      excludes(links.excludes.begin(), links.excludes.end());
+  std::vector<bool> lit(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    lit[i] = (lights.empty() || lights.contains(objects[i].name)) && !excludes.contains(objects[i].name);
+  return lit;
+}
+
+}  // namespace
+
+void World::addLights(const Scene& scene, const Settings& settings) {
+  std::vector<LightReach> reaches;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const LightSource& source = scene.lights[i];
+    match(source.light,
+          Overloaded{[&](const AmbientLight& light) { ambient_ += light.color * settings.ambientScale; },
+                     [&](const Portal& portal) { portals_.push_back(portal); },
+                     [&](const auto& light) {
+                       if constexpr (requires { light.visible; })
+                         if (light.visible)
+                           visibleLights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+                       lights_.push_back(light);
+                       lightSources_.push_back(i);
+                       litObjects_.push_back(litBy(source.links, scene.objects));
+                       reaches.push_back(light.reach(rules_));
+                     }});
+  }
+  lightTree_ = std::make_shared<const LightTree>(reaches);
+}
+
+std::optional<World::Lamp> World::nearestLamp(const Ray& ray, Real t) const {
+  std::optional<Lamp> nearest;
+  for (const std::uint32_t number : visibleLights_) {
+    const auto seen = match(lights_[number], [&](const auto& light) -> std::optional<LightSeen> {
+      if constexpr (requires { light.seen(ray, rules_); }) return light.seen(ray, rules_);
+      return {};
+    });
+    if (!seen || !(seen->t < t)) continue;
+    t = seen->t;
+    nearest = Lamp{lightSources_[number], *seen};
+  }
+  return nearest;
+}
+
+}  // namespace trace

@@ -1,0 +1,108 @@
+// A slide projector: a picture, thrown from a point through a pyramid (Pharr, Jakob and Humphreys, Physically
+// Based Rendering, 4th edition, 2023, section 12.2.2).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/field.h"
+#include "shading/lights/illumination.h"
+#include "shading/lights/light_reach.h"
+#include "shading/textures/image_map.h"
+
+namespace trace {
+
+struct ProjectorLight {
+  static constexpr std::string_view kKeyword = "projector_light";
+  static constexpr std::string_view kHelp = "a picture thrown from a point, as by a slide projector";
+
+  Vec3 position{};
+  Vec3 direction{0, 0, -1};
+  Color color{};
+  Pixels file;
+  Vec3 up{0, 1, 0};
+  Real fov = 40;
+  Real aspectRatio = 0;
+  bool srgb = false;
+  TexelFilter filter = TexelFilter::bilinear;
+  Real blur = 0;
+  Real constant = 1, linear = 0, quadratic = 0;
+  Real radius = 0;
+
+  static constexpr auto fields() {
+    return Fields{
+        Field{"position", &ProjectorLight::position, "", -kNoLimit, kNoLimit, "where it is"},
+        Field{"direction", &ProjectorLight::direction, "", -kNoLimit, kNoLimit,
+              "to where the middle of the picture is thrown"},
+        Field{"color", &ProjectorLight::color, "", 0, kNoLimit, "the intensity of what is white"},
+        Field{"file", &ProjectorLight::file, "", -kNoLimit, kNoLimit,
+              "the picture; without one it throws a white frame"},
+        Field{"up", &ProjectorLight::up, "", -kNoLimit, kNoLimit, "where the picture's upper edge is"},
+        Field{"fov", &ProjectorLight::fov, "degrees", 0, 180, "vertical angle of the picture"},
+        Field{"aspectratio", &ProjectorLight::aspectRatio, "", 0, kNoLimit,
+              "width / height of what is thrown; 0 is that of the picture"},
+        Field{"srgb", &ProjectorLight::srgb, "", 0, 1,
+              "its numbers are sRGB and are made linear; otherwise they are taken as they are"},
+        Field{"filter", &ProjectorLight::filter, "", -kNoLimit, kNoLimit,
+              "how texels are mixed; trilinear and ewa take means over the blur"},
+        Field{"blur", &ProjectorLight::blur, "", 0, 1,
+              "how much it is out of focus: a part of the picture's height"},
+        Field{"constant_attenuation_coeff", &ProjectorLight::constant, "", 0, kNoLimit, "a"},
+        Field{"linear_attenuation_coeff", &ProjectorLight::linear, "", 0, kNoLimit, "b"},
+        Field{"quadratic_attenuation_coeff", &ProjectorLight::quadratic, "", 0, kNoLimit, "c"},
+        Field{"radius", &ProjectorLight::radius, "units", 0, kNoLimit,
+              "of the ball that shines; more than 0 makes shadows soft"}};
+  }
+  bool operator==(const ProjectorLight&) const = default;
+  bool hasSize() const { return radius > 0; }
+
+  /// Half the width and height of the picture at distance 1.
+  Vec2 half() const {
+    const Real high = std::tan(fov * kPi / 360);
+    const Real aspect = aspectRatio > 0 ? aspectRatio
+                        : file.map      ? static_cast<Real>(file.map->width()) / file.map->height()
+                                        : 1;
+    return {high * aspect, high};
+  }
+
+  std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules, const Vec2& u = kCenter) const {
+    std::optional<Illumination> arriving = fromPlace(*this, p, rules);
+    if (!arriving) return {};
+    const AimFrame aim(direction, up);
+    const Real ahead = -dot(arriving->toLight, aim.ahead);
+    if (!(ahead > 0)) return {};
+    const Vec2 half = this->half();
+    const Vec2 uv{0.5 - dot(arriving->toLight, aim.right) / (2 * half.x * ahead),
+                  0.5 - dot(arriving->toLight, aim.up) / (2 * half.y * ahead)};
+    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+    if (file.map) {
+      const Real across = blur * half.y / half.x;  // of the picture's width
+      const Texel texel = file.map->at(uv, {.u = Wrap::clamp,
+                                            .v = Wrap::clamp,
+                                            .filter = filter,
+                                            .srgb = srgb,
+                                            .uvX = {across, 0},
+                                            .uvY = {0, blur}});
+      arriving->color = arriving->color * (texel.color * texel.alpha);
+    }
+    towardBall(*arriving, radius, u);
+    return arriving;
+  }
+  LightReach reach(const Rules& rules) const {
+    LightReach reach = reachOfLamp(*this, rules);
+    reach.axis = normalize(direction);
+    reach.around = std::atan(std::hypot(half().x, half().y));
+    return reach;
+  }
+};
+
+/// Changes every picture of the light: change(Pixels&).
+template <class L, class Change>
+void changePixels(L& light, const Change& change) requires requires {
+  light.file.map;
+}
+{ change(light.file); }
+
+}  // namespace trace
