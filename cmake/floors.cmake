@@ -22,6 +22,12 @@ function(floor NAME)
   if(ARG_LIGHT)
     target_compile_options(${target} PRIVATE ${lightlyOptimised})
   endif()
+  if(NAME MATCHES "app|cli")  # LOCAL ONLY
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
+  if(NAME MATCHES "scene|shading|render|formats")  # LOCAL ONLY
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
   if(ARG_PRECOMPILE OR NAME STREQUAL base)
     precompile(${target} ${ARG_PRECOMPILE})
   else()

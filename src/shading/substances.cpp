@@ -81,26 +81,4 @@ constexpr std::array kTable{
 
 std::span<const Substance> substances() { return kTable; }
 
-std::optional<Material> libraryMaterial(std::string_view name) {
-  for (const Substance& substance : kTable) {
-    if (substance.name != name) continue;
-    Phong clear;
-    clear.specular = Color(0.5);
-    clear.shininess = 300;
-    clear.transmissive = Color(1);
-    clear.index = substance.index;
-    clear.dispersion = substance.dispersion;
-    clear.abbe = substance.abbe;
-    clear.attenuationColor = substance.color;
-    return Material{std::string(name), clear, {}};
-  }
-  return {};
-}
-
-std::vector<std::string_view> libraryNames() {
-  std::vector<std::string_view> names;
-  for (const Substance& substance : kTable) names.push_back(substance.name);
-  return names;
-}
-
 }  // namespace trace

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kInstead{
     {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
     {"obj_mesh", "Trace has mesh { file = \"name.obj\"; }"},
     {"displace", "Trace has displacement = texture(noise { }, 0.1) in the material of a mesh"},
-    {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
+    {"skybox", "Trace has settings { environment = \"folder\"; }, six pictures all around"},
 }};
 
 std::string_view insteadOf(std::string_view kind) {
