@@ -27,8 +27,9 @@ struct Case {
 };
 
 const std::vector<Case> kCases{
-    {"cornell.ray", "8", {{"path", 64}, {"mlt", 48}, {"photon", 32}}},
-    {"door.ray", "8", {{"path", 64}, {"mlt", 48}, {"photon", 32}}},
+    {"cornell.ray", "8", {{"path", 64}, {"bdpt", 24}, {"mlt", 48}, {"photon", 32}}},
+    {"door.ray", "8", {{"path", 64}, {"bdpt", 24}, {"mlt", 48}, {"photon", 32}}},
+    {"uplight.ray", "8", {{"path", 64}, {"bdpt", 24}, {"mlt", 48}, {"photon", 32}}},
 };
 
 struct Measured {

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session.h"
 #include "base/error.h"
 #include "scene/options.h"
 #include "scene/scene.h"

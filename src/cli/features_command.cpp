@@ -3,6 +3,7 @@
 
 #include "app/extensions.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/flags.h"
 #include "cli/help.h"
@@ -10,7 +11,9 @@
 #include "image/codec.h"
 #include "render/integrator.h"
 #include "render/passes.h"
+#include "shading/library.h"
 #include "shading/material.h"
+#include "shading/substances.h"
 
 namespace trace::cli {
 namespace {
@@ -40,6 +43,11 @@ std::string featuresText() {
   for (const PassRow& pass : passRows()) text += row(pass.name, pass.help);
   text += "shading models (material = { model = NAME; ... })\n";
   forEachType<MaterialModel>([&]<class Model>(Model*) { text += row(Model::kKeyword, Model::kHelp); });
+  text += "materials of the library (material = { library = NAME; })\n";
+  for (const Finish& finish : finishes())
+    text += row(finish.name, std::string(finish.group) + ", " + std::string(finish.looks));
+  for (const Substance& substance : substances())
+    text += row(substance.name, std::string(substance.group) + ", index " + toText(substance.index));
   text += "scene formats\n";
   for (const SceneFormat& format : sceneFormats())
     text += row(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));

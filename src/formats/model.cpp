@@ -16,10 +16,21 @@ namespace {
 
 bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+/// What only shines has its colour there.
+bool onlyShines(const Material& material) {
+  const Phong phong = phongOf(material.model);
+  return isBlack(phong.diffuse) && isBlack(phong.specular) && isBlack(phong.ambient) &&
+         !isBlack(phong.emissive);
+}
+
 /// A texture of the model's own material is multiplied by the colour; of one that the model only stands in,
 /// the colour takes the place of the texture.
 Material colored(const Material& base, const Color& color, bool keepTextures) {
   Material material = base;
+  if (onlyShines(base)) {
+    changeColors(material.model, {kEmissive}, [&](const Color&) { return color; });
+    return material;
+  }
   const auto own = {kDiffuse, kColor, kAmbient};
   changeColors(material.model, own, [&](const Color&) { return color; });
   std::erase_if(material.textures, [&](const FieldTexture& t) {

@@ -229,7 +229,7 @@ class Emitter {
     const Ray ray = place->leave(direction);
     auto hit = tracer_.cast(ray, RayKind::bounce, inside, hole());
     const Color power = whitted(*bsdf).emissive * (place->opacity * share / static_cast<Real>(source.count));
-    return Flight{ray, std::move(inside), std::move(hit), power, false, false};
+    return Flight{ray, std::move(inside), std::move(hit), power, false};
   }
 
   std::optional<Flight> fromSky(const Source& source) {
@@ -240,7 +240,7 @@ class Emitter {
     Interfaces inside = tracer_.interfacesAt(aim->ray.origin);
     auto hit = tracer_.cast(aim->ray, RayKind::bounce, inside, hole());
     const Color power = light * (aim->share / (sky.density * static_cast<Real>(source.count)));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, true, false};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, true};
   }
 
   void fly(Flight& flight, Landed& landed) {

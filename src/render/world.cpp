@@ -7,6 +7,7 @@
 
 #include "base/match.h"
 #include "geometry/mesh/mesh_closed.h"
+#include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 
@@ -267,6 +268,9 @@ Affine rounded(const Affine& m) {
   return Affine::translation(m.offset) * Affine::scaling({radius, radius, radius});
 }
 
+/// The shapes of the courses that their skeletons gave no texture coordinates.
+bool isRound(const Shape& shape) { return shape.is<Sphere>() || shape.is<Cylinder>() || shape.is<Cone>(); }
+
 TracedShape prepared(const Object& object, const MeshTrees& made) {
   try {
     return prepare(object.shape, made);
@@ -376,6 +380,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                round = settings.roundSpheres && object.shape.is<Sphere>();
     if (!flat)
       instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
+    instance.mapped = settings.roundMaps || !isRound(object.shape);
     instance.material = object.material;
     if (object.material >= world.surfaces_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");

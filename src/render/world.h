@@ -247,6 +247,7 @@ class World {
     bool convex = false;
     bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
+    bool mapped = true;  ///< pictures lie on it by u and v; else they show one corner
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
     Placement placement;

@@ -90,11 +90,12 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   const Affine& in = objects_[object].placement.inFromOut();
   TexturePlace place;
   place.point = in * surface.point;
-  place.uv = surface.uv;
+  const bool mapped = objects_[object].mapped;
+  if (mapped) place.uv = surface.uv;
   if (!arrived) return place;
   place.pointX = linear(in, arrived->originX);
   place.pointY = linear(in, arrived->originY);
-  if (!footprintsInUv_) return place;
+  if (!footprintsInUv_ || !mapped) return place;
   if (const auto& mesh = objects_[object].mesh) {  // with gradients in the space of the object
     const Gradients g = gradientsOf(mesh->data(), static_cast<std::uint32_t>(part));
     place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};

@@ -1018,6 +1018,12 @@ const std::array kTable{
          .help = "a sphere that its transform stretches is a ball of the mean radius, not an ellipsoid",
          .source = "University of Washington, 1998",
          .repeats = Repeats::world}),
+    row<&Settings::roundMaps>(
+        {.name = "round-maps",
+         .group = "Conventions",
+         .help = "pictures lie on spheres, cylinders and cones; off: those show its bottom left corner alone",
+         .source = "off in Austin, where it was left to the student",
+         .repeats = Repeats::world}),
     row<&Settings::cameraAxes>(
         {.name = "camera-axes",
          .group = "Conventions",

@@ -159,6 +159,7 @@ struct Settings {
   BackFaces backFaces = BackFaces::both;
   VertexNormals vertexNormals = VertexNormals::unit;
   bool roundSpheres = false;
+  bool roundMaps = true;
   CameraAxes cameraAxes = CameraAxes::orthonormal;
   PixelPosition pixelPosition = PixelPosition::corner;
   Tone tone = Tone::clamp;

@@ -101,36 +101,4 @@ constexpr std::array kTranslucents{
 std::span<const Substance> substances() { return kTable; }
 std::span<const Translucent> translucents() { return kTranslucents; }
 
-std::optional<Material> libraryMaterial(std::string_view name) {
-  for (const Substance& substance : kTable) {
-    if (substance.name != name) continue;
-    Phong clear;
-    clear.specular = Color(0.5);
-    clear.shininess = 300;
-    clear.transmissive = Color(1);
-    clear.index = substance.index;
-    clear.dispersion = substance.dispersion;
-    clear.abbe = substance.abbe;
-    clear.attenuationColor = substance.color;
-    return Material{std::string(name), clear, {}};
-  }
-  for (const Translucent& t : kTranslucents) {
-    if (t.name != name) continue;
-    Subsurface body;
-    body.scatters = t.scatters;
-    body.absorbs = t.absorbs;
-    body.index = t.index;
-    body.roughness = t.roughness;
-    return Material{std::string(name), body, {}};
-  }
-  return {};
-}
-
-std::vector<std::string_view> libraryNames() {
-  std::vector<std::string_view> names;
-  for (const Substance& substance : kTable) names.push_back(substance.name);
-  for (const Translucent& t : kTranslucents) names.push_back(t.name);
-  return names;
-}
-
 }  // namespace trace

@@ -1,12 +1,12 @@
-// THE table of substances: indices of refraction, and the materials that scenes may take by their names.
+// THE table of substances: indices of refraction of what light passes. shading/library.h makes materials of
+// them.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
-#include "shading/material.h"
+#include "math/color.h"
+#include "shading/dispersion.h"
 
 namespace trace {
 
@@ -35,10 +35,5 @@ struct Translucent {
 };
 
 std::span<const Translucent> translucents();
-
-/// The material of that name: translucent, or clear, polished, with a highlight. It mirrors as the rules say
-/// (--fresnel).
-std::optional<Material> libraryMaterial(std::string_view name);
-std::vector<std::string_view> libraryNames();
 
 }  // namespace trace

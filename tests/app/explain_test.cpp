@@ -19,14 +19,22 @@ namespace {
 
 bool sameBits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+/// Sums are held to the picture, however little light there is.
+constexpr const char* kFewPhotons = "2000";
+
 /// Renders a small picture and explains every sample of its pixels; returns the number of rays explained.
 std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int width) {
   choices.insert(choices.begin(), {"width", std::to_string(width), {}});
   choices.insert(choices.begin(), {"depth", "4", {}});
+  choices.insert(choices.begin(), {"photons", kFewPhotons, {}});
   std::optional<Session> opened(std::in_place);
   opened->open(file, choices);
   if (rowOf(opened->settings()).byChains) {  // whose pixels have no samples: the command explains path's
     choices.push_back({"integrator", "path", {}});
+    opened.emplace().open(file, choices);
+  }
+  if (opened->settings().caustics > 0) {
+    choices.push_back({"caustics", kFewPhotons, {}});
     opened.emplace().open(file, choices);
   }
   Session& session = *opened;
@@ -175,7 +183,8 @@ TEST(Explain, EveryOptionHasADrawing) {
     if (option.name == "width" || option.name == "height" || option.repeats < Repeats::picture) continue;
     for (const std::string& value : valuesOf(option)) {
       SCOPED_TRACE(std::string(option.name) + " = " + value);
-      const std::vector<Choice> choices{{"width", "40", {}}, {std::string(option.name), value, {}}};
+      const std::vector<Choice> choices{
+          {"width", "40", {}}, {"photons", kFewPhotons, {}}, {std::string(option.name), value, {}}};
       Session session;
       session.open(folder / "wide.ray", choices);
       session.build();

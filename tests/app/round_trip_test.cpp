@@ -21,6 +21,8 @@ namespace {
 Picture small(const Scene& scene) {
   Settings settings = resolve({scene.choices});
   settings.width = 24, settings.height = 0, settings.region = {}, settings.spp = 1, settings.depth = 2;
+  settings.photons = settings.chainStarts = 2000;  // what they bring depends on what was read all the same
+  if (settings.caustics > 0) settings.caustics = 2000;
   settings.passes = {};
   return test::picture(scene, settings);
 }

@@ -298,7 +298,7 @@ TEST(BrokenFiles, Composer) {
       {"a.out", composer("sphere { name \"texture=wood.png\" numMaterials 0 }"),
        "warning the texture \"wood.png\" cannot be read"},
       {"a.out", composer("sphere { name \"bump=dents.png\" numMaterials 0 }"),
-       "warning the texture \"dents.png\" is not rendered"},
+       "warning the texture \"dents.png\" cannot be read"},
       {"a.out", composer("sphere { name \"ior=banana\" numMaterials 0 }"),
        "warning expected a number, found \"banana\""},
       {"a.out", composer("sphere { name NULL\n numMaterials 0 radius 0 }"),

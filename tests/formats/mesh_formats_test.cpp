@@ -134,10 +134,30 @@ TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
   EXPECT_EQ(phong.transmissive, Color(0.25));
 }
 
+TEST(Obj, ColoursOfPointsMultiplyTheMaterial) {
+  const test::Folder folder;
+  writeFile(folder / "a.mtl", "newmtl m\nKd 0.5 1 1\n");
+  const auto read = [&](const std::string& text) {
+    Messages messages;
+    const Scene scene = readScene(folder / "a.obj", "mtllib a.mtl\nusemtl m\n" + text, messages);
+    EXPECT_TRUE(messages.all().empty()) << toString(messages.all().front());
+    return scene;
+  };
+  const auto diffuse = [](const Scene& scene, std::size_t point) {
+    return phongOf(scene.materials.at(meshOf(scene).materials.at(point)).model).diffuse;
+  };
+  const Scene scene = read("v 0 0 0 1 0 0\nv 1 0 0 1 0 1 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(diffuse(scene, 0), Color(0.5, 0, 0));
+  EXPECT_EQ(diffuse(scene, 1), Color(0, 1, 0)) << "after a weight";
+  EXPECT_EQ(diffuse(scene, 2), Color(0.5, 1, 1)) << "white";
+  EXPECT_EQ(diffuse(read("v 0 0 0 255 0 0\nv 1 0 0 0 0 255\nv 0 1 0 0 0 0\nf 1 2 3\n"), 1), Color(0, 0, 1));
+  EXPECT_TRUE(meshOf(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).materials.empty());
+}
+
 TEST(Obj, DoesWithoutItsMaterials) { EXPECT_EQ(read("obj/no_materials.obj", 1).objects.size(), 1u); }
 
 TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
-  const Scene scene = read("gltf/tetra.gltf", 1);
+  const Scene scene = read("gltf/tetra.gltf", 2);
   ASSERT_EQ(scene.objects.size(), 4u);
   EXPECT_EQ(scene.objects[0].name, "left");
   EXPECT_EQ(&meshOf(scene, 0), &meshOf(scene, 2)) << "one mesh, two nodes";
@@ -158,7 +178,8 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
   EXPECT_EQ(paint.name, "paint");
   EXPECT_EQ(paint.textures, pictureOn({"ambient", "color"}, "wood.png", true));
   EXPECT_EQ(std::get<Principled>(paint.model).color, Color(0.8, 0.4, 0.1)) << "it has a texture";
-  EXPECT_TRUE(isBlack(phongOf(scene, 1).diffuse)) << "a metal";
+  const auto& metal = std::get<Principled>(scene.materials.at(scene.objects[1].material).model);
+  EXPECT_EQ(metal.metallic, 1) << "its points have colours, which Phong's model would not show";
   EXPECT_EQ(meshOf(scene, 1).materials.size(), 4u);
 }
 
@@ -180,7 +201,7 @@ TEST(Gltf, SpotLightsHaveTheirCones) {
 }
 
 TEST(Gltf, BinaryAndTextAreTheSame) {
-  Scene text = read("gltf/tetra.gltf", 1), binary = read("gltf/tetra.glb", 1);
+  Scene text = read("gltf/tetra.gltf", 2), binary = read("gltf/tetra.glb", 2);
   ASSERT_EQ(text.objects.size(), binary.objects.size());
   for (std::size_t i = 0; i < text.objects.size(); ++i) {
     EXPECT_EQ(meshOf(text, i), meshOf(binary, i));

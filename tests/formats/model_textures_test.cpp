@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "geometry/mesh/mesh.h"
 #include "image/mipmap.h"
 #include "image/srgb.h"
+#include "shading/microfacet.h"
 #include "support/folder.h"
 
 namespace trace {
@@ -245,6 +247,198 @@ TEST(GltfTextures, IridescenceIsAFilm) {
   EXPECT_NE(glass.warnings().find("its iridescence is not rendered"), std::string::npos);
 }
 
+/// A material with that extension, whose base has the further properties.
+Read extended(const std::string& extension, const std::string& fields, const std::string& base = "",
+              const std::string& bytes = picture(), const std::string& also = "") {
+  return {"a.gltf", gltf("\"pbrMetallicRoughness\": {" + base + "}, \"extensions\": {\"" + extension +
+                             "\": {" + fields + "}" + also + "}",
+                         "\"source\": 0", "", bytes)};
+}
+const Principled& principledOf(const Read& read) { return std::get<Principled>(read.material().model); }
+
+TEST(GltfExtensions, ClearCoat) {
+  const Read read = extended("KHR_materials_clearcoat",
+                             R"("clearcoatFactor": 0.8, "clearcoatTexture": {"index": 0},
+"clearcoatRoughnessFactor": 0.3, "clearcoatRoughnessTexture": {"index": 0})");
+  EXPECT_EQ(read.warnings(), "");
+  EXPECT_EQ(principledOf(read).clearcoat, 0.8);
+  EXPECT_EQ(principledOf(read).clearcoatRoughness, 0.3);
+  EXPECT_EQ(read.at("clearcoat", kTopLeft), Color(1)) << "red";
+  EXPECT_EQ(read.at("clearcoat", kTopRight), Color(0));
+  EXPECT_EQ(read.at("clearcoat_roughness", kTopRight), Color(1)) << "green";
+  const Read bumpy =
+      extended("KHR_materials_clearcoat", R"("clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0})");
+  EXPECT_NE(bumpy.warnings().find("is not rendered yet"), std::string::npos);
+}
+
+TEST(GltfExtensions, Sheen) {
+  const Read read = extended("KHR_materials_sheen", R"("sheenColorFactor": [0.9, 0.5, 0.1],
+"sheenColorTexture": {"index": 0}, "sheenRoughnessFactor": 0.4, "sheenRoughnessTexture": {"index": 0})",
+                             "", picture(true));
+  EXPECT_EQ(principledOf(read).sheen, Color(0.9, 0.5, 0.1));
+  EXPECT_EQ(principledOf(read).sheenRoughness, 0.4);
+  expectUpright(read, "sheen");
+  EXPECT_EQ(read.at("sheen_roughness", kTopRight), Color(0)) << "its alpha";
+}
+
+TEST(GltfExtensions, AnisotropyDrawsTheHighlightOutAsFar) {
+  const Read read = extended("KHR_materials_anisotropy",
+                             R"("anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966)",
+                             "\"roughnessFactor\": 0.6");
+  EXPECT_NEAR(principledOf(read).angle, 90, 1e-9);
+  // By the extension: 0.6^2 across the tangent, and along it a quarter of the way from there to 1.
+  const Microfacets facets =
+      Microfacets::of(Distribution::ggx, principledOf(read).roughness, principledOf(read).anisotropy);
+  EXPECT_NEAR(facets.y, 0.36, 1e-9);
+  EXPECT_NEAR(facets.x, 0.36 + 0.64 * 0.25, 1e-9);
+}
+
+TEST(GltfExtensions, Specular) {
+  const Read read =
+      extended("KHR_materials_specular", R"("specularFactor": 0.5, "specularTexture": {"index": 0},
+"specularColorFactor": [1, 0.5, 0.2], "specularColorTexture": {"index": 0})",
+               "\"metallicFactor\": 0", picture(true));
+  EXPECT_EQ(principledOf(read).specularStrength, 0.5);
+  EXPECT_EQ(principledOf(read).specularColor, Color(1, 0.5, 0.2));
+  EXPECT_EQ(read.at("specular_strength", kTopRight), Color(0)) << "its alpha";
+  expectUpright(read, "specular_color");
+}
+
+TEST(GltfExtensions, SpecularGlossiness) {
+  const Read read = extended("KHR_materials_pbrSpecularGlossiness",
+                             R"("diffuseFactor": [0.5, 0.4, 0.3, 1], "diffuseTexture": {"index": 0},
+"specularFactor": [0.2, 0.1, 0.05], "glossinessFactor": 0.8, "specularGlossinessTexture": {"index": 0})",
+                             "", picture(true));
+  const Principled& model = principledOf(read);
+  EXPECT_EQ(model.metallic, 0);
+  EXPECT_EQ(model.color, Color(0.5, 0.4, 0.3));
+  EXPECT_NEAR(model.plasticMirrors().r, 0.2, 1e-12);
+  EXPECT_NEAR(model.plasticMirrors().b, 0.05, 1e-12);
+  expectUpright(read, "color");
+  expectUpright(read, "specular_color");
+  EXPECT_NEAR(model.roughness * read.at("roughness", kTopLeft).r, 0.2, 1e-12) << "1 - 0.8 times alpha 1";
+  EXPECT_NEAR(model.roughness * read.at("roughness", kTopRight).r, 1, 1e-12) << "alpha 0";
+}
+
+TEST(GltfExtensions, WhatAllLightPassesIsGlass) {
+  const std::string all = "\"transmissionFactor\": 1", red = R"("baseColorFactor": [1, 0.5, 0.2, 1],
+"metallicFactor": 0, "roughnessFactor": 0.3)";
+  const auto read = [&](const std::string& base, const std::string& also) {
+    return extended("KHR_materials_transmission", all, base, picture(), also);
+  };
+  const Read body = read(red, R"(, "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 0.5,
+"attenuationColor": [0.9, 0.8, 0.7]}, "KHR_materials_ior": {"ior": 1.7}, "KHR_materials_dispersion": {"dispersion": 0.5})");
+  EXPECT_EQ(body.warnings(), "");
+  const auto& glass = std::get<RoughGlass>(body.material().model);
+  EXPECT_EQ(glass.color, Color(1, 0.5, 0.2));
+  EXPECT_EQ(glass.roughness, 0.3);
+  EXPECT_EQ(glass.index, 1.7);
+  EXPECT_EQ(glass.attenuationColor, Color(0.9, 0.8, 0.7));
+  EXPECT_EQ(glass.attenuationDistance, 0.5);
+  EXPECT_EQ(glass.abbe, 40) << "20 by the dispersion";
+
+  const Read sheet = read("\"metallicFactor\": 0, \"roughnessFactor\": 0", "");
+  EXPECT_TRUE(std::holds_alternative<ThinGlass>(sheet.material().model));
+  const Read frosted = read(red, "");
+  EXPECT_EQ(std::get<Phong>(frosted.material().model).index, 1) << "a sheet does not bend light";
+}
+
+TEST(GltfExtensions, APictureSaysWhereLightPasses) {
+  const Read read =
+      extended("KHR_materials_transmission",
+               R"("transmissionFactor": 0.5, "transmissionTexture": {"index": 0})", "\"metallicFactor\": 0");
+  EXPECT_EQ(read.warnings(), "");
+  EXPECT_NEAR(read.phongAt(kTopLeft).transmissive.g, 0.5, 1e-12) << "red passes";
+  EXPECT_NEAR(read.phongAt(kTopLeft).diffuse.g, 0.5, 1e-12) << "the rest is scattered";
+  EXPECT_EQ(read.phongAt(kTopRight).transmissive, Color(0));
+  EXPECT_NEAR(read.phongAt(kTopRight).diffuse.g, 1, 1e-12);
+}
+
+TEST(GltfExtensions, UnlitShowsItsColourInAnyLight) {
+  const Read read = extended("KHR_materials_unlit", "", "\"baseColorTexture\": {\"index\": 0}");
+  EXPECT_EQ(read.warnings(), "");
+  expectUpright(read, "emissive");
+  const Phong phong = phongOf(read.material().model);
+  EXPECT_EQ(phong.emissive, kWhite);
+  EXPECT_TRUE(isBlack(phong.diffuse) && isBlack(phong.ambient) && isBlack(phong.specular));
+}
+
+TEST(GltfExtensions, MeshesWithoutCoordinatesShowOneCorner) {
+  std::string text = gltf(kBase);
+  text.replace(text.find("TEXCOORD_0"), 10, "TEXCOORD_1");
+  const Read read("a.gltf", text);
+  EXPECT_EQ(read.mesh().uvs, (std::vector<Vec2>{{0, 1}, {0, 1}, {0, 1}}));
+  EXPECT_NE(read.warnings().find("without the texture coordinates of their pictures"), std::string::npos);
+}
+
+/// A file of version 1: a triangle whose points and texture coordinates lie in turn, two meshes in one node,
+/// and a picture. In a binary one the bytes are its body.
+std::string gltf1(bool binary, const std::string& values = R"("diffuse": "paint", "shininess": 6)") {
+  const float numbers[] = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  std::string data(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  data += picture();
+  const std::string uri = "\"uri\": \"data:application/octet-stream;base64," + base64(data) + "\"";
+  const std::string bytes = std::to_string(data.size());
+  const std::string image =
+      binary ? R"("extensions": {"KHR_binary_glTF": {"bufferView": "pixels", "mimeType": "image/tga"}})"
+             : "\"uri\": \"data:image/png;base64," + base64(picture()) + "\"";
+  const std::string name = binary ? "binary_glTF" : "all";
+  std::string text =
+      R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["top"]}},
+"nodes": {"below": {"meshes": ["one", "two"], "translation": [1, 2, 3]}, "top": {"children": ["below"]}},
+"meshes": {"one": {"primitives": [{"attributes": {"POSITION": "p", "TEXCOORD_0": "t", "WEIGHT": "p"}, "material": "m"}]},
+"two": {"primitives": [{"attributes": {"POSITION": "p"}}]}},
+"accessors": {"p": {"bufferView": "v", "byteOffset": 0, "byteStride": 20, "componentType": 5126, "count": 3, "type": "VEC3"},
+"t": {"bufferView": "v", "byteOffset": 12, "byteStride": 20, "componentType": 5126, "count": 3, "type": "VEC2"}},
+"bufferViews": {"pixels": {"buffer": ")" +
+      name + R"(", "byteOffset": 60, "byteLength": )" + std::to_string(data.size() - 60) +
+      R"(}, "v": {"buffer": ")" + name + R"(", "byteLength": 60}}, "buffers": {")" + name +
+      "\": {\"byteLength\": " + bytes + (binary ? "" : ", " + uri) + R"(}}, "images": {"i": {)" + image +
+      R"(}}, "samplers": {"s": {"wrapS": 33071}}, "textures": {"paint": {"sampler": "s", "source": "i"}},
+"techniques": {"x": {}}, "materials": {"m": {"technique": "x", "values": {)" +
+      values + "}}}}";
+  if (!binary) return text;
+  const auto word = [](std::size_t n) {
+    std::string four;
+    for (int i = 0; i < 4; ++i) four += static_cast<char>(n >> 8 * i & 255);
+    return four;
+  };
+  return "glTF" + word(1) + word(20 + text.size() + data.size()) + word(text.size()) + word(0) + text + data;
+}
+
+TEST(GltfVersion1, IsReadAsVersion2) {
+  for (const bool binary : {false, true}) {
+    SCOPED_TRACE(binary);
+    const Read read("a.gltf", gltf1(binary));
+    EXPECT_EQ(read.warnings(), "");
+    ASSERT_EQ(read.scene.objects.size(), 2u) << "both meshes of the node";
+    EXPECT_EQ(read.scene.objects[0].worldFromObject.offset, (Vec3{1, 2, 3}));
+    EXPECT_EQ(read.mesh(0).points, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(read.mesh(0).uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {0, 0}}));
+    expectUpright(read, "color");
+    EXPECT_EQ(std::get<ImageMap>(read.texture("color")->model).wrapU, Wrap::clamp);
+    const auto& model = std::get<Principled>(read.material().model);
+    EXPECT_EQ(model.metallic, 0);
+    EXPECT_NEAR(std::pow(model.roughness, 4), 2.0 / (6 + 2), 1e-12)
+        << "a lobe as wide as that of the exponent";
+  }
+}
+
+TEST(GltfVersion1, ColoursAreShownAsTheyAre) {
+  const Read read("a.gltf", gltf1(false, R"("diffuse": [0.5, 1, 0, 0.25], "emission": [0.2, 0, 0, 1])"));
+  const auto& phong = std::get<Phong>(read.material().model);
+  EXPECT_NEAR(phong.diffuse.r, linearOfSrgb(0.5) * 0.25, 1e-12);
+  EXPECT_NEAR(phong.emissive.r, linearOfSrgb(0.2), 1e-12);
+  EXPECT_NEAR(phong.transmissive.g, 0.75, 1e-12);
+}
+
+TEST(GltfVersion1, NamesOfNothingAreErrors) {
+  std::string text = gltf1(false);
+  text.replace(text.find("\"one\", \"two\""), 12, "\"one\", \"tow\"");
+  EXPECT_THROW(Read("a.gltf", text), Error);
+  EXPECT_THROW(Read("a.gltf", gltf1(true).substr(0, 900)), Error) << "cut";
+}
+
 TEST(GltfTextures, BrokenOnesAreWarnings) {
   const std::string cut = picture().substr(0, 22);
   const Read read("a.gltf", gltf(kBase, "\"source\": 0", "", cut));
@@ -318,6 +512,30 @@ TEST_F(ObjTextures, TransparencyCutsHoles) {
   EXPECT_EQ(byMap.phongAt(kBottomRight).transmissive, Color(0));
   EXPECT_EQ(read("Kd 1 1 1\nNi 1.5\nmap_d a.tga").phongAt(kTopLeft).index, 1) << "a hole does not bend light";
   EXPECT_EQ(read("map_Kd a.tga").material().textures.size(), 1u) << "an opaque picture makes none";
+}
+
+TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
+  const Read numbers =
+      read("Kd 0.5 0.4 0.3\nPr 0.25\nPm 1\nPs 0.5\nPc 0.75\nPcr 0.125\naniso 0.5\nanisor 0.25\nd 0.5");
+  EXPECT_EQ(numbers.warnings(), "");
+  const auto& model = std::get<Principled>(numbers.material().model);
+  EXPECT_EQ(model.color, Color(Real(0.5f), Real(0.4f), Real(0.3f)));
+  EXPECT_EQ(model.roughness, 0.25);
+  EXPECT_EQ(model.metallic, 1);
+  EXPECT_EQ(model.sheen, Color(0.5));
+  EXPECT_EQ(model.clearcoat, 0.75);
+  EXPECT_EQ(model.clearcoatRoughness, 0.125);
+  EXPECT_EQ(model.anisotropy, 0.5);
+  EXPECT_EQ(model.angle, 90);
+  EXPECT_EQ(numbers.material().opacity, 0.5);
+  const Read maps = read("map_Kd a.tga\nmap_Pr a.tga\nmap_Pm -imfchan b a.tga", picture(true));
+  EXPECT_EQ(maps.warnings(), "");
+  expectUpright(maps, "color");
+  EXPECT_EQ(std::get<Principled>(maps.material().model).roughness, 1) << "where only the picture says it";
+  expectUpright(maps, "roughness");
+  EXPECT_EQ(maps.at("metallic", kBottomLeft), Color(1));
+  EXPECT_EQ(maps.at("opacity", kTopRight), Color(0)) << "its alpha";
+  EXPECT_NE(read("Pr 3").warnings().find("Pr: expected 0 to 1"), std::string::npos);
 }
 
 // --- PLY ----------------------------------------------------------------------------------------------

@@ -650,7 +650,7 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
   const char* text =
       "shape_light { position = (0, 0, 1); }\nshape_light { }\n"
       "translate(1, 2, 3, metaball { a = 1; })\ncsg(sphere{}, box{})\n"
-      "sphere { material = { normal_map = \"b.png\"; diffuse = meteorite { depth = 4 } } }";
+      "sphere { material = { environment = \"b.png\"; diffuse = meteorite { depth = 4 } } }";
   const Loaded loaded = load(text);
   EXPECT_EQ(
       warningsOf(text),
@@ -660,8 +660,8 @@ TEST(RayFormat, KeepsWhatItDoesNotRender) {
       "radius, strength), ...); }]\n"
       "5:1: \"csg\" is not rendered yet [Trace has union, intersection and difference, as in difference { "
       "box { } sphere { } }]\n"
-      "6:23: \"normal_map\" is not rendered yet\n"
-      "6:55: \"meteorite\" is not rendered yet");
+      "6:23: \"environment\" is not rendered yet\n"
+      "6:56: \"meteorite\" is not rendered yet");
   ASSERT_EQ(loaded.scene.unrendered.size(), 6u);
   EXPECT_EQ(loaded.scene.unrendered[0].kind, "shape_light");
   EXPECT_EQ(loaded.scene.unrendered[0].text, "shape_light { position = (0, 0, 1); }");

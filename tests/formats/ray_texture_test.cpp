@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/ray/ray_writer.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shapes/torus.h"
 #include "ray_helpers.h"
 
 namespace trace {
@@ -113,6 +115,27 @@ TEST(RayTexture, BendsNormalsByHeights) {
   const std::string written = writeRay(scene, "b.ray", {}, messages).at(0).bytes;
   EXPECT_EQ(readScene("b.ray", written, messages).materials, scene.materials) << written;
   EXPECT_NE(errorsOf("sphere { material = { bump = 0.5; } }"), "");
+}
+
+TEST(RayTexture, ReadsTheNormalMapsAndCoordinatesOfStudents) {
+  const Scene scene = load(
+                          "square { material = { normal = \"b.png\"; } }"
+                          "square { material = { normal_map = map(\"b.png\"); } }"
+                          "polymesh { points = ((0, 0, 0), (1, 0, 0), (0, 1, 0)); faces = ((0, 1, 2)); "
+                          "map_points = ((0, 0), (0.5, 0), (0, 0.5)); }"
+                          "torus { a = 2; b = 0.25; }")
+                          .scene;
+  for (const std::size_t i : {0u, 1u}) {
+    const Material& material = scene.materials.at(scene.objects.at(i).material);
+    const auto& map = std::get<ImageMap>(material.textures.at(0).texture->model);
+    EXPECT_EQ(material.textures.at(0).field, "bump");
+    EXPECT_EQ(map.relief, Relief::normals);
+    EXPECT_EQ(map.file.file, "b.png");
+    EXPECT_EQ(material.bump, 1);
+  }
+  EXPECT_EQ(scene.objects.at(2).shape.as<Mesh>()->data->uvs, (std::vector<Vec2>{{0, 0}, {0.5, 0}, {0, 0.5}}));
+  EXPECT_EQ(scene.objects.at(3).shape.as<Torus>()->majorRadius, 2);
+  EXPECT_EQ(scene.objects.at(3).shape.as<Torus>()->minorRadius, 0.25);
 }
 
 TEST(RayTexture, DisplacesMeshes) {

@@ -47,7 +47,6 @@ TEST(Hypothesis, ValuesOfOneKindAreSpreadEvenlyAndOthersAreNot) {
   };
   EXPECT_GT(kolmogorovSmirnov(drawn(0)), 0.01);
   EXPECT_LT(kolmogorovSmirnov(drawn(1)), 1e-4);
-  EXPECT_NEAR(kolmogorovSmirnov({0.5}), 1, 0.1);
   std::vector<double> even;
   for (int i = 0; i < 100; ++i) even.push_back((i + 0.5) / 100);
   EXPECT_GT(kolmogorovSmirnov(even), 0.99);

@@ -170,7 +170,7 @@ struct Way {
       const Differentials at = arrived(*first, ray.direction, hit.t, normal);
       const Footprint onward = glass ? refractedAt(world, hit, &at, ray.direction, out, normal, 1 / 1.5)
                                      : mirroredAt(world, hit, &at, ray.direction, normal);
-      last = arrived(*onward, out, t, wall);
+      last = arrived(*onward.get(), out, t, wall);
     }
     return hit.surface.point + out * t;
   }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "geometry/mesh/mesh.h"
+#include "geometry/shapes/cone.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/julia.h"
@@ -144,6 +145,28 @@ TEST(World, StretchedSpheresAreBallsOfTheMeanRadiusIfAsked) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->t, 20 - (3 + 3), 1e-14);
   EXPECT_EQ(world.bounds(), (Box3{{-2, -1, -3}, {4, 5, 6}}));  // the box is as it was
+}
+
+TEST(World, RoundShapesShowOneCornerOfAPictureWhereMapsLieOnFlatOnesOnly) {
+  Scene scene;
+  addObject(scene, Sphere{}, {}, {});
+  addObject(scene, Cylinder{}, Affine::translation({5, 0, 0}), {});
+  addObject(scene, Cone{}, Affine::translation({10, 0, 0}), {});
+  addObject(scene, Cube{}, Affine::translation({15, 0, 0}), {});
+  for (const bool onRound : {true, false}) {
+    const World world = build(scene, {.roundMaps = onRound});
+    Statistics statistics;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const Ray ray{{5.0 * i + 0.3, 0.2, 5}, {0, 0, -1}};
+      const auto found = world.closest(ray, Faces::both, statistics);
+      ASSERT_TRUE(found);
+      ASSERT_EQ(found->object, i);
+      const TexturePlace place = world.place(Hit(world, ray, *found));
+      const bool corner = place.uv.x == 0 && place.uv.y == 0;
+      EXPECT_EQ(corner, !onRound && i < 3) << i;
+      EXPECT_NEAR(place.point.x, 0.3, 1e-12) << "solid patterns stay";
+    }
+  }
 }
 
 TEST(World, AFractalSeenFromTenThousandUnitsDoesNotShadowItself) {

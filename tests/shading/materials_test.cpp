@@ -310,6 +310,28 @@ TEST(Materials, WhiteOnesVanishInAWhiteFurnace) {
   expectWhite(with<Lambert>([](Lambert& m) { m.diffuse = Color(1); }));
 }
 
+TEST(Materials, PrincipledPlasticMirrorsAsStronglyAndInTheColourSaid) {
+  const auto plastic = [](Real strength, const Color& tint, Real roughness = 0.4) {
+    return with<Principled>([&](Principled& m) {
+      m.color = Color(1), m.roughness = roughness;
+      m.specularStrength = strength, m.specularColor = tint;
+    });
+  };
+  const Vec3 eye = world(local(0.8, 0)), light = world(local(0.7, 2.8));
+  const Color none = evaluate(plastic(0, Color(1)), kFrame, eye, light),
+              half = evaluate(plastic(0.5, Color(1)), kFrame, eye, light),
+              whole = evaluate(plastic(1, Color(1)), kFrame, eye, light);
+  EXPECT_NEAR(none.g, 0.7 / kPi, 1e-12) << "Lambert";
+  EXPECT_NEAR(half.g, (none.g + whole.g) / 2, 1e-12);
+  for (const Real strength : {0.0, 0.5})
+    for (const Real cosine : {1.0, 0.4, 0.1})
+      EXPECT_NEAR(albedo(plastic(strength, Color(1)), world(local(cosine, 0.3))).g, 1, 0.01) << "a furnace";
+  // Along the normal 0.04 times the tint, and no more than all.
+  const Color along = mirrorWeight(plastic(1, {2, 0.5, 100}, 0), 1);
+  EXPECT_NEAR(along.g / along.r, 0.25, 1e-12);
+  EXPECT_NEAR(along.b / along.r, 1 / 0.08, 1e-9);
+}
+
 TEST(Materials, MetalsMirrorAsMeasured) {
   EXPECT_NEAR(fresnelConductor(1, 0.2, 3.9), 0.951952, 1e-6);
   const auto color = [](Metal metal) {

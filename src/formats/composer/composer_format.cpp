@@ -29,6 +29,7 @@ namespace cf = composer;
 
 constexpr std::string_view kMagic = "Composer format";
 constexpr Real kGlass = 1.5, kShininessScale = 128;
+constexpr Real kBumpHeight = 0.02;  // of white, in units of the object: its name says only which picture
 
 /// What an object's name says beside the name.
 struct Extras {
@@ -84,7 +85,6 @@ class Reader {
     scene_.lights.push_back({AmbientLight{Color(1)}, place()});
     scene_.choices.push_back({"like", "uw1998", place()});
     warnings_.report(messages_);
-    textures_.report(messages_);
     return std::move(scene_);
   }
 
@@ -182,6 +182,10 @@ class Reader {
     phong.index = extras.ior.value_or(kGlass);
     Material material{"", phong, {}};
     if (extras.texture) setTexture(material.textures, "diffuse", pictureTexture(*extras.texture));
+    if (extras.bump) {
+      setTexture(material.textures, "bump", pictureTexture(*extras.bump));
+      material.bump = kBumpHeight;
+    }
     scene_.materials.push_back(std::move(material));
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
@@ -193,10 +197,6 @@ class Reader {
     const auto first = static_cast<std::uint32_t>(scene_.materials.size());
     for (const cf::Material& m : object.materials) checkRanges(m, object.place);
     for (const cf::Material& m : object.materials) add(m, extras);
-    if (extras.bump) {
-      textures_.note(*extras.bump, object.place);
-      scene_.unrendered.push_back({"bump", object.place, "bump=" + *extras.bump});
-    }
     if (object.materials.empty()) add(cf::Material{}, extras);
     if (object.sphere)
       add(object, Sphere{}, sphere(*object.sphere), first);
@@ -282,7 +282,6 @@ class Reader {
   MeshRepairs repairs_;
   bool hasMeshes_ = false;
   WarningsByKind warnings_;
-  UnusedTextures textures_;
   Scene scene_;
 };
 

@@ -29,6 +29,14 @@ constexpr std::string_view kRead[] = {kLights,
                                       "KHR_materials_transmission",
                                       "KHR_materials_iridescence",
                                       "KHR_materials_emissive_strength",
+                                      "KHR_materials_clearcoat",
+                                      "KHR_materials_sheen",
+                                      "KHR_materials_anisotropy",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_volume",
+                                      "KHR_materials_dispersion",
+                                      "KHR_materials_unlit",
+                                      "KHR_materials_pbrSpecularGlossiness",
                                       "KHR_mesh_quantization",
                                       "KHR_texture_transform",
                                       "KHR_texture_basisu",
@@ -382,8 +390,11 @@ class GltfCheck {
       if (const double ior = e.value.value("ior", 1.5); ior > 0 && ior < 1)
         inRange(e, "ior", ior, 1, kNoLimit);
     });
-    extension(material, "KHR_materials_transmission",
-              [&](const Part& e) { number(e, "transmissionFactor", 0, 1); });
+    extension(material, "KHR_materials_transmission", [&](const Part& e) {
+      known(e, {"transmissionFactor", "transmissionTexture"});
+      number(e, "transmissionFactor", 0, 1);
+      texture(e, "transmissionTexture");
+    });
     extension(material, "KHR_materials_iridescence", [&](const Part& e) {
       known(e, {"iridescenceFactor", "iridescenceTexture", "iridescenceIor", "iridescenceThicknessMinimum",
                 "iridescenceThicknessMaximum", "iridescenceThicknessTexture"});
@@ -395,6 +406,56 @@ class GltfCheck {
     });
     extension(material, "KHR_materials_emissive_strength",
               [&](const Part& e) { number(e, "emissiveStrength", 0); });
+    checkLayers(material);
+    checkPassage(material);
+  }
+  void checkLayers(const Part& material) {
+    const auto textures = [&](const Part& e, std::initializer_list<const char*> keys) {
+      for (const char* key : keys) texture(e, key);
+    };
+    extension(material, "KHR_materials_clearcoat", [&](const Part& e) {
+      known(e, {"clearcoatFactor", "clearcoatTexture", "clearcoatRoughnessFactor",
+                "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
+      number(e, "clearcoatFactor", 0, 1);
+      number(e, "clearcoatRoughnessFactor", 0, 1);
+      textures(e, {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
+    });
+    extension(material, "KHR_materials_sheen", [&](const Part& e) {
+      known(e, {"sheenColorFactor", "sheenColorTexture", "sheenRoughnessFactor", "sheenRoughnessTexture"});
+      numbers(e, "sheenColorFactor", 3, 0, 1);
+      number(e, "sheenRoughnessFactor", 0, 1);
+      textures(e, {"sheenColorTexture", "sheenRoughnessTexture"});
+    });
+    extension(material, "KHR_materials_anisotropy", [&](const Part& e) {
+      known(e, {"anisotropyStrength", "anisotropyRotation", "anisotropyTexture"});
+      number(e, "anisotropyStrength", 0, 1);
+      number(e, "anisotropyRotation");
+      textures(e, {"anisotropyTexture"});
+    });
+    extension(material, "KHR_materials_specular", [&](const Part& e) {
+      known(e, {"specularFactor", "specularTexture", "specularColorFactor", "specularColorTexture"});
+      number(e, "specularFactor", 0, 1);
+      numbers(e, "specularColorFactor", 3, 0);
+      textures(e, {"specularTexture", "specularColorTexture"});
+    });
+    extension(material, "KHR_materials_pbrSpecularGlossiness", [&](const Part& e) {
+      known(e, {"diffuseFactor", "diffuseTexture", "specularFactor", "glossinessFactor",
+                "specularGlossinessTexture"});
+      numbers(e, "diffuseFactor", 4, 0, 1);
+      numbers(e, "specularFactor", 3, 0, 1);
+      number(e, "glossinessFactor", 0, 1);
+      textures(e, {"diffuseTexture", "specularGlossinessTexture"});
+    });
+  }
+  void checkPassage(const Part& material) {
+    extension(material, "KHR_materials_volume", [&](const Part& e) {
+      known(e, {"thicknessFactor", "thicknessTexture", "attenuationDistance", "attenuationColor"});
+      number(e, "thicknessFactor", 0);
+      number(e, "attenuationDistance", 0);
+      numbers(e, "attenuationColor", 3, 0, 1);
+      texture(e, "thicknessTexture");
+    });
+    extension(material, "KHR_materials_dispersion", [&](const Part& e) { number(e, "dispersion", 0); });
   }
   void texture(const Part& owner, std::string_view key) {
     object(owner, key, [&](const Part& info) {

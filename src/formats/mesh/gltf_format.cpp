@@ -1,6 +1,6 @@
-// The only file that knows tinygltf, which takes the JSON apart and finds the buffers. It trusts the file in
-// some places where a damaged one must not be trusted: checkGltf() looks at those first, and every index
-// and range is checked here. (Long, because no other file is to know the library.)
+// Nodes, meshes, lights and the camera of a glTF file. tinygltf takes the JSON apart and finds the buffers.
+// It trusts the file in some places where a damaged one must not be trusted: checkGltf() looks at those
+// first, and every index and range is checked here. Only this file and gltf_looks.cpp know the library.
 #include "formats/mesh/gltf_format.h"
 
 #include <algorithm>
@@ -21,18 +21,14 @@
 #include "formats/mesh/gltf_buffers.h"
 #include "formats/mesh/gltf_check.h"
 #include "formats/mesh/gltf_json.h"
+#include "formats/mesh/gltf_looks.h"
 #include "formats/mesh/gltf_material.h"
 #include "formats/mesh/gltf_tree.h"
-#include "formats/model_textures.h"
-#include "formats/textures.h"
+#include "formats/mesh/gltf_upgrade.h"
 #include "geometry/mesh/mesh.h"
 
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_FS
-#include <tiny_gltf.h>
+#include "formats/mesh/gltf_values.h"
 
 namespace trace {
 namespace {
@@ -55,7 +51,8 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
   const std::size_t json = littleInt(bytes, 12), end = 20 + json;
   if (littleInt(bytes, 8) > bytes.size() || end > bytes.size())
     fail("the file is shorter than its header says");
-  if (end + 8 <= bytes.size() && littleInt(bytes, end) > bytes.size() - end - 8)
+  const bool hasChunks = littleInt(bytes, 4) >= 2;  // before, the rest was the body
+  if (hasChunks && end + 8 <= bytes.size() && littleInt(bytes, end) > bytes.size() - end - 8)
     fail("the binary chunk is longer than the rest of the file");
   return bytes.substr(20, json);
 }
@@ -92,7 +89,13 @@ struct Files {
 
 tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place, InputFiles& inputs,
                       Messages& messages) {
-  const nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
+  nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
+  std::string upgraded;
+  if (isGltf1(json)) {
+    json = upgradedGltf(json, place);
+    upgraded = upgradedGltfFile(json, bytes);
+    bytes = upgraded;
+  }
   checkGltf(json, place, messages);
   checkGltfBuffers(json, place);
   checkGltfTree(json, place);
@@ -131,8 +134,6 @@ tinygltf::Model parse(const std::string& file, std::string_view bytes, const Pla
 }
 
 // --- numbers ----------------------------------------------------------------------------------------
-
-bool isIndex(int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; }
 
 /// The elements of an accessor, checked to lie inside their buffer.
 class Elements {
@@ -203,44 +204,6 @@ class Elements {
   bool normalized_ = false;
 };
 
-Color colorOf(const std::vector<double>& numbers, const Color& otherwise) {
-  return numbers.size() < 3 ? otherwise : Color{numbers[0], numbers[1], numbers[2]};
-}
-
-/// The number `name` of an extension, if the material or node has it.
-double extension(const tinygltf::ExtensionMap& all, const char* name, const char* field, double otherwise) {
-  const auto found = all.find(name);
-  if (found == all.end() || !found->second.IsObject() || !found->second.Has(field)) return otherwise;
-  const tinygltf::Value& value = found->second.Get(field);
-  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
-}
-
-/// "%20" as a blank, and so on (RFC 3986, section 2.1).
-std::string decodedUri(std::string_view uri) {
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
-  };
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool coded =
-        uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-    const int code = coded ? 16 * digit(uri[i + 1]) + digit(uri[i + 2]) : 0;
-    text += code > 0 ? static_cast<char>(code) : uri[i];
-    if (code > 0) i += 2;
-  }
-  return text;
-}
-
-/// The two numbers `field` of an extension, if the texture has it.
-Vec2 pairOf(const tinygltf::ExtensionMap& all, const char* name, const char* field, const Vec2& otherwise) {
-  const auto found = all.find(name);
-  if (found == all.end() || !found->second.IsObject() || !found->second.Has(field)) return otherwise;
-  const tinygltf::Value& list = found->second.Get(field);
-  if (!list.IsArray() || list.ArrayLen() < 2) return otherwise;
-  const tinygltf::Value &x = list.Get(0), &y = list.Get(1);
-  return x.IsNumber() && y.IsNumber() ? Vec2{x.GetNumberAsDouble(), y.GetNumberAsDouble()} : otherwise;
-}
-
 Affine transformOf(const tinygltf::Node& node) {
   Affine m;
   if (node.matrix.size() == 16) {  // column by column
@@ -269,24 +232,24 @@ class GltfReader {
   GltfReader(const std::string& file, std::string_view bytes, Messages& messages)
       : place_{file, 0, 0, {}},
         messages_(messages),
-        gltf_(parse(file, bytes, place_, model_.inputs, messages)) {
+        gltf_(parse(file, bytes, place_, model_.inputs, messages)),
+        looks_(gltf_, place_, messages) {
     for (const tinygltf::Image& image : gltf_.images)
       if (!image.uri.empty()) model_.inputs.noteNamed(besideFile(file, fileOf(image)));
   }
 
   Model read() {
-    for (const tinygltf::Material& material : gltf_.materials)
-      model_.materials.push_back(materialOf(material));
+    model_.materials = looks_.materials();
     for (const tinygltf::Buffer& buffer : gltf_.buffers) allowance_ += kMostUses * buffer.data.size();
     readNodes();
     for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     repairs_.report(place_, messages_);
-    textures_.report(messages_);
-    inside_.report(messages_);
+    looks_.report();
     const auto warn = [&](const char* what, std::size_t count) {
       if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
     };
     warn("points and lines are left out", lines_);
+    warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
     model_.choices.push_back({"transfer", "srgb", place_});  // its colours are linear light
@@ -498,11 +461,14 @@ class GltfReader {
 
   /// The origin of glTF's texture coordinates is at the top, of Trace's at the bottom.
   void readUvs(const tinygltf::Primitive& primitive, MeshData& mesh) {
-    const bool hasMaterial = isIndex(primitive.material, uvSets_.size());
-    const int set = hasMaterial ? uvSets_[static_cast<std::size_t>(primitive.material)] : 0;
-    const std::string name = "TEXCOORD_" + std::to_string(set);
+    const std::optional<int> set = looks_.uvSet(primitive.material);
+    const std::string name = "TEXCOORD_" + std::to_string(set.value_or(0));
     const auto found = primitive.attributes.find(name);
-    if (found == primitive.attributes.end()) return;
+    if (found == primitive.attributes.end()) {
+      if (!set) return;
+      ++withoutUvs_;
+      return mesh.uvs.assign(mesh.points.size(), {0, 1});
+    }
     const Elements from = elements(found->second);
     if (from.components() < 2 || from.count() != mesh.points.size())
       fail(name + ": expected one for each point");
@@ -514,201 +480,13 @@ class GltfReader {
   void readColors(const tinygltf::Primitive& primitive, MeshData& mesh) {
     const std::vector<Vec3f> colors = vectors(primitive, "COLOR_0", mesh.points.size());
     if (colors.empty()) return;
-    Color base = Color(1);
-    if (isIndex(primitive.material, gltf_.materials.size())) {
-      const MaterialModel& model = model_.materials[static_cast<std::size_t>(primitive.material)].model;
-      const auto* principled = std::get_if<Principled>(&model);
-      base = principled ? principled->color : std::get<Phong>(model).diffuse;
-    }
+    const bool hasMaterial = isIndex(primitive.material, gltf_.materials.size());
+    const Color base =
+        hasMaterial ? baseColorOf(model_.materials[static_cast<std::size_t>(primitive.material)]) : Color(1);
     for (const Vec3f& c : colors) {
       if (!std::isfinite(c.x + c.y + c.z)) fail("COLOR_0: expected finite numbers");
       mesh.materials.push_back(colors_.number(Vec3f(Vec3{c.x * base.r, c.y * base.g, c.z * base.b})));
     }
-  }
-
-  // --- materials ---
-
-  Material materialOf(const tinygltf::Material& from) {
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    const auto share = [](double x) { return x >= 0 ? std::min(x, 1.0) : 0.0; };
-    MetallicRoughness m;
-    m.baseColor = colorOf(pbr.baseColorFactor, Color(1));
-    m.emissive = colorOf(from.emissiveFactor, Color()) *
-                 extension(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-    if (pbr.baseColorFactor.size() == 4) m.opacity = share(pbr.baseColorFactor[3]);
-    m.alpha = from.alphaMode == "BLEND"  ? MetallicRoughness::Alpha::blend
-              : from.alphaMode == "MASK" ? MetallicRoughness::Alpha::mask
-                                         : MetallicRoughness::Alpha::opaque;
-    m.cutoff = from.alphaCutoff;
-    m.metallic = share(pbr.metallicFactor);
-    m.roughness = share(pbr.roughnessFactor);
-    m.transmission = share(extension(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0));
-    m.index = extension(from.extensions, "KHR_materials_ior", "ior", 1.5);
-    if (!(m.index > 0) || !std::isfinite(m.index)) m.index = 1.5;
-    readFilm(from, m);
-    if (!isFinite(m.baseColor) || !isFinite(m.emissive)) {
-      messages_.warn(place_, "material \"" + from.name + "\" has numbers that are not finite");
-      m.baseColor = Color(1);
-      m.emissive = Color();
-    }
-    readPictures(from, m);
-    Material material = toMaterial(from.name, m);
-    if (m.metallicRoughnessMap && std::holds_alternative<Phong>(material.model))
-      noteTexture(pbr.metallicRoughnessTexture.index);
-    if (m.iridescence > 0 && std::holds_alternative<Phong>(material.model))
-      messages_.warn(place_,
-                     "material \"" + from.name + "\" lets light through: its iridescence is not rendered");
-    return material;
-  }
-
-  void readFilm(const tinygltf::Material& from, MetallicRoughness& m) const {
-    const auto number = [&](const char* field, double otherwise) {
-      const double x = extension(from.extensions, kIridescence, field, otherwise);
-      return std::isfinite(x) && x >= 0 ? x : otherwise;
-    };
-    m.iridescence = std::min(1.0, number("iridescenceFactor", 0));
-    m.filmIndex = std::max(1.0, number("iridescenceIor", 1.3));
-    m.filmMost = std::min(5000.0, number("iridescenceThicknessMaximum", 400));
-    m.filmLeast = std::min(m.filmMost, number("iridescenceThicknessMinimum", 100));
-  }
-
-  // --- pictures ---
-
-  /// A texture that an extension of a material names.
-  static tinygltf::TextureInfo textureIn(const tinygltf::Material& from, const char* extension,
-                                         const char* field) {
-    tinygltf::TextureInfo info;
-    const auto found = from.extensions.find(extension);
-    if (found == from.extensions.end() || !found->second.Has(field)) return info;
-    const tinygltf::Value& said = found->second.Get(field);
-    const auto whole = [&](const char* key, int otherwise) {
-      return said.Has(key) && said.Get(key).IsNumber() ? said.Get(key).GetNumberAsInt() : otherwise;
-    };
-    info.index = whole("index", -1);
-    info.texCoord = whole("texCoord", 0);
-    if (said.Has("extensions") && said.Get("extensions").IsObject())
-      info.extensions = said.Get("extensions").Get<tinygltf::Value::Object>();
-    return info;
-  }
-
-  /// All of a material use the texture coordinates of the first of them: a mesh has one set.
-  void readPictures(const tinygltf::Material& from, MetallicRoughness& m) {
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    std::optional<int> set;
-    m.baseColorMap = pictureOf(pbr.baseColorTexture, set);
-    m.metallicRoughnessMap = pictureOf(pbr.metallicRoughnessTexture, set);
-    m.emissiveMap = pictureOf(from.emissiveTexture, set);
-    m.occlusionMap = pictureOf(from.occlusionTexture, set);
-    m.normalMap = pictureOf(from.normalTexture, set);
-    m.iridescenceMap = pictureOf(textureIn(from, kIridescence, "iridescenceTexture"), set);
-    m.filmMap = pictureOf(textureIn(from, kIridescence, "iridescenceThicknessTexture"), set);
-    m.normalScale = std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1;
-    m.occlusionStrength = from.occlusionTexture.strength;
-    if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
-    if (m.baseColorMap) m.baseColorMap->srgb = true;
-    if (m.emissiveMap) m.emissiveMap->srgb = true;
-    if (m.baseColorMap && m.alpha != MetallicRoughness::Alpha::opaque) {
-      const Pixels& pixels = m.baseColorMap->file;
-      m.hasAlphaMap =
-          pixels.map ? pixels.map->hasAlpha() : kindOfPicture(place_.file, pixels.file).transparent;
-    }
-    uvSets_.push_back(set.value_or(0));
-  }
-
-  /// Nothing, after a note, where the texture names no picture or needs other coordinates than `set`.
-  template <class Info>
-  std::optional<ImageMap> pictureOf(const Info& info, std::optional<int>& set) {
-    if (info.index < 0) return {};
-    const auto& all = info.extensions;
-    const auto own =
-        static_cast<int>(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
-    const int image = imageOf(info.index);
-    if (image < 0 || set.value_or(own) != own) {
-      noteTexture(info.index);
-      return std::nullopt;
-    }
-    set = own;
-    ImageMap map = modelPicture(pixelsOf(image));
-    const int sampler = gltf_.textures[static_cast<std::size_t>(info.index)].sampler;
-    if (isIndex(sampler, gltf_.samplers.size()))
-      apply(gltf_.samplers[static_cast<std::size_t>(sampler)], map);
-    const auto pair = [&](const char* field, const Vec2& otherwise) {
-      return pairOf(all, kTransform, field, otherwise);
-    };
-    const Vec2 offset = pair("offset", {0, 0}), scale = pair("scale", {1, 1});
-    map.transform = placementOf(offset, extension(all, kTransform, "rotation", 0), scale);
-    return map;
-  }
-
-  static constexpr const char* kTransform = "KHR_texture_transform";
-  static constexpr const char* kIridescence = "KHR_materials_iridescence";
-
-  /// T R S of that extension, where v grows downward, as Trace sees it.
-  static std::array<Real, 6> placementOf(const Vec2& offset, Real radians, const Vec2& scale) {
-    const Real c = radians == 0 ? 1 : std::cos(radians), s = radians == 0 ? 0 : std::sin(radians);
-    const Real uu = c * scale.x, uv = s * scale.y, vu = -s * scale.x, vv = c * scale.y;
-    return {uu, 0 - uv, uv + offset.x, 0 - vu, vv, 1 - vv - offset.y};
-  }
-
-  static void apply(const tinygltf::Sampler& sampler, ImageMap& map) {
-    const auto wrap = [](int code) {
-      return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
-             : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
-                                                             : Wrap::repeat;
-    };
-    map.wrapU = wrap(sampler.wrapS);
-    map.wrapV = wrap(sampler.wrapT);
-    const int least = sampler.minFilter;
-    if (least == TINYGLTF_TEXTURE_FILTER_NEAREST || least == TINYGLTF_TEXTURE_FILTER_LINEAR)
-      map.filter = TexelFilter::bilinear;
-    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) map.filter = TexelFilter::nearest;
-  }
-
-  /// The number of its picture, perhaps of one of another kind that an extension names; -1 if it has none.
-  int imageOf(int texture) const {
-    if (!isIndex(texture, gltf_.textures.size())) return -1;
-    const tinygltf::Texture& from = gltf_.textures[static_cast<std::size_t>(texture)];
-    int source = from.source;
-    for (const char* other :
-         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
-      if (source < 0) source = static_cast<int>(extension(from.extensions, other, "source", -1));
-    return isIndex(source, gltf_.images.size()) ? source : -1;
-  }
-
-  static std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri); }
-
-  /// The pixels of a file, which are loaded later, or of the bytes in this one.
-  Pixels pixelsOf(int number) {
-    const tinygltf::Image& image = gltf_.images[static_cast<std::size_t>(number)];
-    if (!image.uri.empty()) return {fileOf(image), nullptr, place_};
-    const auto [found, fresh] = pixels_.try_emplace(number);
-    if (fresh)
-      found->second = inside_.decode(
-          std::filesystem::path(place_.file).filename().string() + "#images[" + std::to_string(number) + "]",
-          {image.name, std::string(bytesOf(image))}, place_);
-    return found->second;
-  }
-
-  std::string_view bytesOf(const tinygltf::Image& image) const {
-    const auto text = [](const std::vector<unsigned char>& bytes) {
-      return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    };
-    if (image.bufferView < 0) return text(image.image);
-    const tinygltf::BufferView& view = gltf_.bufferViews[static_cast<std::size_t>(image.bufferView)];
-    if (!isIndex(view.buffer, gltf_.buffers.size())) return {};
-    const std::string_view all = text(gltf_.buffers[static_cast<std::size_t>(view.buffer)].data);
-    return view.byteOffset <= all.size() ? all.substr(view.byteOffset, view.byteLength) : std::string_view();
-  }
-
-  /// Notes a texture that is not rendered by the name of its file, or, if it is in this one, by its own.
-  void noteTexture(int texture) {
-    if (texture < 0) return;
-    const int number = imageOf(texture);
-    const tinygltf::Image* image = number < 0 ? nullptr : &gltf_.images[static_cast<std::size_t>(number)];
-    if (image && !image->uri.empty()) return textures_.note(image->uri, place_);
-    const std::string name =
-        image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
-    textures_.note(name + " (inside the file)", place_);
   }
 
   Place place_;
@@ -720,11 +498,9 @@ class GltfReader {
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
-  std::vector<int> uvSets_;       ///< of materials: the texture coordinates that they use
-  std::map<int, Pixels> pixels_;  ///< of pictures in the file
-  InsidePictures inside_;
-  UnusedTextures textures_;
-  std::size_t lines_ = 0;     ///< primitives that are no triangles
+  GltfLooks looks_;
+  std::size_t lines_ = 0;  ///< primitives that are no triangles
+  std::size_t withoutUvs_ = 0;
   std::size_t leftOver_ = 0;  ///< corners that make no triangle
   std::size_t flat_ = 0;      ///< objects that their transform makes flat
 };

@@ -1,4 +1,4 @@
-// Metallic-roughness materials as those of Trace.
+// Materials of glTF as those of Trace.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,31 @@ struct MetallicRoughness {
   Alpha alpha = Alpha::opaque;
   double cutoff = 0.5;  ///< of a mask
   double metallic = 1, roughness = 1;
+  std::optional<Color> glossy;  ///< what it mirrors, of KHR_materials_pbrSpecularGlossiness
+  bool unlit = false;           ///< it shows its base colour in any light
+  bool paintsPoints = false;    ///< some mesh has colours of points, which multiply the base colour
+
+  // What light passes through. One that is not solid is a thin sheet, which bends nothing.
   double transmission = 0, index = 1.5;
+  bool solid = false;
+  Color attenuationColor{1};
+  double attenuationDistance = 0;  ///< 0: nothing is lost inside
+  double abbe = 0;
+
+  // Layers.
   double iridescence = 0, filmIndex = 1.3;
   double filmLeast = 100, filmMost = 400;  ///< thickness in nanometres, where its map is black and white
+  double clearcoat = 0, clearcoatRoughness = 0;
+  Color sheen;
+  double sheenRoughness = 0;
+  double anisotropy = 0, anisotropyAngle = 0;  ///< radians
+  double specular = 1;
+  Color specularColor{1};
 
   // Each is multiplied by its number above; colours are decoded.
-  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, emissiveMap, occlusionMap, normalMap,
-      iridescenceMap, filmMap;
+  std::optional<ImageMap> baseColorMap, metallicRoughnessMap, glossyMap, emissiveMap, occlusionMap, normalMap,
+      iridescenceMap, filmMap, clearcoatMap, clearcoatRoughnessMap, sheenMap, sheenRoughnessMap, specularMap,
+      specularColorMap, transmissionMap;
   double normalScale = 1;
   double occlusionStrength = 1;
   bool hasAlphaMap = false;  ///< the alpha of baseColorMap counts
@@ -39,8 +57,15 @@ struct MetallicRoughness {
 ///   transmissive       base colour x transmission, and 1 - alpha
 Phong toPhong(const MetallicRoughness& material);
 
-/// Phong where it has no texture, or something is seen through it; otherwise principled, as is what has a
-/// metallicRoughnessMap or iridesces, for which Phong's model has no place, unless it refracts.
+/// Which model it becomes:
+///   lambert       that only shines, where it is unlit
+///   thin_glass    a smooth sheet through which all light passes
+///   rough_glass   a body through which all light passes
+///   phong         what passes a part of the light, and what has no texture and needs no other model
+///   principled    everything else
 Material toMaterial(std::string name, const MetallicRoughness& material);
+
+/// That by which colours of points are multiplied.
+Color baseColorOf(const Material& material);
 
 }  // namespace trace

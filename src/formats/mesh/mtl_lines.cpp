@@ -19,7 +19,7 @@ struct Numbers {
   int count;
   double least, most;
 };
-constexpr std::array<Numbers, 12> kNumbers{{{"Ka", 3, 0, 1},
+constexpr std::array<Numbers, 19> kNumbers{{{"Ka", 3, 0, 1},
                                             {"Kd", 3, 0, 1},
                                             {"Ks", 3, 0, 1},
                                             {"Ke", 3, 0, kNoLimit},
@@ -30,7 +30,14 @@ constexpr std::array<Numbers, 12> kNumbers{{{"Ka", 3, 0, 1},
                                             {"d", 1, 0, 1},
                                             {"Tr", 1, 0, 1},
                                             {"illum", 1, 0, 10},
-                                            {"sharpness", 1, 0, kNoLimit}}};
+                                            {"sharpness", 1, 0, kNoLimit},
+                                            {"Pr", 1, 0, 1},
+                                            {"Pm", 1, 0, 1},
+                                            {"Ps", 1, 0, 1},
+                                            {"Pc", 1, 0, 1},
+                                            {"Pcr", 1, 0, 1},
+                                            {"aniso", 1, 0, 1},
+                                            {"anisor", 1, 0, 1}}};
 
 /// Statements that name a picture.
 constexpr std::array<std::string_view, 21> kMaps{
@@ -39,11 +46,9 @@ constexpr std::array<std::string_view, 21> kMaps{
     "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
 /// Maps whose picture is rendered.
-constexpr std::array<std::string_view, 10> kRendered{"map_Ka", "map_Kd",   "map_Ks",   "map_Ke", "map_Ns",
-                                                     "map_d",  "map_Bump", "map_bump", "bump",   "norm"};
-
-/// Statements of physically based materials, which Trace's material does not have.
-constexpr std::array<std::string_view, 7> kNotUsed{"Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor"};
+constexpr std::array<std::string_view, 13> kRendered{"map_Ka", "map_Kd",   "map_Ks",   "map_Ke", "map_Ns",
+                                                     "map_d",  "map_Bump", "map_bump", "bump",   "norm",
+                                                     "map_Pr", "map_Pm",   "map_Ps"};
 
 /// An option of a texture, and how many words follow it at most. What is missing of several numbers is
 /// `otherwise`.
@@ -166,7 +171,7 @@ class MtlCheck {
       warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
     if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
     if (has(kMaps, key)) return map(key, words);
-    if (has(kNotUsed, key) || key == "map_aat") return;
+    if (key == "map_aat") return;
     warn(key, quoted(key) + " is not known and is skipped");
   }
 

@@ -42,6 +42,32 @@ class ByteStream : private std::streambuf, public std::istream {
 
 Color color(const tinyobj::real_t (&c)[3]) { return {c[0], c[1], c[2]}; }
 
+/// Has it any of the statements that exporters of physically based materials write?
+bool isPhysical(const tinyobj::material_t& mtl) {
+  return mtl.roughness > 0 || mtl.metallic > 0 || mtl.sheen > 0 || mtl.clearcoat_thickness > 0 ||
+         mtl.anisotropy > 0 || !mtl.roughness_texname.empty() || !mtl.metallic_texname.empty() ||
+         !mtl.sheen_texname.empty();
+}
+/// Where only a picture says it, the number that it scales is 1.
+Principled toPrincipled(const tinyobj::material_t& mtl) {
+  const auto scaled = [](double number, const std::string& picture) {
+    return number == 0 && !picture.empty() ? 1 : std::clamp(number, 0.0, 1.0);
+  };
+  Principled model;
+  model.color = color(mtl.diffuse);
+  model.ambient = color(mtl.ambient);
+  model.emissive = color(mtl.emission);
+  model.metallic = scaled(mtl.metallic, mtl.metallic_texname);
+  model.roughness = scaled(mtl.roughness, mtl.roughness_texname);
+  model.index = mtl.ior > 1 ? mtl.ior : 1.5;
+  model.sheen = Color(scaled(mtl.sheen, mtl.sheen_texname));
+  model.clearcoat = std::clamp<double>(mtl.clearcoat_thickness, 0, 1);
+  model.clearcoatRoughness = std::clamp<double>(mtl.clearcoat_roughness, 0, 1);
+  model.anisotropy = std::clamp<double>(mtl.anisotropy, 0, 1);
+  model.angle = std::isfinite(mtl.anisotropy_rotation) ? 360 * mtl.anisotropy_rotation : 0;
+  return model;
+}
+
 /// Illumination models: 1 has no highlight; from 3 on (but 8 and 9) rays are mirrored; 4, 6, 7, 9 are glass.
 Material toMaterial(const tinyobj::material_t& mtl) {
   const auto isOneOf = [&](std::initializer_list<int> models) {
@@ -64,7 +90,12 @@ Material toMaterial(const tinyobj::material_t& mtl) {
   } else if (isOneOf({4, 6, 7, 9}))
     phong.transmissive = color(mtl.transmittance);
 
-  return {mtl.name, phong, {}};
+  Material material{mtl.name, phong, {}};
+  if (isPhysical(mtl)) {
+    material.model = toPrincipled(mtl);
+    material.opacity = opacity;
+  }
+  return material;
 }
 
 /// The picture as the options of its statement place it. Decoded only where `-colorspace sRGB` says so.
@@ -100,7 +131,8 @@ bool hasHeights(const Material& material) {
 template <class NameOf, class IsTransparent>
 void addTextures(const tinyobj::material_t& mtl, const Place& place, Material& material, NameOf&& nameOf,
                  IsTransparent&& isTransparent) {
-  const auto& phong = std::get<Phong>(material.model);
+  const auto* phong = std::get_if<Phong>(&material.model);
+  const Color ambient = phongOf(material.model).ambient;
   const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
     ImageMap made = toMap(nameOf(picture), option);
     made.file.place = place;
@@ -110,15 +142,22 @@ void addTextures(const tinyobj::material_t& mtl, const Place& place, Material& m
                        const tinyobj::texture_option_t& option) {
     if (!picture.empty()) setTexture(material.textures, field, TextureNode{.model = map(picture, option)});
   };
-  put("diffuse", mtl.diffuse_texname, mtl.diffuse_texopt);
-  put("specular", mtl.specular_texname, mtl.specular_texopt);
+  put(phong ? kDiffuse : kColor, mtl.diffuse_texname, mtl.diffuse_texopt);
   put("emissive", mtl.emissive_texname, mtl.emissive_texopt);
-  put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
-  if (!isBlack(phong.reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
+  if (phong) {
+    put("specular", mtl.specular_texname, mtl.specular_texopt);
+    put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
+    if (!isBlack(phong->reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
+  } else {
+    put("metallic", mtl.metallic_texname, mtl.metallic_texopt);
+    put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
+    put("sheen", mtl.sheen_texname, mtl.sheen_texopt);
+    put("specular_color", mtl.specular_texname, mtl.specular_texopt);
+  }
   // What is painted is painted in the ambient light too.
   if (!mtl.ambient_texname.empty())
     put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
-  else if (!isBlack(phong.ambient))
+  else if (!isBlack(ambient))
     put("ambient", mtl.diffuse_texname, mtl.diffuse_texopt);
 
   // Normals where both are given: they were baked from heights.
@@ -143,7 +182,11 @@ void addTextures(const tinyobj::material_t& mtl, const Place& place, Material& m
     opacity.channel = Channel::alpha;
   else if (!own)
     return;
-  cutOut(material, TextureNode{.model = std::move(opacity)});
+  const Texture holes = TextureNode{.model = std::move(opacity)};
+  if (phong)
+    cutOut(material, holes);
+  else
+    setTexture(material.textures, kOpacity, holes);
 }
 
 bool isSound(const Material& material) {
@@ -157,6 +200,12 @@ bool isSound(const Material& material) {
       sound = sound && std::isfinite(static_cast<double>(value));
   });
   return sound;
+}
+
+/// What colours of points multiply.
+Color colorOf(const MaterialModel& model) {
+  const auto* principled = std::get_if<Principled>(&model);
+  return principled ? principled->color : phongOf(model).diffuse;
 }
 
 /// What one corner of a face refers to; -1 for nothing.
@@ -182,6 +231,8 @@ class ObjReader : public tinyobj::MaterialReader {
     std::string room;
     const std::string_view lines = joinedLines(bytes_, room);
     names_ = checkObjLines(file_, bytes_, lines, warnings_);
+    for (const Vec3f& c : names_.colors)
+      if (std::max(c.x, std::max(c.y, c.z)) > 1) colorScale_ = 255;
     tinyobj::callback_t calls;
     calls.vertex_cb = [](void* self, float x, float y, float z, float) {
       of(self).points_.push_back({x, y, z});
@@ -332,11 +383,21 @@ class ObjReader : public tinyobj::MaterialReader {
   }
   static std::int32_t optional(int index, std::size_t count) { return absolute(index, count).value_or(-1); }
 
-  std::uint32_t corner(Part& to, const Corner& corner) const {
+  /// Of the point's colour, times that of the part's material.
+  std::uint32_t colorNumber(const Part& part, std::size_t point) {
+    const bool hasMaterial = part.material != Model::kNoMaterial;
+    const Color base = hasMaterial ? colorOf(model_.materials[part.material].model) : Color(1);
+    const Vec3f& c = names_.colors[point];
+    const auto channel = [&](float x, Real of) { return static_cast<float>(x / colorScale_ * of); };
+    return colors_.number({channel(c.x, base.r), channel(c.y, base.g), channel(c.z, base.b)});
+  }
+
+  std::uint32_t corner(Part& to, const Corner& corner) {
     const std::uint32_t number = to.corners.number(corner);
     if (number < to.mesh.points.size()) return number;
     const auto at = [](std::int32_t index) { return static_cast<std::size_t>(index); };
     to.mesh.points.push_back(points_[at(corner.point)]);
+    if (!names_.colors.empty()) to.mesh.materials.push_back(colorNumber(to, at(corner.point)));
     to.mesh.normals.push_back(corner.normal < 0 ? Vec3f{} : normals_[at(corner.normal)]);
     to.mesh.uvs.push_back(corner.uv < 0 ? Vec2{} : uvs_[at(corner.uv)]);
     to.hasNormals |= corner.normal >= 0;
@@ -345,6 +406,7 @@ class ObjReader : public tinyobj::MaterialReader {
   }
 
   void finish() {
+    for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     warnUndefined();
     warnings_.report(messages_);
     textures_.report(messages_);
@@ -393,6 +455,8 @@ class ObjReader : public tinyobj::MaterialReader {
   WarningsByKind warnings_;
   UnusedTextures textures_;
   ObjNames names_;
+  float colorScale_ = 1;  ///< what white is in the colours of points
+  Unique<Vec3f> colors_;
   std::set<std::string> undefined_;
   bool materialsMissing_ = false;
   std::vector<Vec3f> points_, normals_;

@@ -105,10 +105,22 @@ class ObjCheck {
     warn(key, "\"" + std::string(key.substr(0, 40)) + "\" is not known and is skipped");
   }
 
-  /// Three numbers, perhaps with a weight or a colour.
+  /// Three numbers, perhaps with a weight or a colour or both.
   void point(std::string_view text, LineWords words) {
     const int count = numbers(text, words, "v", 3, 7);
+    if (count >= 6) color(words, count);
+    if (count < 6 && !names_.colors.empty()) names_.colors.push_back({1, 1, 1});
     if (count == 5) warn(text, "v: expected 3 numbers, found 5; the last two are ignored");
+  }
+
+  /// The last three of the numbers; those of points before it that have none are white.
+  void color(LineWords words, int count) {
+    for (int i = 3; i < count; ++i) words.next();
+    Vec3f color;
+    for (float* channel : {&color.x, &color.y, &color.z})
+      *channel = static_cast<float>(parseNumber(words.next())->value);
+    names_.colors.resize(points_, {1, 1, 1});
+    names_.colors.push_back(color);
   }
 
   int numbers(std::string_view text, LineWords words, std::string_view key, int least, int most) {

@@ -125,7 +125,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, EnumValu
 }
 
 bool assignField(Findings& findings, Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key());
+  const std::string_view key = canonical(field.key(), target.keyword());
   bool found = false;
   editEachField(target, [&](const AnyField& f, auto& value) {
     if (f.keyword != key) return;
@@ -136,7 +136,7 @@ bool assignField(Findings& findings, Shape& target, const Item& field) {
 }
 
 void checkRange(Findings& findings, const Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key());
+  const std::string_view key = canonical(field.key(), target.keyword());
   forEachField(target, [&](const AnyField& f, const auto& value) {
     if (f.keyword == key) checkRange(findings, target.keyword(), f, value, field);
   });
@@ -239,6 +239,12 @@ std::string_view canonical(std::string_view word) {
   if (word == "subtraction") return "difference";
   if (word == "quaternion") return "quaternian";  // the misspelling is the real keyword
   return word;
+}
+
+std::string_view canonical(std::string_view word, std::string_view shape) {
+  if (shape == "torus" && word == "a") return "major_radius";
+  if (shape == "torus" && word == "b") return "minor_radius";
+  return canonical(word);
 }
 
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,

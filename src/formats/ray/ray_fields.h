@@ -128,6 +128,8 @@ bool numbers(const Item& tuple, Real* to, int count);
 
 /// The keyword that `word` is a synonym of, or `word`.
 std::string_view canonical(std::string_view word);
+/// The same of a field of a shape: those that students named otherwise, too.
+std::string_view canonical(std::string_view word, std::string_view shape);
 
 /// read() of the value of the field `f`, whose range is said of a whole number that no int can hold.
 template <class Field, class Value>

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kInstead{
     {"displace", "Trace has displacement = texture(noise { }, 0.1) in the material of a mesh"},
     {"shape_light",
      "Trace has warn_light { }, with a cone and flaps, and projector_light { }, with a picture"},
-    {"skybox", "Trace has background { colors = (...); }, flat bands of colour"},
+    {"skybox", "Trace has settings { environment = \"folder\"; }, six pictures all around"},
 }};
 
 std::string_view insteadOf(std::string_view kind) {

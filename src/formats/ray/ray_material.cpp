@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_format.h"
-#include "shading/substances.h"
+#include "shading/library.h"
 
 namespace trace::rayfile {
 namespace {
@@ -50,6 +50,15 @@ std::string list(const std::vector<std::string_view>& names, std::string_view la
                                      : ", ") +
             std::string(names[i]);
   return text;
+}
+
+/// `normal = "file"` or `normal_map = map("file")`, of students at Hong Kong: a picture of normals.
+bool isNormalMap(const Item& field) {
+  if (field.key() != "normal" && field.key() != "normal_map") return false;
+  const Item value = field.value();
+  if (value.is(Kind::word)) return true;
+  if (!value.is(Kind::call) || value.key() != "map" || !value.value().is(Kind::tuple)) return false;
+  return value.value().count() == 1 && (*value.value().begin()).is(Kind::word);
 }
 
 }  // namespace
@@ -247,6 +256,15 @@ bool Materials::pattern(Block& block, const Item& field) {
 bool Materials::studentBump(Block& block, const Item& field) {
   constexpr Real kHeight = 0.02;
   const Item value = field.value();
+  if (isNormalMap(field)) {
+    std::string file(value.is(Kind::word) ? value.text() : (*value.value().begin()).text());
+    Texture picture = mappedPicture(std::move(file), findings_.syntax().shortPlace(value.offset()));
+    TextureNode normals = *picture;
+    std::get<ImageMap>(normals.model).relief = Relief::normals;
+    setTexture(block.material.textures, "bump", std::move(normals));
+    block.material.bump = 1;
+    return true;
+  }
   if (field.key() != "bump_mapping" || !value.is(Kind::call) || value.key() != "bump") return false;
   const Item tuple = value.value();
   if (!tuple.is(Kind::tuple) || tuple.count() != 1 || !(*tuple.begin()).is(Kind::word)) {

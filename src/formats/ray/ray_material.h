@@ -17,7 +17,7 @@
 
 namespace trace::rayfile {
 
-/// `library = water` makes a block start from that material (shading/substances.h), in place of what it
+/// `library = water` makes a block start from that material (shading/library.h), in place of what it
 /// inherits.
 inline constexpr std::string_view kLibrary = "library";
 /// The field of a material that says its shading model.

@@ -77,7 +77,7 @@ class MeshReader {
     if (key == "two_sided") return rayfile::read(findings_, key, value, data_.twoSided);
     if (key == "points") return vectors(value, "point", data_.points);
     if (key == "normals") return vectors(normals_.emplace(value), "normal", data_.normals);
-    if (key == "texture_uv") return textureCoordinates(uvs_.emplace(value));
+    if (key == "texture_uv" || key == "map_points") return textureCoordinates(uvs_.emplace(value));
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
     if (key == "sharp_edges") return isList(sharpEdges_.emplace(value), key);

@@ -5,7 +5,7 @@
 
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_texture.h"
-#include "shading/substances.h"
+#include "shading/library.h"
 
 namespace trace::rayfile {
 namespace {

@@ -1,7 +1,8 @@
 // One model for most things, by the numbers that artists and glTF give: colour, metalness, roughness, a clear
 // coat, sheen and iridescence (Burley, Physically-Based Shading at Disney, SIGGRAPH 2012 course; Khronos,
 // glTF 2.0, appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
-// KHR_materials_iridescence). Variant: GGX; the base
+// KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the base
+// has no layer that mirrors. Variant: GGX; the base
 // is coupled to what lies on it as in shading/coating.h, and each layer takes from those below what it gives
 // back itself, on the way in and out.
 // Reciprocal. Energy: gives back at most what arrives; with grain within a few percent.
@@ -28,6 +29,8 @@ struct Principled : SurfaceFields {
 
   Color color{0.8};
   Real metallic = 0, roughness = 0.5, index = 1.5;
+  Real specularStrength = 1;
+  Color specularColor{1};
   Real anisotropy = 0, angle = 0;
   Real clearcoat = 0, clearcoatRoughness = 0.1;
   Color sheen;
@@ -40,6 +43,10 @@ struct Principled : SurfaceFields {
         Field{"metallic", &Principled::metallic, "", 0, 1, "from 0, plastic, to 1, metal"},
         Field{"roughness", &Principled::roughness, "", 0, 1, "its square is the width of the facets' slopes"},
         Field{"index", &Principled::index, "", 0, kNoLimit, "of refraction, of what is no metal"},
+        Field{"specular_strength", &Principled::specularStrength, "", 0, 1,
+              "how much of what is no metal mirrors at all"},
+        Field{"specular_color", &Principled::specularColor, "", 0, kNoLimit,
+              "tints what that mirrors along the normal; no more than all light is mirrored"},
         Field{"anisotropy", &Principled::anisotropy, "", 0, 1, "how much the surface is brushed"},
         Field{"angle", &Principled::angle, "degrees", -360, 360,
               "of the grain to the direction in which u grows"},
@@ -59,11 +66,16 @@ struct Principled : SurfaceFields {
 
   Phong asPhong() const {
     const Real width = max(0.03, roughness * roughness);
-    const Color own = lerp(metallic, Color(mirroredAlongNormal(index)), color);
+    const Color own = lerp(metallic, plasticMirrors() * specularStrength, color);
     Phong phong = phongLike(*this, color * (1 - metallic), own, 2 / (width * width));
     phong.reflective = own * Microfacets::of(Distribution::ggx, roughness).sharpShare();
     phong.index = index;
     return phong;
+  }
+  /// Along the normal, of what is no metal.
+  Color plasticMirrors() const {
+    const Color tinted = specularColor * mirroredAlongNormal(index);
+    return {min(1, tinted.r), min(1, tinted.g), min(1, tinted.b)};
   }
   PrincipledBsdf at(const Rules& rules) const;
 };
@@ -82,6 +94,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
         metal(plastic.lobe.facets, metalMirrors(1)),
         fibres(Sheen::of(model.sheenRoughness)) {
     said.metallic = max(0, min(1, model.metallic));
+    said.specularStrength = max(0, min(1, model.specularStrength));
     said.clearcoat = max(0, min(1, model.clearcoat));
     if (said.clearcoat > 0)
       clear = {Distribution::ggx, max(kLeastRoughness, model.clearcoatRoughness), 0,
@@ -92,7 +105,8 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
 
   Color mirrorWeight(Real cosine) const {
     const Color below =
-        lerp(said.metallic, plastic.fresnel(cosine), metalMirrors(cosine)) * plastic.lobe.facets.sharpShare();
+        lerp(said.metallic, plastic.fresnel(cosine) * said.specularStrength, metalMirrors(cosine)) *
+        plastic.lobe.facets.sharpShare();
     if (!(said.clearcoat > 0)) return below;
     const Real through = 1 - said.clearcoat * schlick(cosine, clear.alongNormal).r;
     return below * (through * through) + clear.mirrorWeight(cosine) * said.clearcoat;
@@ -100,9 +114,14 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
 
   Scatter value(const Vec3& eye, const Vec3& light) const {
     Scatter sum;
-    if (said.metallic < 1)
+    if (said.metallic < 1) {
       sum = {said.color * plastic.base(eye, light) * (1 - said.metallic),
              plastic.mirrored(eye, light) * (1 - said.metallic)};
+      if (const Real s = said.specularStrength; s < 1) {
+        const Color bare = said.color * (light.z / kPi * (1 - said.metallic));
+        sum = {lerp(s, bare, sum.diffuse), sum.specular * s};
+      }
+    }
     if (said.metallic > 0)
       sum.specular +=
           metal.value(eye, light, [&](Real cosine) { return metalMirrors(cosine); }) * said.metallic;
@@ -139,7 +158,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
     const Real roughness = max(kLeastRoughness, model.roughness);
     if (iridesces(model))
       return {Distribution::ggx, roughness, model.anisotropy, filmOf(model), min(1, model.iridescence)};
-    return {Distribution::ggx, roughness, model.anisotropy, Color(mirroredAlongNormal(model.index))};
+    return {Distribution::ggx, roughness, model.anisotropy, model.plasticMirrors()};
   }
   /// What one facet of metal mirrors.
   Color metalMirrors(Real cosine) const {

@@ -1,0 +1,329 @@
+// Sources: Khronos Group, glTF 2.0 Specification, sections 3.8 and 3.9, and the extensions named below; RFC
+// 3986, section 2.1.
+#include "formats/mesh/gltf_looks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "formats/mesh/gltf_material.h"
+#include "formats/mesh/gltf_values.h"
+
+namespace trace {
+namespace {
+
+constexpr const char *kTransform = "KHR_texture_transform", *kIridescence = "KHR_materials_iridescence",
+                     *kClearcoat = "KHR_materials_clearcoat", *kSheen = "KHR_materials_sheen",
+                     *kAnisotropy = "KHR_materials_anisotropy", *kSpecular = "KHR_materials_specular",
+                     *kTransmission = "KHR_materials_transmission", *kVolume = "KHR_materials_volume",
+                     *kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+/// "%20" as a blank, and so on.
+std::string decodedUri(std::string_view uri) {
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
+  };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool coded =
+        uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+    const int code = coded ? 16 * digit(uri[i + 1]) + digit(uri[i + 2]) : 0;
+    text += code > 0 ? static_cast<char>(code) : uri[i];
+    if (code > 0) i += 2;
+  }
+  return text;
+}
+
+/// A texture that an extension of a material names.
+tinygltf::TextureInfo textureIn(const tinygltf::Material& from, const char* extension, const char* field) {
+  tinygltf::TextureInfo info;
+  const tinygltf::Value* said = extensionValue(from.extensions, extension, field);
+  if (!said) return info;
+  const auto whole = [&](const char* key, int otherwise) {
+    return said->Has(key) && said->Get(key).IsNumber() ? said->Get(key).GetNumberAsInt() : otherwise;
+  };
+  info.index = whole("index", -1);
+  info.texCoord = whole("texCoord", 0);
+  if (said->Has("extensions") && said->Get("extensions").IsObject())
+    info.extensions = said->Get("extensions").Get<tinygltf::Value::Object>();
+  return info;
+}
+
+/// T R S of KHR_texture_transform, where v grows downward, as Trace sees it.
+std::array<Real, 6> placementOf(const Vec2& offset, Real radians, const Vec2& scale) {
+  const Real c = radians == 0 ? 1 : std::cos(radians), s = radians == 0 ? 0 : std::sin(radians);
+  const Real uu = c * scale.x, uv = s * scale.y, vu = -s * scale.x, vv = c * scale.y;
+  return {uu, 0 - uv, uv + offset.x, 0 - vu, vv, 1 - vv - offset.y};
+}
+
+void apply(const tinygltf::Sampler& sampler, ImageMap& map) {
+  const auto wrap = [](int code) {
+    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+           : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                           : Wrap::repeat;
+  };
+  map.wrapU = wrap(sampler.wrapS);
+  map.wrapV = wrap(sampler.wrapT);
+  const int least = sampler.minFilter;
+  if (least == TINYGLTF_TEXTURE_FILTER_NEAREST || least == TINYGLTF_TEXTURE_FILTER_LINEAR)
+    map.filter = TexelFilter::bilinear;
+  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) map.filter = TexelFilter::nearest;
+}
+
+void decode(std::optional<ImageMap>& colors) {
+  if (colors) colors->srgb = true;
+}
+
+/// From 0 to 1.
+double share(double x) { return x >= 0 ? std::min(x, 1.0) : 0.0; }
+
+}  // namespace
+
+std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri); }
+
+struct GltfLooks::Reader {
+  const tinygltf::Model& gltf;
+  const Place place;
+  Messages& messages;
+  std::vector<std::optional<int>> uvSets{};  ///< of materials
+  std::map<int, Pixels> inFile{};            ///< pictures in the file
+  InsidePictures inside{};
+  UnusedTextures unused{};
+
+  // --- numbers ---
+
+  Material materialOf(const tinygltf::Material& from, bool paints) {
+    MetallicRoughness m;
+    m.paintsPoints = paints;
+    readBase(from, m);
+    readLayers(from, m);
+    readPassage(from, m);
+    m.unlit = from.extensions.contains("KHR_materials_unlit");
+    if (!isFinite(m.baseColor) || !isFinite(m.emissive) || !isFinite(m.sheen) || !isFinite(m.specularColor) ||
+        !isFinite(m.attenuationColor)) {
+      messages.warn(place, "material \"" + from.name + "\" has numbers that are not finite");
+      m.baseColor = m.specularColor = m.attenuationColor = Color(1);
+      m.emissive = m.sheen = Color();
+    }
+    readPictures(from, m);
+    return checked(from, m, toMaterial(from.name, m));
+  }
+
+  /// A number of an extension that is finite and at least `least`.
+  static double number(const tinygltf::Material& from, const char* name, const char* field, double otherwise,
+                       double least = 0) {
+    const double x = extension(from.extensions, name, field, otherwise);
+    return std::isfinite(x) && x >= least ? x : otherwise;
+  }
+  static Color color(const tinygltf::Material& from, const char* name, const char* field,
+                     const Color& otherwise) {
+    return colorOf(extensionList(from.extensions, name, field, 3), otherwise);
+  }
+
+  static void readBase(const tinygltf::Material& from, MetallicRoughness& m) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    m.baseColor = colorOf(pbr.baseColorFactor, Color(1));
+    if (pbr.baseColorFactor.size() == 4) m.opacity = share(pbr.baseColorFactor[3]);
+    m.metallic = share(pbr.metallicFactor);
+    m.roughness = share(pbr.roughnessFactor);
+    if (from.extensions.contains(kGlossiness)) {
+      m.baseColor = color(from, kGlossiness, "diffuseFactor", Color(1));
+      const std::vector<double> diffuse = extensionList(from.extensions, kGlossiness, "diffuseFactor", 4);
+      m.opacity = diffuse.empty() ? 1 : share(diffuse[3]);
+      m.metallic = 0;
+      m.roughness = 1 - share(number(from, kGlossiness, "glossinessFactor", 1));
+      m.glossy = color(from, kGlossiness, "specularFactor", Color(1));
+    }
+    m.emissive = colorOf(from.emissiveFactor, Color()) *
+                 number(from, "KHR_materials_emissive_strength", "emissiveStrength", 1);
+    m.alpha = from.alphaMode == "BLEND"  ? MetallicRoughness::Alpha::blend
+              : from.alphaMode == "MASK" ? MetallicRoughness::Alpha::mask
+                                         : MetallicRoughness::Alpha::opaque;
+    m.cutoff = from.alphaCutoff;
+  }
+
+  static void readLayers(const tinygltf::Material& from, MetallicRoughness& m) {
+    m.iridescence = share(number(from, kIridescence, "iridescenceFactor", 0));
+    m.filmIndex = number(from, kIridescence, "iridescenceIor", 1.3, 1);
+    m.filmMost = std::min(5000.0, number(from, kIridescence, "iridescenceThicknessMaximum", 400));
+    m.filmLeast = std::min(m.filmMost, number(from, kIridescence, "iridescenceThicknessMinimum", 100));
+    m.clearcoat = share(number(from, kClearcoat, "clearcoatFactor", 0));
+    m.clearcoatRoughness = share(number(from, kClearcoat, "clearcoatRoughnessFactor", 0));
+    m.sheen = color(from, kSheen, "sheenColorFactor", Color());
+    m.sheenRoughness = share(number(from, kSheen, "sheenRoughnessFactor", 0));
+    m.anisotropy = share(number(from, kAnisotropy, "anisotropyStrength", 0));
+    m.anisotropyAngle = number(from, kAnisotropy, "anisotropyRotation", 0, -kNoLimit);
+    m.specular = share(number(from, kSpecular, "specularFactor", 1));
+    m.specularColor = color(from, kSpecular, "specularColorFactor", Color(1));
+  }
+
+  static void readPassage(const tinygltf::Material& from, MetallicRoughness& m) {
+    m.transmission = share(number(from, kTransmission, "transmissionFactor", 0));
+    m.index = number(from, "KHR_materials_ior", "ior", 1.5);
+    if (m.index == 0) m.index = 1.5;
+    m.solid = number(from, kVolume, "thicknessFactor", 0) > 0;
+    m.attenuationColor = color(from, kVolume, "attenuationColor", Color(1));
+    m.attenuationDistance = number(from, kVolume, "attenuationDistance", 0);
+    const double dispersion = number(from, "KHR_materials_dispersion", "dispersion", 0);
+    m.abbe = dispersion > 0 ? 20 / dispersion : 0;
+  }
+
+  /// Tells what the material says and its model has no place for.
+  Material checked(const tinygltf::Material& from, const MetallicRoughness& m, Material material) {
+    const bool principled = std::holds_alternative<Principled>(material.model);
+    if (m.metallicRoughnessMap && !principled && !textureOf(material.textures, "roughness"))
+      note(from.pbrMetallicRoughness.metallicRoughnessTexture.index);
+    const auto lacks = [&](bool has, const char* what) {
+      if (has && !principled && !m.unlit)
+        messages.warn(place,
+                      "material \"" + from.name + "\" lets light through: its " + what + " is not rendered");
+    };
+    lacks(m.iridescence > 0, "iridescence");
+    lacks(m.clearcoat > 0, "clear coat");
+    lacks(!isBlack(m.sheen), "sheen");
+    return material;
+  }
+
+  // --- pictures ---
+
+  /// All of a material use the texture coordinates of the first of them: a mesh has one set.
+  void readPictures(const tinygltf::Material& from, MetallicRoughness& m) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    std::optional<int> set;
+    const auto extra = [&](const char* name, const char* field) {
+      return pictureOf(textureIn(from, name, field), set);
+    };
+    const bool glossy = m.glossy.has_value();
+    m.baseColorMap = glossy ? extra(kGlossiness, "diffuseTexture") : pictureOf(pbr.baseColorTexture, set);
+    if (glossy)
+      m.glossyMap = extra(kGlossiness, "specularGlossinessTexture");
+    else
+      m.metallicRoughnessMap = pictureOf(pbr.metallicRoughnessTexture, set);
+    m.emissiveMap = pictureOf(from.emissiveTexture, set);
+    m.occlusionMap = pictureOf(from.occlusionTexture, set);
+    m.normalMap = pictureOf(from.normalTexture, set);
+    m.iridescenceMap = extra(kIridescence, "iridescenceTexture");
+    m.filmMap = extra(kIridescence, "iridescenceThicknessTexture");
+    m.clearcoatMap = extra(kClearcoat, "clearcoatTexture");
+    m.clearcoatRoughnessMap = extra(kClearcoat, "clearcoatRoughnessTexture");
+    note(textureIn(from, kClearcoat, "clearcoatNormalTexture").index);
+    m.sheenMap = extra(kSheen, "sheenColorTexture");
+    m.sheenRoughnessMap = extra(kSheen, "sheenRoughnessTexture");
+    note(textureIn(from, kAnisotropy, "anisotropyTexture").index);
+    m.specularMap = extra(kSpecular, "specularTexture");
+    m.specularColorMap = extra(kSpecular, "specularColorTexture");
+    m.transmissionMap = extra(kTransmission, "transmissionTexture");
+    for (auto* colors : {&m.baseColorMap, &m.emissiveMap, &m.sheenMap, &m.specularColorMap, &m.glossyMap})
+      decode(*colors);
+    m.normalScale = std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1;
+    m.occlusionStrength = from.occlusionTexture.strength;
+    if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
+    if (m.baseColorMap && m.alpha != MetallicRoughness::Alpha::opaque) {
+      const Pixels& pixels = m.baseColorMap->file;
+      m.hasAlphaMap =
+          pixels.map ? pixels.map->hasAlpha() : kindOfPicture(place.file, pixels.file).transparent;
+    }
+    uvSets.push_back(set);
+  }
+
+  /// Nothing, after a note, where the texture names no picture or needs other coordinates than `set`.
+  template <class Info>
+  std::optional<ImageMap> pictureOf(const Info& info, std::optional<int>& set) {
+    if (info.index < 0) return {};
+    const auto& all = info.extensions;
+    const auto own =
+        static_cast<int>(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
+    const int image = imageOf(info.index);
+    if (image < 0 || set.value_or(own) != own) {
+      note(info.index);
+      return std::nullopt;
+    }
+    set = own;
+    ImageMap map = modelPicture(pixelsOf(image));
+    const int sampler = gltf.textures[static_cast<std::size_t>(info.index)].sampler;
+    if (isIndex(sampler, gltf.samplers.size())) apply(gltf.samplers[static_cast<std::size_t>(sampler)], map);
+    const Vec2 offset = extensionPair(all, kTransform, "offset", {0, 0}),
+               scale = extensionPair(all, kTransform, "scale", {1, 1});
+    map.transform = placementOf(offset, extension(all, kTransform, "rotation", 0), scale);
+    return map;
+  }
+
+  /// The number of its picture, perhaps of one of another kind that an extension names; -1 if it has none.
+  int imageOf(int texture) const {
+    if (!isIndex(texture, gltf.textures.size())) return -1;
+    const tinygltf::Texture& from = gltf.textures[static_cast<std::size_t>(texture)];
+    int source = from.source;
+    for (const char* other :
+         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
+      if (source < 0) source = static_cast<int>(extension(from.extensions, other, "source", -1));
+    return isIndex(source, gltf.images.size()) ? source : -1;
+  }
+
+  /// Of a file, which are loaded later, or of the bytes in this one.
+  Pixels pixelsOf(int number) {
+    const tinygltf::Image& image = gltf.images[static_cast<std::size_t>(number)];
+    if (!image.uri.empty()) return {fileOf(image), nullptr, place};
+    const auto [found, fresh] = inFile.try_emplace(number);
+    if (fresh)
+      found->second = inside.decode(
+          std::filesystem::path(place.file).filename().string() + "#images[" + std::to_string(number) + "]",
+          {image.name, std::string(bytesOf(image))}, place);
+    return found->second;
+  }
+
+  std::string_view bytesOf(const tinygltf::Image& image) const {
+    const auto text = [](const std::vector<unsigned char>& bytes) {
+      return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    if (image.bufferView < 0) return text(image.image);
+    const tinygltf::BufferView& view = gltf.bufferViews[static_cast<std::size_t>(image.bufferView)];
+    if (!isIndex(view.buffer, gltf.buffers.size())) return {};
+    const std::string_view all = text(gltf.buffers[static_cast<std::size_t>(view.buffer)].data);
+    return view.byteOffset <= all.size() ? all.substr(view.byteOffset, view.byteLength) : std::string_view();
+  }
+
+  /// Of one that is not rendered: by the name of its file, or, if it is in this one, by its own.
+  void note(int texture) {
+    if (texture < 0) return;
+    const int number = imageOf(texture);
+    const tinygltf::Image* image = number < 0 ? nullptr : &gltf.images[static_cast<std::size_t>(number)];
+    if (image && !image->uri.empty()) return unused.note(image->uri, place);
+    const std::string name =
+        image && !image->name.empty() ? image->name : "texture " + std::to_string(texture);
+    unused.note(name + " (inside the file)", place);
+  }
+};
+
+GltfLooks::GltfLooks(const tinygltf::Model& gltf, const Place& place, Messages& messages)
+    : reader_(std::make_unique<Reader>(Reader{gltf, place, messages})) {}
+GltfLooks::~GltfLooks() = default;
+
+std::vector<Material> GltfLooks::materials() {
+  const tinygltf::Model& gltf = reader_->gltf;
+  std::vector<bool> paints(gltf.materials.size());
+  for (const tinygltf::Mesh& mesh : gltf.meshes)
+    for (const tinygltf::Primitive& primitive : mesh.primitives)
+      if (isIndex(primitive.material, paints.size()) && primitive.attributes.contains("COLOR_0"))
+        paints[static_cast<std::size_t>(primitive.material)] = true;
+  std::vector<Material> all;
+  for (std::size_t i = 0; i < paints.size(); ++i)
+    all.push_back(reader_->materialOf(gltf.materials[i], paints[i]));
+  return all;
+}
+
+std::optional<int> GltfLooks::uvSet(int material) const {
+  const auto& sets = reader_->uvSets;
+  return isIndex(material, sets.size()) ? sets[static_cast<std::size_t>(material)] : std::nullopt;
+}
+
+void GltfLooks::report() const {
+  reader_->unused.report(reader_->messages);
+  reader_->inside.report(reader_->messages);
+}
+
+}  // namespace trace

@@ -1,0 +1,40 @@
+// Materials of a glTF file: their numbers, those of their extensions, and their pictures, as
+// gltf_material.h takes them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/model_textures.h"
+
+namespace tinygltf {
+class Model;
+struct Image;
+}  // namespace tinygltf
+
+namespace trace {
+
+/// The name of the picture's file, decoded; empty for one inside the file.
+std::string fileOf(const tinygltf::Image& image);
+
+/// All materials of a file. Precondition: checkGltf() found its indices sound.
+class GltfLooks {
+ public:
+  GltfLooks(const tinygltf::Model& gltf, const Place& place, Messages& messages);
+  ~GltfLooks();
+
+  /// In the order of the file.
+  std::vector<Material> materials();
+  /// The number of the texture coordinates that the pictures of a material use; nothing if it has none.
+  std::optional<int> uvSet(int material) const;
+  /// Tells of pictures that are not rendered or cannot be read. Call once, after all meshes.
+  void report() const;
+
+ private:
+  struct Reader;
+  std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace trace
