@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "shading/blackbody.h"
+#include "shading/library.h"
 #include "shading/materials/subsurface.h"
 #include "shading/substances.h"
 #include "support/paths.h"
