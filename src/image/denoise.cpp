@@ -58,21 +58,21 @@ Plane blurred(const Plane& plane) {
   return both;
 }
 
-/// The variance of the mean of all samples: as independent samples would have it, times how much nearer to
-/// each other the two halves are than those would be.
-Plane varianceOf(const Halves& halves) {
+/// The variance of the mean of all samples in one channel: as independent samples would have it for their
+/// luminance, times how much the channel of the two halves is apart against that.
+Plane varianceOf(const Halves& halves, double Color::*channel) {
   const int width = halves.first.width, height = halves.first.height;
   Plane told(width, height), found(width, height);
   for (std::size_t i = 0; i < told.values.size(); ++i) {
-    const double apart = luminanceOf(halves.first.pixels[i]) - luminanceOf(halves.second.pixels[i]);
     const double share = halves.share[i];
     if (share == 0) continue;
+    const double apart = halves.first.pixels[i].*channel - halves.second.pixels[i].*channel;
     told.values[i] = static_cast<float>(halves.variance[i]);
     found.values[i] = static_cast<float>(apart * apart * share * (1 - share));
   }
   const Plane mean = blurred(told), near = blurred(found);
   for (std::size_t i = 0; i < told.values.size(); ++i)
-    if (mean.values[i] > 0) told.values[i] *= std::min(4.0f, near.values[i] / mean.values[i]);
+    if (mean.values[i] > 0) told.values[i] *= near.values[i] / mean.values[i];
   return told;
 }
 
@@ -118,13 +118,16 @@ struct Filter {
         height(halves.first.height),
         share(halves.share),
         half{channelsOf(halves.first), channelsOf(halves.second)},
-        noise{varianceOf(halves), Plane(width, height)},
+        noise{half[0], half[1]},
         features{Feature(guides.albedo, 3), Feature(guides.normal, 3), Feature(guides.nearness, 1)} {
-    for (std::size_t i = 0; i < share.size(); ++i) {
-      if (share[i] == 0) continue;
-      const float both = noise[0].values[i];
-      noise[0].values[i] = both / static_cast<float>(share[i]);
-      noise[1].values[i] = both / static_cast<float>(1 - share[i]);
+    constexpr double Color::*kChannels[] = {&Color::r, &Color::g, &Color::b};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Plane both = varianceOf(halves, kChannels[c]);
+      for (std::size_t i = 0; i < share.size(); ++i) {
+        const auto first = static_cast<float>(share[i] > 0 ? share[i] : 0.5);
+        noise[0][c].values[i] = both.values[i] / first;
+        noise[1][c].values[i] = both.values[i] / (1 - first);
+      }
     }
   }
 
@@ -138,13 +141,13 @@ struct Filter {
     const int px = std::clamp(x, 0, width - 1), py = std::clamp(y, 0, height - 1);
     const int qx = std::clamp(px + dx, 0, width - 1), qy = std::clamp(py + dy, 0, height - 1);
     const auto w = static_cast<std::size_t>(which);
-    const float p = noise[w].row(py)[px], q = noise[w].row(qy)[qx];
     float sum = 0;
-    for (const Plane& plane : half[w]) {
-      const float d = plane.row(py)[px] - plane.row(qy)[qx];
-      sum += d * d - (p + std::min(p, q));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float p = noise[w][c].row(py)[px], q = noise[w][c].row(qy)[qx];
+      const float d = half[w][c].row(py)[px] - half[w][c].row(qy)[qx];
+      sum += (d * d - (p + std::min(p, q))) / (1e-10f + kColours * kColours * (p + q));
     }
-    return sum / (1e-10f + kColours * kColours * (p + q));
+    return sum;
   }
 
   /// The rows y0 <= y < y1 of the result.
@@ -153,7 +156,7 @@ struct Filter {
   int width, height;
   const std::vector<double>& share;
   std::array<Channels, 2> half;
-  std::array<Plane, 2> noise;  ///< variances
+  std::array<Channels, 2> noise;  ///< variances
   std::array<Feature, 3> features;
 };
 
