@@ -56,10 +56,11 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
 
   for (const Serves& row : kServes) {  // but not where the scene has both, and somebody switched one off
     const bool given = findOption(row.option).get(s) != findOption(row.option).get({});
-    const bool photons = row.needed == "caustics" && s.integrator == IntegratorKind::photon;
+    const bool otherwise = (row.needed == "caustics" && s.integrator == IntegratorKind::photon) ||
+                           (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    if (given && !photons && !switchedOff && findOption(row.needed).get(s) == findOption(row.needed).get({}))
+    if (given && !otherwise && !switchedOff && findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
   }

@@ -53,7 +53,8 @@ int selftestCommand(const Arguments& arguments, const Console&) {
     const bool holds = check.holds(found);
     held += holds;
     const std::string line = lineOf(check, found, holds, since(begin)) + why;
-    printResult(std::to_string(++done) + "/" + std::to_string(all) + (done < 10 ? "  " : " ") + line);
+    ++done;
+    printResult(std::to_string(done) + "/" + std::to_string(all) + (done < 10 ? "  " : " ") + line);
     certificate += line;
   };
   for (const SelfCheck& check : selfChecks()) look(check);
