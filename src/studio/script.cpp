@@ -183,14 +183,14 @@ constexpr std::array kTable{
             [](const Words& a) { viewOf(a[0]); }},
     Command{"plane", "NUMBER", 1, 1,
             "what is seen of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
-            [](Studio& s, const Words& a) { return s.picture.plane = planeOf(a[0]), true; },
+            [](Studio& s, const Words& a) { s.picture.plane = planeOf(a[0]); },
             [](const Words& a) { planeOf(a[0]); }},
     Command{"samples", "NUMBER", 1, 1,
             "until pixels have so many samples on the average, or the picture is finished",
+            nullptr, checkNumbers, 3,
             [](Studio& s, const Words& a) {
               return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
-            },
-            checkNumbers},
+            }},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
             [](Studio& s, const Words& a) { s.picture.goTo(whole(a[0]), whole(a[1])); }, checkNumbers},
     Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
