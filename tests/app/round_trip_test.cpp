@@ -115,7 +115,9 @@ TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
     Scene edited = *read.scene;
     edited.camera.fov *= 0.9;
     for (LightSource& source : edited.lights)
-      match(source.light, [](auto& light) { light.color = light.color * 0.7; });
+      match(source.light, [](auto& light) {
+        if constexpr (requires { light.color; }) light.color = light.color * 0.7;
+      });
     for (Material& material : edited.materials) {
       changeColors(material.model, {kDiffuse, kColor}, [](const Color& color) { return color * 0.8; });
       if (Phong* phong = std::get_if<Phong>(&material.model)) phong->shininess += 3;

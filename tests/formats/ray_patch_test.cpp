@@ -64,7 +64,12 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
     expect("option", [](Scene& s) { s.choices.push_back({"depth", "17", {}}); });
     if (!scene.lights.empty())
       expect("light", [](Scene& s) {
-        match(s.lights.back().light, [](auto& light) { light.color = Color(0.25, 0.5, 0.75); });
+        match(s.lights.back().light, [](auto& light) {
+          if constexpr (requires { light.color; })
+            light.color = Color(0.25, 0.5, 0.75);
+          else
+            light.position.x += 1;
+        });
       });
     std::set<std::size_t> kinds;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -96,7 +96,7 @@ TEST(SeenLights, CameraAndMirrorsSeeThemAndNothingElseChanges) {
         const bool equal = with.at(x, y) == without.at(x, y);
         same += equal;
         // What is new in the mirror is the panel's colour.
-        const Color more = with.at(x, y) - without.at(x, y);
+        const Color more = with.at(x, y) + without.at(x, y) * -1;
         if (!equal) {
           ++mirrored;
           EXPECT_NEAR(more.r / more.b, 2, 1e-6);
