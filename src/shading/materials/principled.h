@@ -1,10 +1,9 @@
 // One model for most things, by the numbers that artists and glTF give: colour, metalness, roughness, a clear
 // coat, sheen and iridescence (Burley, Physically-Based Shading at Disney, SIGGRAPH 2012 course; Khronos,
 // glTF 2.0, appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
-// KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the base
-// has no layer that mirrors. Variant: GGX; the base
-// is coupled to what lies on it as in shading/coating.h, and each layer takes from those below what it gives
-// back itself, on the way in and out.
+// KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the
+// base has no layer that mirrors. Variant: GGX; the base is coupled to what lies on it as in
+// shading/coating.h, and each layer takes from those below what it gives back itself, on the way in and out.
 // Reciprocal. Energy: gives back at most what arrives; with grain within a few percent.
 //
 // Under Whitted's equation the mirrored ray stands for the facets that lean less than 5 degrees.
