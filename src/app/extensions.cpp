@@ -31,7 +31,7 @@ constexpr std::array kTable{
     Extension{"light-samples", "soft shadows of lights that have a size", "soft-shadows.ray",
               "--spp 1 --light-samples 1", "--spp 1 --light-samples 32", ""},
     Extension{"light-choices", "of many lights each place asks some, which a tree chooses", "lanterns.ray",
-              "--spp 1 --light-choices 0", "", "--width 160"},
+              "--spp 1 --light-choices 0", "", "--width 200"},
     Extension{"lamp-samples", "objects that shine light others", "glow.ray", "--lamp-samples 0", "", ""},
     Extension{"aperture", "depth of field: what is not in focus blurs", "lens.ray", "--aperture 0", "", ""},
     Extension{"aperture-picture", "a lens opening of any shape", "hearts.ray", "--aperture-picture none", "",

@@ -198,6 +198,8 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const LightSource& source = s.scene.lights[i];
     const Survey::Lamp& lamp = s.survey.lights[i];
+    // They have no place from which something would have to be reached.
+    if (std::holds_alternative<AmbientLight>(source.light) || std::holds_alternative<Portal>(source.light)) continue;
     if (!lamp.reached.empty() || isBlack(colorOf(source.light))) continue;
     const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
       return finding.message.place.line == source.place.line &&

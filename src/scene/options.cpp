@@ -817,8 +817,7 @@ const std::array kTable{
          .help = "picture whose bright places are the lens opening, in place of blades: blurred lights take "
                  "its shape",
          .source = "docs/lens.md",
-         .repeats = Repeats::world,
-         .extra = true}),
+         .repeats = Repeats::world}),
     row<&Settings::tilt>({.name = "tilt",
                           .group = "Lens",
                           .help = "turns the plane in focus: above 0 its upper half comes nearer",

@@ -44,8 +44,9 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   std::size_t rays = 0;
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x)
-      for (int k = 0; k < samplesOf(session.settings()); ++k) {
+      for (int k = 0, all = 1; k < all; ++k) {
         const Explanation e = session.explain(x, y, k);
+        all = static_cast<int>(e.samples.size());
         const Color& sample = e.samples[static_cast<std::size_t>(k)];
         if (!sameBits(e.pixel, film.ofSamples(x, y)) || !sameBits(e.tree.nodes[0].radiance, sample) ||
             !sumsUp(e.tree)) {

@@ -48,7 +48,7 @@ TEST(PictureViews, ConvergenceIsTheErrorThatIsLeft) {
   const Convergence all = twoPixels(3).convergence();
   EXPECT_EQ(all.samples, 4);
   EXPECT_TRUE(all.judged);
-  EXPECT_NEAR(all.error, std::sqrt(0.25 * 4 / 3 / 4) / 2, 1e-12);
+  EXPECT_NEAR(all.error, std::sqrt(0.25 * 4 / 3 / 4) / 2, 1e-6);
   EXPECT_EQ(convergenceText(all), "4 samples a pixel, noise 36.8 levels");
   EXPECT_FALSE(twoPixels(1).convergence().judged) << "one sample tells nothing";
   EXPECT_EQ(convergenceText(twoPixels(1).convergence()), "1 sample a pixel");

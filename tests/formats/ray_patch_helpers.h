@@ -73,9 +73,15 @@ inline std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// How many lines of the first are not in the second, and the other way round, around one place.
+/// How many lines of the first are not in the second, and the other way round: those that differ if there are
+/// as many of both, else all around one place.
 inline std::pair<std::size_t, std::size_t> changedLines(const std::string& before, const std::string& after) {
-  std::vector<std::string> a = linesOf(before), b = linesOf(after);
+  const std::vector<std::string> a = linesOf(before), b = linesOf(after);
+  if (a.size() == b.size()) {
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) differ += a[i] != b[i];
+    return {differ, differ};
+  }
   std::size_t start = 0, end = 0;
   while (start < std::min(a.size(), b.size()) && a[start] == b[start]) ++start;
   while (start + end < std::min(a.size(), b.size()) && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
@@ -86,6 +92,15 @@ inline std::size_t commentsIn(const std::string& text) {
   std::size_t count = 0;
   for (std::size_t at = text.find("//"); at != text.npos; at = text.find("//", at + 2)) ++count;
   return count;
+}
+
+/// Objects or lights of one node of the text, as of particles or rows, cannot be changed there one by one.
+template <class Thing>
+bool standsAlone(const std::vector<Thing>& things, std::size_t i) {
+  for (const char* node : {"particles", "rows"})
+    if (things[i].place.text.find(node) != std::string::npos) return false;
+  const auto alike = [&](std::size_t j) { return j < things.size() && things[j].place == things[i].place; };
+  return !alike(i + 1) && (i == 0 || !alike(i - 1));
 }
 
 inline void expectSays(const SceneText& read, const std::string& text, const Scene& wanted,

@@ -39,17 +39,6 @@ TEST(RayPatch, WithoutAnEditEveryExampleStaysAsItIs) {
   }
 }
 
-/// Objects of one node of the text cannot be told apart in it.
-bool standsAlone(const Scene& scene, std::size_t i) {
-  if (scene.objects[i].place.text.find("particles") != std::string::npos ||
-      scene.objects[i].place.text.find("rows") != std::string::npos)
-    return false;
-  const auto alike = [&](std::size_t j) {
-    return j < scene.objects.size() && scene.objects[j].place == scene.objects[i].place;
-  };
-  return !alike(i + 1) && (i == 0 || !alike(i - 1));
-}
-
 TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
   std::size_t edits = 0;
   for (const std::string& file : examples()) {
@@ -62,9 +51,11 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
     };
     expect("camera", [](Scene& s) { s.camera.fov += 1.25; });
     expect("option", [](Scene& s) { s.choices.push_back({"depth", "17", {}}); });
-    if (!scene.lights.empty())
-      expect("light", [](Scene& s) {
-        match(s.lights.back().light, [](auto& light) {
+    std::size_t last = scene.lights.size();  // of the lights that have a text of their own
+    while (last > 0 && !standsAlone(scene.lights, last - 1)) --last;
+    if (last > 0)
+      expect("light", [&](Scene& s) {
+        match(s.lights[last - 1].light, [](auto& light) {
           if constexpr (requires { light.color; })
             light.color = Color(0.25, 0.5, 0.75);
           else
@@ -73,7 +64,8 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
       });
     std::set<std::size_t> kinds;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-      if (!standsAlone(scene, i) || !kinds.insert(scene.objects[i].shape.type().index).second) continue;
+      if (!standsAlone(scene.objects, i) || !kinds.insert(scene.objects[i].shape.type().index).second)
+        continue;
       if (kinds.size() > 3) break;
       const std::string object = "object " + std::to_string(i);
       const std::string name = scene.objects[i].name + "x";
@@ -329,7 +321,7 @@ TEST(RayPatch, NewThingsStandAtTheEnd) {
       "sphere { } // last\n"
       "\npoint_light {\n  position = (0, 0, 0);\n  color = (1, 1, 1);\n  constant_attenuation_coeff = 0;\n"
       "  linear_attenuation_coeff = 0;\n  quadratic_attenuation_coeff = 1;\n  extra_highlight = (0, 0, "
-      "0);\n  radius = 0;\n}\n"
+      "0);\n  radius = 0;\n  visible = false;\n}\n"
       "\ntranslate(1, 0, 0, sphere {\n  name = \"copy\";\n  material = { };\n})\n");
 }
 
@@ -383,6 +375,136 @@ TEST(RayPatch, ParticlesThatAreEditedBecomeObjects) {
   EXPECT_EQ(fewer.messages[0].place.line, 2);
   EXPECT_EQ(reading("test.ray", fewer.text).scene->objects.size(), read.scene->objects.size() - 1);
   EXPECT_NE(fewer.text.find("\n// dust\nsphere { name = other; }\n"), fewer.text.npos) << fewer.text;
+}
+
+// --- rows -------------------------------------------------------------------------------------------------
+
+constexpr const char* kRows = R"(SBT-raytracer 1.0
+material { name = wood; diffuse = (0.2, 0.1, 0.05); }
+translate(0, 0, 5, rows { // shelves
+  count = (3, 2, 1); step = (2, 1, 0); spread = (0.1, 0.2, 0.3); size_spread = 0.5;
+  box { name = shelf; material = wood; }
+  rows { material = { diffuse = 0.75; }; scale(0.5, sphere { }) }
+})
+cone { material = wood; } // other
+)";
+
+/// Whatever their order.
+void expectSameObjects(const Scene& is, const Scene& wanted, const std::string& what) {
+  ASSERT_EQ(is.objects.size(), wanted.objects.size()) << what;
+  std::vector<bool> found(is.objects.size(), false);
+  for (const Object& object : wanted.objects) {
+    std::size_t i = 0;
+    while (i < found.size() && (found[i] || !rayfile::sameObject(is, is.objects[i], wanted, object))) ++i;
+    ASSERT_LT(i, found.size()) << what << ": " << object.name << " is lost";
+    found[i] = true;
+  }
+}
+
+TEST(RayPatch, CopiesThatAreEditedBecomeObjects) {
+  const SceneText read = reading("test.ray", kRows);
+  ASSERT_EQ(read.scene->objects.size(), 19u);
+  const std::vector<std::pair<std::string, Edit>> edits{
+      {"name", [](Scene& s) { s.objects[4].name = "mine"; }},
+      {"move", [](Scene& s) { placed(s, 7).offset.x += 2; }},
+      {"other material", [](Scene& s) { s.objects[3].material = s.objects[1].material; }},
+      {"shape", [](Scene& s) { s.objects[2].shape = Cone{}; }},
+      {"fewer", [](Scene& s) { s.objects.erase(s.objects.begin() + 5); }}};
+  for (const auto& [what, edit] : edits) {
+    Scene scene = *read.scene;
+    edit(scene);
+    const Saved result = saved(read, scene);
+    ASSERT_EQ(result.messages.size(), 1u) << what;
+    EXPECT_EQ(result.messages[0].place.line, 3) << what;
+    EXPECT_EQ(result.text.find("rows"), result.text.npos) << what;
+    EXPECT_NE(result.text.find("\ncone { material = wood; } // other\n"), result.text.npos) << what;
+    expectSameObjects(*reading("test.ray", result.text).scene, scene, what);
+  }
+}
+
+TEST(RayPatch, RowsStayWhereOthersAreEdited) {
+  const SceneText read = reading("test.ray", kRows);
+  expectSmall(
+      read, "other", [](Scene& s) { placed(s, 18).offset.x = 2; }, 1);
+  const Saved without =
+      edited(read, [](Scene& s) { s.objects.erase(s.objects.begin(), s.objects.end() - 1); });
+  EXPECT_TRUE(without.messages.empty());
+  EXPECT_EQ(reading("test.ray", without.text).scene->objects.size(), 1u) << without.text;
+}
+
+TEST(RayPatch, AMaterialOfCopiesIsChangedWhereItIsSaid) {
+  const SceneText read = reading("test.ray", kRows);
+  for (const std::size_t object : {0u, 1u})
+    expectSmall(
+        read, "material of object " + std::to_string(object),
+        [&](Scene& s) { phong(s, s.objects[object].material).diffuse = Color(0.5); }, 1);
+  const SceneText library = reading("library", readFile(test::sourceFolder() + "/scenes/library.ray"));
+  expectSmall(
+      library, "wood",
+      [](Scene& s) {
+        for (Material& m : s.materials)
+          if (m.name == "wood") std::get_if<Phong>(&m.model)->diffuse.r = 0.5;
+      },
+      1);
+}
+
+constexpr const char* kLamps = R"(SBT-raytracer 1.0
+rows { count = (1, 3, 1); step = (0, 2, 0); // lamps
+  point_light { position = (1, 1, 1); color = (1, 1, 1); }
+  point_light { position = (5, 1, 1); color = (1, 1, 1); } }
+sphere { material = { diffuse = 0.5; specular = 0; }; }
+box { material = { diffuse = 0.25; }; }
+)";
+
+TEST(RayPatch, LightsThatAreCopiesAreChangedTogetherOrTheSceneIsWrittenAnew) {
+  const SceneText read = reading("test.ray", kLamps);
+  ASSERT_EQ(read.scene->lights.size(), 6u);
+  const auto set = [](Scene& s, std::size_t i) -> PointLight& {
+    return std::get<PointLight>(s.lights[i].light);
+  };
+  expectSmall(
+      read, "all",
+      [&](Scene& s) {
+        for (std::size_t i : {0u, 2u, 4u}) set(s, i).color = Color(0.5), set(s, i).radius = 0.25;
+      },
+      1);
+  const std::vector<std::pair<std::string, Edit>> edits{
+      {"first", [&](Scene& s) { set(s, 0).color = Color(0.5); }},
+      {"last", [&](Scene& s) { set(s, 2).radius = 0.5; }},
+      {"moved", [&](Scene& s) { set(s, 1).position.x = 3; }},
+      {"fewer", [](Scene& s) { s.lights.erase(s.lights.begin() + 1); }}};
+  for (const auto& [what, edit] : edits) {
+    Scene scene = *read.scene;
+    edit(scene);
+    const Saved result = saved(read, scene);
+    ASSERT_EQ(result.messages.size(), 1u) << what;
+    EXPECT_TRUE(result.messages[0].what.starts_with("the text could not be kept")) << what;
+    expectSays(read, result.text, scene, what);
+  }
+}
+
+/// Materials that several objects have are named then, since the text of one stands for all.
+TEST(RayPatch, LanternsThatAreWrittenAnewAreTheSame) {
+  const std::string file = test::sourceFolder() + "/scenes/lanterns.ray";
+  const SceneText read = reading(file, readFile(file));
+  Scene scene = *read.scene;
+  std::get<PointLight>(scene.lights.back().light).color = Color(0.25, 0.5, 0.75);
+  const Saved result = saved(read, scene);
+  EXPECT_EQ(result.messages.size(), 1u);
+  const SceneText again = reading(file, result.text);
+  Scene is = *again.scene;
+  ASSERT_EQ(is.objects.size(), scene.objects.size());
+  std::size_t named = 0;
+  for (std::size_t i = 0; i < is.objects.size(); ++i) {
+    const Material& wanted = scene.materials.at(scene.objects[i].material);
+    Material& material = is.materials.at(is.objects[i].material);
+    if (wanted.name.empty() && !material.name.empty()) ++named, material.name.clear();
+    EXPECT_TRUE(rayfile::sameObject(is, is.objects[i], scene, scene.objects[i])) << i;
+  }
+  EXPECT_EQ(named, 2u);
+  ASSERT_EQ(is.lights.size(), scene.lights.size());
+  for (std::size_t i = 0; i < is.lights.size(); ++i)
+    EXPECT_EQ(is.lights[i].light, scene.lights[i].light) << i;
 }
 
 TEST(RayPatch, WhatTheReaderRepairsIsSettledInALaterRound) {

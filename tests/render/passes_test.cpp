@@ -70,7 +70,7 @@ TEST(Passes, AreMadeOnlyInAFilmThatHasALayerForEach) {
   const Picture plain = picture(scene, settings);
   for (const PassRow& row : passRows()) settings.passes.add(row.pass);
   const World world = build(scene, settings);
-  for (std::size_t count = 0; count < passRows().size(); ++count) {
+  for (std::size_t count = 0; count < layersOf(settings).size(); ++count) {
     const std::vector<Film::LayerKind> kinds(count, {Color(0.5)});
     Film film(settings.width, settings.height, 1, kinds);
     Job job;

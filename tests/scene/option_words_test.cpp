@@ -44,7 +44,7 @@ TEST(OptionWords, EveryOptionIsFoundByItsNameAndItsChoices) {
 
 TEST(OptionWords, AreHints) {
   using Names = std::vector<std::string_view>;
-  EXPECT_EQ(optionsMeant("antialias"), Names{"spp"});
+  EXPECT_EQ(optionsMeant("antialias"), (Names{"spp", "subdivide", "subdivide-threshold"}));
   EXPECT_EQ(optionsMeant("Resolution"), (Names{"width", "height"}));
   EXPECT_EQ(optionsMeant("widht"), Names{});
   try {

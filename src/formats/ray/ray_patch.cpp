@@ -14,6 +14,7 @@
 #include "formats/ray/ray_same.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/shapes/csg_tree.h"
+#include "scene/rows.h"
 
 namespace trace {
 namespace rayfile {
@@ -52,11 +53,22 @@ std::vector<std::size_t> matched(const std::vector<Thing>& before, std::vector<T
   return indices;
 }
 
+/// With the materials that blocks of the text say as they are to become: those blocks are changed.
+Scene withWantedMaterials(const Reading& now, const Wanted& wanted) {
+  Scene scene;
+  scene.materials = now.scene.materials;
+  for (const Notes::Block& block : now.notes.blocks)
+    if (block.index < wanted.materials.size() && wanted.materials[block.index])
+      scene.materials.at(block.index) = *wanted.materials[block.index];
+  return scene;
+}
+
 /// Objects that stand in one place of the text together, such as particles, stay together or become single
 /// objects at the end of the file.
 void breakUpChanged(const Reading& now, Wanted& wanted, Messages& messages) {
   const Scene& from = now.scene;
   const Outline outline(*now.syntax);
+  const Scene becoming = withWantedMaterials(now, wanted);
   std::vector<bool> changed(from.objects.size(), false);
   std::vector<std::size_t> kept(from.objects.size(), Wanted::kNew);
   for (std::size_t i = 0; i < wanted.objects.size(); ++i)
@@ -64,16 +76,20 @@ void breakUpChanged(const Reading& now, Wanted& wanted, Messages& messages) {
   for (std::size_t first = 0; first < from.objects.size();) {
     std::size_t end = first + 1;
     while (end < from.objects.size() && samePlace(from.objects[end].place, from.objects[first].place)) ++end;
-    bool differs = false;
-    const bool single =
-        end - first == 1 && outline.find(now.syntax->offsetOf(from.objects[first].place)) != nullptr;
+    bool differs = false, left = false;
+    const std::size_t offset = now.syntax->offsetOf(from.objects[first].place);
+    const bool single = end - first == 1 && outline.find(offset) != nullptr;
+    const std::optional<Item> node = now.syntax->itemAt(offset);
+    // Particles make materials of those of the text, copies in rows have them as they are.
+    const Scene& said = node && node->is(Kind::call) && node->key() == Rows::kKeyword ? becoming : from;
     for (std::size_t i = first; i < end && !single; ++i) {
       const bool gone = kept[i] == Wanted::kNew;
+      left = left || !gone;
       differs =
-          differs || gone || !sameObject(from, from.objects[i], wanted.scene, wanted.scene.objects[kept[i]]);
+          differs || gone || !sameObject(said, from.objects[i], wanted.scene, wanted.scene.objects[kept[i]]);
     }
     for (std::size_t i = first; i < end; ++i) changed[i] = differs;
-    if (differs)
+    if (differs && left)
       messages.warn(
           from.objects[first].place,
           "the objects that this makes are written one by one at the end of the file, as they were edited");
@@ -233,6 +249,12 @@ class Patch {
   Messages& messages_;
 };
 
+bool isFileOption(std::string_view name) {
+  return std::any_of(options().begin(), options().end(), [&](const Option& option) {
+    return option.kind == Option::Kind::file && option.name == name;
+  });
+}
+
 /// Whether the field of that name is a picture of a background.
 bool isFaceOfBackground(std::string_view key) {
   bool is = false;
@@ -261,8 +283,7 @@ std::string moved(const std::string& text, const std::string& from, const std::s
     const Item item(syntax, static_cast<std::uint32_t>(i));
     if (!item.keyed()) continue;
     const std::string_view key = item.key();
-    const bool names = key == "file" || key == "objfile" || key == "backdrop" || key == "environment" ||
-                       isFaceOfBackground(key);
+    const bool names = key == "file" || key == "objfile" || isFileOption(key) || isFaceOfBackground(key);
     if (item.is(Kind::entry) && names) see(item.value());
     if (item.is(Kind::call) && key == "map" && item.value().count() > 0) see(*item.value().begin());
   }

@@ -82,6 +82,7 @@ class Round {
     if (!call) return;
     const std::size_t* mine = find(wanted_.lights, index);
     if (!mine) return edits_.erase(*call);
+    if (!changedLights_.insert(call->offset()).second) return;  // a copy in rows; the first speaks for all
     const LightSource& now = to_.lights[static_cast<std::size_t>(mine - wanted_.lights.data())];
     const Light &was = from_.lights[index].light, &is = now.light;
     changeFields(edits_, call->value(), from_.lights[index].links, now.links);
@@ -358,7 +359,7 @@ class Round {
   Outline outline_;
   TextEdits edits_;
   MaterialEdits materials_;
-  std::set<std::size_t> dropped_;
+  std::set<std::size_t> dropped_, changedLights_;  ///< offsets
 };
 
 }  // namespace
