@@ -289,7 +289,6 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
       LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},
-      LintCheck{"light-reaches-nothing", "a light that nothing seen gets", lightReachesNothing},
       LintCheck{"caustics-missing", "mirrors and glass whose caustics the integrator does not find",
                 causticsMissing},
       LintCheck{"inside-out", "a closed mesh whose faces look inward", insideOut},

@@ -45,7 +45,6 @@ void lightCut(const LintScene& s, Findings& findings);
 void lightLink(const LintScene& s, Findings& findings);
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
-void lightReachesNothing(const LintScene& s, Findings& findings);
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);

@@ -189,37 +189,6 @@ void causticsMissing(const LintScene& s, Findings& findings) {
   }
 }
 
-/// After the checks that know a reason.
-void lightReachesNothing(const LintScene& s, Findings& findings) {
-  constexpr int kFew = 20;
-  int scattering = 0;
-  for (const Survey::Seen& seen : s.survey.objects) scattering += seen.couldBeLit;
-  if (scattering < kFew) return;
-  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
-    const LightSource& source = s.scene.lights[i];
-    const Survey::Lamp& lamp = s.survey.lights[i];
-    // They have no place from which something would have to be reached.
-    if (std::holds_alternative<AmbientLight>(source.light) || std::holds_alternative<Portal>(source.light)) continue;
-    if (!lamp.reached.empty() || isBlack(colorOf(source.light))) continue;
-    const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
-      return finding.message.place.line == source.place.line &&
-             finding.message.place.file == source.place.file;
-    });
-    if (isSaid || (lamp.places > 0 && lamp.blocked.empty())) continue;
-    Blockers blockers;
-    for (const auto& [pair, times] : lamp.blocked) blockers[pair.second] += times;
-    const bool away = blockers.empty();
-    warn(
-        findings, "light-reaches-nothing", source.place,
-        "this light reaches nothing that is seen: " +
-            (away ? "every surface faces away from it, or it shines elsewhere"
-                  : "something is always in its way, most often " + quoted(s, mostIn(blockers)->first)),
-        away
-            ? "move it to the side that is seen, or take it out: a light that reaches nothing only takes time"
-            : "move it, or what is in its way; or take it out: a light that reaches nothing only takes time");
-  }
-}
-
 /// Lights that are shut by what they say themselves.
 void lightCut(const LintScene& s, Findings& findings) {
   for (const LightSource& source : s.scene.lights) {

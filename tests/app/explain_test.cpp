@@ -53,9 +53,11 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
           ADD_FAILURE() << file << " pixel " << x << "," << y << " sample " << k;
           return rays;
         }
-        Color sum;
-        for (std::size_t i = 0; i < e.samples.size(); ++i) sum += e.samples[i] * e.weights[i];
-        EXPECT_TRUE(sameBits(sum / static_cast<double>(e.samples.size()), e.pixel)) << file;
+        if (e.corners.empty()) {  // else the pixel is the mean of its squares
+          Color sum;
+          for (std::size_t i = 0; i < e.samples.size(); ++i) sum += e.samples[i] * e.weights[i];
+          EXPECT_TRUE(sameBits(sum / static_cast<double>(e.samples.size()), e.pixel)) << file;
+        }
         rays += e.tree.nodes.size();
       }
   return rays;
