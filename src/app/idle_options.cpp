@@ -60,7 +60,8 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                            (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    if (given && !otherwise && !switchedOff && findOption(row.needed).get(s) == findOption(row.needed).get({}))
+    if (given && !otherwise && !switchedOff &&
+        findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
   }

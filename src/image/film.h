@@ -197,9 +197,7 @@ class Film {
   bool complete() const;
 
   /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
-  Color ofSamples(int x, int y) const {
-    return corners_ ? picture().at(x, y) : pixels_[index(x, y)].mean();
-  }
+  Color ofSamples(int x, int y) const { return corners_ ? picture().at(x, y) : pixels_[index(x, y)].mean(); }
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
   /// The same of a layer, blank elsewhere.

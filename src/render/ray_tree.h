@@ -172,8 +172,8 @@ struct Term {
     outline
   };
   static constexpr std::array<std::string_view, 16> kNames{
-      "emissive", "ambient", "light",  "caustic",    "photons", "reflection", "refraction", "bounce",
-      "lamp",     "joined",  "background", "fog",    "medium",  "subsurface", "hole",       "outline"};
+      "emissive", "ambient", "light",      "caustic", "photons", "reflection", "refraction", "bounce",
+      "lamp",     "joined",  "background", "fog",     "medium",  "subsurface", "hole",       "outline"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||

@@ -34,9 +34,9 @@
 namespace trace {
 
 /// Copied and compared in one .cpp: where a variant of so many structs is copied, it is dear to compile.
-struct MaterialModel
-    : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance, Ward, SchlickModel,
-                   AshikhminShirley, Velvet, Hair, Marschner, RoughGlass, ThinGlass, Cel, Gooch, Hatching, Subsurface> {
+struct MaterialModel : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
+                                    Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
+                                    ThinGlass, Cel, Gooch, Hatching, Subsurface> {
   using variant::variant;
   using variant::operator=;
   MaterialModel();

@@ -186,8 +186,8 @@ constexpr std::array kTable{
             [](Studio& s, const Words& a) { s.picture.plane = planeOf(a[0]); },
             [](const Words& a) { planeOf(a[0]); }},
     Command{"samples", "NUMBER", 1, 1,
-            "until pixels have so many samples on the average, or the picture is finished",
-            nullptr, checkNumbers, 3,
+            "until pixels have so many samples on the average, or the picture is finished", nullptr,
+            checkNumbers, 3,
             [](Studio& s, const Words& a) {
               return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
             }},

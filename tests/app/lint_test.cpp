@@ -73,7 +73,8 @@ TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
 
 TEST(Lint, OurOwnExamplesAreClean) {
   for (const std::string& scene : filesUnder(test::sourceFolder() + "/scenes", ".ray"))
-    // infinity: as in its program, its glass shows no background. jade: folds of the rabbit's mesh, in its fur.
+    // infinity: as in its program, its glass shows no background. jade: folds of the rabbit's mesh, in its
+    // fur.
     if (scene.find("infinity") == std::string::npos && scene.find("jade") == std::string::npos) {
       EXPECT_EQ(names(lintFile(scene)), "") << scene;
     }

@@ -29,23 +29,22 @@ struct GoniometricLight {
   Real radius = 0;
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"position", &GoniometricLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-        Field{"direction", &GoniometricLight::direction, "", -kNoLimit, kNoLimit,
-              "where the file's angles are 0: of most lamps straight down"},
-        Field{"color", &GoniometricLight::color, "", 0, kNoLimit,
-              "its intensity in the brightest direction, or the colour that per_candela scales"},
-        Field{"file", &GoniometricLight::file, "", -kNoLimit, kNoLimit,
-              "an IES file (LM-63); without one it shines to all sides alike"},
-        Field{"up", &GoniometricLight::up, "", -kNoLimit, kNoLimit,
-              "to where the horizontal angle is 0 (types A and B: what is up)"},
-        Field{"per_candela", &GoniometricLight::perCandela, "", 0, kNoLimit,
-              "a factor for each candela of the file; 0: the brightest direction counts as 1"},
-        Field{"constant_attenuation_coeff", &GoniometricLight::constant, "", 0, kNoLimit, "a"},
-        Field{"linear_attenuation_coeff", &GoniometricLight::linear, "", 0, kNoLimit, "b"},
-        Field{"quadratic_attenuation_coeff", &GoniometricLight::quadratic, "", 0, kNoLimit, "c"},
-        Field{"radius", &GoniometricLight::radius, "units", 0, kNoLimit,
-              "of the ball that shines; more than 0 makes shadows soft"}};
+    return Fields{Field{"position", &GoniometricLight::position, "", -kNoLimit, kNoLimit, "where it is"},
+                  Field{"direction", &GoniometricLight::direction, "", -kNoLimit, kNoLimit,
+                        "where the file's angles are 0: of most lamps straight down"},
+                  Field{"color", &GoniometricLight::color, "", 0, kNoLimit,
+                        "its intensity in the brightest direction, or the colour that per_candela scales"},
+                  Field{"file", &GoniometricLight::file, "", -kNoLimit, kNoLimit,
+                        "an IES file (LM-63); without one it shines to all sides alike"},
+                  Field{"up", &GoniometricLight::up, "", -kNoLimit, kNoLimit,
+                        "to where the horizontal angle is 0 (types A and B: what is up)"},
+                  Field{"per_candela", &GoniometricLight::perCandela, "", 0, kNoLimit,
+                        "a factor for each candela of the file; 0: the brightest direction counts as 1"},
+                  Field{"constant_attenuation_coeff", &GoniometricLight::constant, "", 0, kNoLimit, "a"},
+                  Field{"linear_attenuation_coeff", &GoniometricLight::linear, "", 0, kNoLimit, "b"},
+                  Field{"quadratic_attenuation_coeff", &GoniometricLight::quadratic, "", 0, kNoLimit, "c"},
+                  Field{"radius", &GoniometricLight::radius, "units", 0, kNoLimit,
+                        "of the ball that shines; more than 0 makes shadows soft"}};
   }
   bool operator==(const GoniometricLight&) const = default;
   bool hasSize() const { return radius > 0; }

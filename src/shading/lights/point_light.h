@@ -27,16 +27,16 @@ struct PointLight {
 
   static constexpr auto fields() {
     return Fields{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-                      Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
-                      Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
-                      Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
-                      Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
-                      Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
-                            "added to color in highlights"},
-                      Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
-                            "of the ball that shines; more than 0 makes shadows soft"},
-                      Field{"visible", &PointLight::visible, "", 0, 1,
-                            "the ball is seen, in mirrors and through glass, too"}};
+                  Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
+                  Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
+                  Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
+                  Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
+                  Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
+                        "added to color in highlights"},
+                  Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
+                        "of the ball that shines; more than 0 makes shadows soft"},
+                  Field{"visible", &PointLight::visible, "", 0, 1,
+                        "the ball is seen, in mirrors and through glass, too"}};
   }
   bool operator==(const PointLight&) const = default;
   bool hasSize() const { return radius > 0; }

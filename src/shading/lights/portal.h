@@ -21,8 +21,8 @@ struct Portal {
 
   static constexpr auto fields() {
     return Fields{Field{"position", &Portal::position, "", -kNoLimit, kNoLimit, "its middle"},
-                      Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
-                      Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "along the other"}};
+                  Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
+                  Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "along the other"}};
   }
   bool operator==(const Portal&) const = default;
   bool hasSize() const { return false; }

@@ -19,9 +19,9 @@ struct Blackbody {
 
   static constexpr auto fields() {
     return Fields{Field{"temperature", &Blackbody::temperature, "kelvin", 0, kNoLimit,
-                            "a candle has 1900; a texture scales it"},
-                      Field{"brightness", &Blackbody::brightness, "", 0, kNoLimit,
-                            "how bright it is at 1900 kelvin; hotter is brighter"}};
+                        "a candle has 1900; a texture scales it"},
+                  Field{"brightness", &Blackbody::brightness, "", 0, kNoLimit,
+                        "how bright it is at 1900 kelvin; hotter is brighter"}};
   }
   bool operator==(const Blackbody&) const = default;
 
