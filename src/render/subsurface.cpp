@@ -55,13 +55,13 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
 
   const Basis basis = Frame{here.normal}.basis();
   const std::array<Vec3, 3> axes{basis.z, basis.x, basis.y};
-  constexpr std::array<Real, 3> kShareOfAxis{0.5, 0.25, 0.25};
+  constexpr std::array<Real, 3> kShareOfAxis{0.7, 0.15, 0.15};
   const Real u = numbers.next();
-  const std::size_t axis = u < 0.5 ? 0 : u < 0.75 ? 1 : 2;
+  const std::size_t axis = u < 0.7 ? 0 : u < 0.85 ? 1 : 2;
   const Vec3 &along = axes[axis], &across = axes[(axis + 1) % 3], &aside = axes[(axis + 2) % 3];
   const std::size_t channel = chosen(share, numbers.next());
-  const Vec2 place = numbers.next2();
-  const Real r = profiles[channel].distance(place.x), phi = 2 * kPi * place.y;
+  const Vec2 disk = numbers.next2();
+  const Real r = profiles[channel].distance(disk.x), phi = 2 * kPi * disk.y;
   const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
 
   // The line from one side of the body to the other; of one without end, as far as light gets.
@@ -83,26 +83,41 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   met.erase(std::unique(met.begin(), met.end(),
                         [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); }),
             met.end());
-  const auto count = static_cast<Real>(met.size());
-  const Found& found = met[static_cast<std::size_t>(numbers.next() * count)];
-  const SurfacePoint there = world.surface(probe, found);
-
-  const Vec3 away = there.point - here.point;
-  const Real distance = length(away);
-  Real density = 0;  // of the place, per area, by all axes and colours
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Vec3 flat = away - axes[a] * dot(away, axes[a]);
-    const Real facing = std::abs(dot(there.normal, axes[a])), from = length(flat);
-    for (std::size_t c = 0; c < 3; ++c)
-      if (share[c] > 0)
-        density += kShareOfAxis[a] * share[c] * facing * profiles[c].profile(from) / profiles[c].albedo;
+  // Of the places on the line one is taken as often as it weighs.
+  struct Place {
+    Color weight;
+    Real distance, counts;
+  };
+  std::vector<Place> places;
+  Real all = 0;
+  for (const Found& crossing : met) {
+    const SurfacePoint there = world.surface(probe, crossing);
+    const Vec3 away = there.point - here.point;
+    Real density = 0;  // per area, by all axes and colours
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Real facing = std::abs(dot(there.normal, axes[a]));
+      const Real from = length(away - axes[a] * dot(away, axes[a]));
+      for (std::size_t c = 0; c < 3; ++c)
+        if (share[c] > 0)
+          density += kShareOfAxis[a] * share[c] * facing * profiles[c].profile(from) / profiles[c].albedo;
+    }
+    const Real distance = length(away);
+    PerColor weight{};
+    if (density > 0)
+      for (std::size_t c = 0; c < 3; ++c) weight[c] = profiles[c].profile(distance) / density;
+    const Color found = isFinite(color(weight)) ? color(weight) : Color(0);
+    const Color counted = found * importance;
+    places.push_back({found, distance, counted.r + counted.g + counted.b});
+    all += places.back().counts;
   }
-  if (!(density > 0)) return {};
-  PerColor weight;
-  for (std::size_t c = 0; c < 3; ++c) weight[c] = profiles[c].profile(distance) * count / density;
-  const Color all = color(weight);
-  if (isBlack(all) || !isFinite(all)) return {};
-  return seen(tracer, here.point, probe, found, all, {distance, 0});
+  if (!(all > 0)) return {};
+  Real rest = numbers.next() * all;
+  std::size_t taken = 0;
+  while (taken + 1 < places.size() && rest >= places[taken].counts) rest -= places[taken++].counts;
+  const Place& place = places[taken];
+  if (!(place.counts > 0)) return {};
+  return seen(tracer, here.point, probe, met[taken], place.weight * (all / place.counts),
+              {place.distance, 0});
 }
 
 // --- the walk -----------------------------------------------------------------------------------------

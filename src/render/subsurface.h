@@ -1,9 +1,10 @@
 // Where light that comes out of a body went in: marble, milk, skin (shading/materials/subsurface.h).
 //
 // Profiles are looked up by probes: a line through the body, along the normal or one of two tangents, at a
-// distance that the profile chooses; one of the places where it crosses the surface is taken, and weighed by
-// all ways to come upon it (King, Kulla, Conty and Fajardo, BSSRDF Importance Sampling, SIGGRAPH 2013 talks;
-// pbrt, 3rd ed., section 15.4). The line has no end, so nothing is lost at the brim of a disk.
+// distance that the profile chooses; of the places where it crosses the surface one is taken by what it
+// counts, and weighed by all ways to come upon it (King, Kulla, Conty and Fajardo, BSSRDF Importance
+// Sampling, SIGGRAPH 2013 talks; pbrt, 3rd ed., section 15.4). The line has no end, so nothing is lost at the
+// brim of a disk.
 //
 // A walk goes step by step, as light does, from where the eye's ray is refracted into the body until the
 // surface lets it out (Chiang, Kutz and Burley, Practical and Controllable Subsurface Scattering, SIGGRAPH
