@@ -15,7 +15,7 @@ namespace {
 #define BALL(left, top, right, bottom) "--width 1116 --region " #left "," #top "," #right "," #bottom
 constexpr std::string_view kModels = "materials-models.ray", kPhong = "--models phong";
 
-constexpr std::array kTable{
+constexpr std::array kExtensions{
     Extension{"spp", "several rays a pixel: smooth edges", "antialias.ray", "--spp 1", "--spp 9", ""},
     Extension{"noise-target", "samples where they are needed: nearly the same picture of a part of them",
               "antialias.ray", "--spp 64 --sampling sobol", "--spp 64 --noise-target 0.01", ""},
@@ -167,7 +167,7 @@ Picture cut(const Picture& whole, const Region& part) {
 
 }  // namespace
 
-std::span<const Extension> extensions() { return kTable; }
+std::span<const Extension> extensions() { return kExtensions; }
 
 std::vector<Choice> choicesIn(std::string_view words) {
   std::vector<Choice> choices;
@@ -202,7 +202,7 @@ std::string extensionsMarkdown() {
       "pictures differ. All is off unless the scene or the command line asks for it. Shading models are "
       "shown beside the "
       "nearest that Blinn and Phong's can do (`--models phong`).\n";
-  for (const Extension& e : kTable) {
+  for (const Extension& e : kExtensions) {
     text += "\n## " + std::string(e.name) + "\n\n" + std::string(e.adds) + ".\n\n";
     for (const std::string_view which : {"off", "on", "difference"})
       text += "![" + std::string(which) + "](" + fileName(e, which) + ")\n";
@@ -213,7 +213,7 @@ std::string extensionsMarkdown() {
 
 void writeExtensionPictures(const std::string& scenes, const std::string& folder,
                             const std::function<void(std::string_view)>& told) {
-  for (const Extension& e : kTable) {
+  for (const Extension& e : kExtensions) {
     if (told) told(e.name);
     const auto write = [&](std::string_view which, const Picture& picture) {
       writePicture(folder + "/" + fileName(e, which), picture);

@@ -79,12 +79,12 @@ PlaneView changeView(const Film& film, const Picture& shown) {
 
 }  // namespace
 
-PlaneView planeView(Plane plane, const Film& film, const Picture& shown) {
+PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown) {
   switch (plane) {
-    case Plane::samples: return samplesView(film);
-    case Plane::noise: return noiseView(film);
-    case Plane::change: return changeView(film, shown);
-    case Plane::picture: break;
+    case FilmPlane::samples: return samplesView(film);
+    case FilmPlane::noise: return noiseView(film);
+    case FilmPlane::change: return changeView(film, shown);
+    case FilmPlane::picture: break;
   }
   return {shown, ""};
 }

@@ -26,7 +26,7 @@ Picture falseColours(const Picture& a, const Picture& b, double magnify);
 Color falseColour(double value);
 
 /// What may be seen of a render in place of its picture.
-enum class Plane { picture, samples, noise, change };
+enum class FilmPlane { picture, samples, noise, change };
 inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised: change"};
 
 /// A plane of a film in colours, from black over violet, red and yellow to white, and what they mean.
@@ -35,7 +35,7 @@ struct PlaneView {
   Picture colours;
   std::string legend;
 };
-PlaneView planeView(Plane plane, const Film& film, const Picture& shown);
+PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown);
 
 /// "12.5 samples a pixel, noise 1.3 levels": how far a render has come.
 std::string convergenceText(const Convergence& convergence);

@@ -11,7 +11,7 @@
 namespace trace {
 namespace {
 
-constexpr double kPanelWidth = 640, kMargin = 16, kLine = 18;
+constexpr double kPanelWidth = 640, kEdge = 16, kLine = 18;
 constexpr Color kInk{0.15, 0.15, 0.15};
 
 /// A view of the scene: its frame on the drawing, and the way from space to it.
@@ -204,11 +204,11 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   const double aspect =
       length(world.camera().right) / length(world.camera().up) * eyesAcross(settings.stereo);
   const double height = std::clamp(std::round(kPanelWidth / aspect), 100.0, 4 * kPanelWidth);
-  const double top = kMargin + 2 * kLine, right = 2 * kMargin + kPanelWidth;
+  const double top = kEdge + 2 * kLine, right = 2 * kEdge + kPanelWidth;
   Drawing drawing;
-  drawing.width = static_cast<int>(2 * kPanelWidth + 3 * kMargin);
+  drawing.width = static_cast<int>(2 * kPanelWidth + 3 * kEdge);
   const std::size_t legendRows = (kRayLooks.size() + 3) / 3;
-  drawing.height = static_cast<int>(top + height + 2 * kMargin + static_cast<double>(legendRows) * kLine);
+  drawing.height = static_cast<int>(top + height + 2 * kEdge + static_cast<double>(legendRows) * kLine);
   const DrawnFrame whole{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)};
 
   Scene sideScene = scene;
@@ -234,23 +234,23 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
     rays.rays(drawing, view);
     drawing.things.push_back(whole);
   };
-  drawing.things.push_back(DrawnWords{{kMargin, kMargin / 2},
+  drawing.things.push_back(DrawnWords{{kEdge, kEdge / 2},
                                       "pixel " + std::to_string(tree.x) + "," + std::to_string(tree.y) +
                                           ", sample " + std::to_string(tree.sample) + ": " +
                                           std::to_string(tree.nodes.size()) +
                                           (tree.nodes.size() == 1 ? " ray" : " rays"),
                                       kInk});
-  panel(world, settings, kMargin, "from the camera");
+  panel(world, settings, kEdge, "from the camera");
   panel(sideWorld, sideSettings, right, "from the side: the camera looks to the right");
 
   // The legend, in three columns.
-  double x = kMargin, y = top + height + kMargin;
+  double x = kEdge, y = top + height + kEdge;
   const auto entry = [&](const std::string& words, const Color& color, bool dashed) {
     drawing.things.push_back(DrawnLine{{x, y + kLine / 2}, {x + 36, y + kLine / 2}, color, 3, dashed});
     drawing.things.push_back(DrawnWords{{x + 46, y}, words, kInk});
-    x += (2 * kPanelWidth + kMargin) / 3;
+    x += (2 * kPanelWidth + kEdge) / 3;
     if (x > 2 * kPanelWidth) {
-      x = kMargin;
+      x = kEdge;
       y += kLine;
     }
   };

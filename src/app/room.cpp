@@ -9,15 +9,14 @@
 namespace trace {
 namespace {
 
-constexpr int kDirections = 400;
-constexpr int kLeast =
-    kDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
+constexpr int kRoomDirections = 400;
+constexpr int kLeast = kRoomDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
 
 /// Spread evenly over the sphere: the golden angle apart, in bands of equal area (Gonzalez, "Measurement of
 /// areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).
-Vec3 direction(int i) {
+Vec3 lookAlong(int i) {
   const Real golden = kPi * (3 - std::sqrt(5.0));
-  const Real y = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - y * y), angle = golden * i;
+  const Real y = 1 - (2 * i + 1.0) / kRoomDirections, r = std::sqrt(1 - y * y), angle = golden * i;
   return {r * std::cos(angle), y, r * std::sin(angle)};
 }
 
@@ -30,8 +29,8 @@ std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, c
   std::set<std::uint32_t> walls;
   int met = 0;
   Statistics statistics;
-  for (int i = 0; i < kDirections; ++i) {
-    const Vec3 out = direction(i);
+  for (int i = 0; i < kRoomDirections; ++i) {
+    const Vec3 out = lookAlong(i);
     const auto found = world.closest({inside + out * far, -out}, Faces::both, statistics);
     if (!found || found->t >= far) continue;
     walls.insert(found->object);

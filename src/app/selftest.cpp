@@ -159,7 +159,7 @@ double afterAStop() {
 
 constexpr double kDegree = kPi / 180;
 
-constexpr std::array kTable{
+constexpr std::array kChecks{
     SelfCheck{"volume of a ball", "4 pi / 3", 4.18879, 0.01, [] { return volumeOf("sphere { }"); }},
     SelfCheck{"volume of a torus", "2 pi^2 R r^2", 1.2337, 0.005,
               [] { return volumeOf("torus { major_radius = 1; minor_radius = 0.25; }"); }},
@@ -241,6 +241,6 @@ constexpr std::array kTable{
 
 }  // namespace
 
-std::span<const SelfCheck> selfChecks() { return kTable; }
+std::span<const SelfCheck> selfChecks() { return kChecks; }
 
 }  // namespace trace

@@ -100,7 +100,7 @@ constexpr double kMiddle = 0.505, kAround = 0.495;
 /// As rare as that.
 constexpr double kErrors = 2.8;
 
-constexpr std::array kTable{
+constexpr std::array kLongChecks{
     SelfCheck{"bdpt and path: a room", kWelch, kMiddle, kAround, [] { return alike(Room::diffuse, kBdpt); }},
     SelfCheck{"bdpt and path: with a mirror", kWelch, kMiddle, kAround,
               [] { return alike(Room::mirror, kBdpt); }},
@@ -130,6 +130,6 @@ constexpr std::array kTable{
 
 }  // namespace
 
-std::span<const SelfCheck> longSelfChecks() { return kTable; }
+std::span<const SelfCheck> longSelfChecks() { return kLongChecks; }
 
 }  // namespace trace

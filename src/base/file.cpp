@@ -15,19 +15,19 @@ namespace trace {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+[[noreturn]] void failToRead(const std::string& path, const std::string& reason) {
   throw Error(Fault::io, "cannot read \"" + path + "\": " + reason);
 }
 
 }  // namespace
 
 std::string readFile(const std::string& path) {
-  constexpr std::size_t kMostUnknown = std::size_t{1} << 30;              // of a pipe, which may have no end
-  if (path.find('\0') != path.npos) fail(path, "the name holds a zero");  // and would be another file's
+  constexpr std::size_t kMostUnknown = std::size_t{1} << 30;  // of a pipe, which may have no end
+  if (path.find('\0') != path.npos) failToRead(path, "the name holds a zero");  // and would be another file's
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) fail(path, "it is a folder");
+  if (fs::is_directory(path, ignored)) failToRead(path, "it is a folder");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail(path, std::strerror(errno));
+  if (!file) failToRead(path, std::strerror(errno));
   // A file of known size in one go; a pipe, or what has grown since, piece by piece.
   std::error_code unknown;
   const std::uintmax_t size = fs::file_size(path, unknown);
@@ -42,14 +42,15 @@ std::string readFile(const std::string& path) {
                                     std::to_string(bytes.size() >> 20) + " MiB");
     bytes.append(buffer, n);
   }
-  if (std::ferror(file.get())) fail(path, std::strerror(errno));
+  if (std::ferror(file.get())) failToRead(path, std::strerror(errno));
   return bytes;
 }
 
 std::string readBeside(const std::string& from, const std::string& name) {
   const std::string path = besideFile(from, name);
   std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) fail(path, "it is no ordinary file");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    failToRead(path, "it is no ordinary file");
   return readFile(path);
 }
 

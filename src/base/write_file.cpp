@@ -33,10 +33,12 @@ constexpr std::string_view kStart = ".trace-", kEnd = ".tmp";
 constexpr int kDigits = 16;
 constexpr int kTries = 100;
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+[[noreturn]] void failToWrite(const std::string& path, const std::string& reason) {
   throw Error(Fault::io, "cannot write \"" + path + "\": " + reason);
 }
-[[noreturn]] void failFor(const std::string& path, int error) { fail(path, std::strerror(error)); }
+[[noreturn]] void failToWriteFor(const std::string& path, int error) {
+  failToWrite(path, std::strerror(error));
+}
 
 /// A descriptor that is closed when this goes.
 class Descriptor {
@@ -70,21 +72,21 @@ struct Target {
 /// Throws unless something may be written there.
 Target targetOf(const std::string& name) {
   constexpr int kMostLinks = 40;
-  if (name.empty()) fail(name, "the name is empty");
-  if (name.find('\0') != name.npos) fail(name, "the name holds a zero");
+  if (name.empty()) failToWrite(name, "the name is empty");
+  if (name.find('\0') != name.npos) failToWrite(name, "the name holds a zero");
   Target target;
   target.name = name;
   fs::path path = name;
   for (int links = 0;; ++links) {
     if (::lstat(path.c_str(), &target.was) != 0) {
-      if (errno != ENOENT) failFor(name, errno);
+      if (errno != ENOENT) failToWriteFor(name, errno);
       break;
     }
     if (!S_ISLNK(target.was.st_mode)) {
       target.exists = true;
       break;
     }
-    if (links >= kMostLinks) failFor(name, ELOOP);
+    if (links >= kMostLinks) failToWriteFor(name, ELOOP);
     // A link of the system, as /dev/stdout, leads to what has no path of its own.
     struct stat behind {};
     if (::stat(path.c_str(), &behind) == 0 && !S_ISREG(behind.st_mode) && !S_ISDIR(behind.st_mode)) {
@@ -94,18 +96,18 @@ Target targetOf(const std::string& name) {
     }
     std::error_code error;
     const fs::path next = fs::read_symlink(path, error);
-    if (error) fail(name, error.message());
+    if (error) failToWrite(name, error.message());
     path = path.parent_path() / next;
   }
   target.path = path.string();
   target.folder = path.has_parent_path() ? path.parent_path().string() : ".";
   if (!target.exists) return target;
-  if (S_ISDIR(target.was.st_mode)) fail(name, "it is a folder");
+  if (S_ISDIR(target.was.st_mode)) failToWrite(name, "it is a folder");
   target.ordinary = S_ISREG(target.was.st_mode);
   constexpr mode_t kAnyoneWrites = S_IWUSR | S_IWGRP | S_IWOTH;  // what root may do anyway is not meant
   const bool readOnly = (target.was.st_mode & kAnyoneWrites) == 0;
   if (readOnly || ::faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0)
-    fail(name, "it is read-only");
+    failToWrite(name, "it is read-only");
   return target;
 }
 
@@ -167,7 +169,7 @@ class Temporary {
     while (!bytes.empty()) {
       const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) failFor(target_.name, errno);
+      if (written < 0) failToWriteFor(target_.name, errno);
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
   }
@@ -177,10 +179,10 @@ class Temporary {
     if (target_.exists) {
       // Only root may give a file away; for others it stays their own.
       if (::fchown(file_.get(), target_.was.st_uid, target_.was.st_gid) != 0) errno = 0;
-      if (::fchmod(file_.get(), target_.was.st_mode & 0777) != 0) failFor(target_.name, errno);
+      if (::fchmod(file_.get(), target_.was.st_mode & 0777) != 0) failToWriteFor(target_.name, errno);
     }
     const bool unable = ::fsync(file_.get()) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP;
-    if (unable) failFor(target_.name, errno);
+    if (unable) failToWriteFor(target_.name, errno);
   }
 
   /// False if the file can have no name here, so that one with a name has to be written.
@@ -197,7 +199,7 @@ class Temporary {
           return false;
       if (name_.empty()) return false;
     }
-    if (::rename(name_.c_str(), target_.path.c_str()) != 0) failFor(target_.name, errno);
+    if (::rename(name_.c_str(), target_.path.c_str()) != 0) failToWriteFor(target_.name, errno);
     name_.clear();
     sync();
     return true;
@@ -209,14 +211,14 @@ class Temporary {
       const std::string name = randomName(target_.folder);
       file_ = Descriptor(::open(name.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode));
       if (!file_ && errno == EEXIST) continue;
-      if (!file_) failFor(target_.name, errno);
+      if (!file_) failToWriteFor(target_.name, errno);
       // Until it is locked another process may take it for a leftover.
       struct stat facts {};
       if (!lock(file_.get()) || ::fstat(file_.get(), &facts) != 0 || facts.st_nlink == 0) continue;
       name_ = name;
       return;
     }
-    failFor(target_.name, EEXIST);
+    failToWriteFor(target_.name, EEXIST);
   }
 
   bool linkAs(const std::string& name) const {
@@ -238,12 +240,12 @@ class Temporary {
 /// Into a device or a pipe.
 void writeInto(const Target& target, std::string_view bytes) {
   std::FILE* const file = std::fopen(target.path.c_str(), "wb");
-  if (!file) failFor(target.name, errno);
+  if (!file) failToWriteFor(target.name, errno);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
   const int error = errno;
   const bool closed = std::fclose(file) == 0;
-  if (!written) failFor(target.name, error);
-  if (!closed) failFor(target.name, errno);
+  if (!written) failToWriteFor(target.name, error);
+  if (!closed) failToWriteFor(target.name, errno);
 }
 
 }  // namespace
@@ -257,7 +259,7 @@ void writeFile(const std::string& path, std::string_view bytes) {
     file.finish();
     if (file.takePlace()) return;
   }
-  fail(path, "a new file gets no name");
+  failToWrite(path, "a new file gets no name");
 }
 
 void checkWritable(const std::string& path) {
@@ -282,7 +284,7 @@ std::string makeOwnFolder() {
   const fs::path around = fs::temp_directory_path(error);
   if (error) throw Error(Fault::io, "there is no folder for temporary files: " + error.message());
   std::string path = (around / "trace-XXXXXX").string();
-  if (!::mkdtemp(path.data())) fail(path, std::strerror(errno));
+  if (!::mkdtemp(path.data())) failToWrite(path, std::strerror(errno));
   return path;
 }
 

@@ -1,24 +1,17 @@
 // ray bench SCENE: how fast the scene's rays are answered, for people or as JSON.
 // docs/statistics.md has the keys.
 #include <array>
-#include <cstdio>
 
 #include "app/ray_bench.h"
 #include "app/session.h"
 #include "cli/commands.h"
+#include "cli/formatted.h"
 #include "cli/json.h"
 
 namespace trace::cli {
 namespace {
 
 constexpr int kPasses = 5;
-
-template <class... Args>
-std::string formatted(const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
-}
 
 std::string benchText(const Session& session, const RayBench& bench) {
   const Size size = session.size();
@@ -66,8 +59,7 @@ int benchCommand(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray bench: expected the name of one scene file, found " +
                     (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
-  constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
-  const bool json = chosenFormat(arguments, "bench", kFormats) == "json";
+  const bool json = chosenFormat(arguments, "bench", kTextOrJson) == "json";
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   Messages messages = session.messages();

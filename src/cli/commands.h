@@ -1,6 +1,7 @@
 // THE table of sub-commands. A new one is a value of Verb, a function and a row in commands.cpp.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +46,8 @@ Error outOfMemory(const std::string& doing, const std::string& file = {});
 /// a scene is made of are known once it is read: checkIsNoInput().
 void checkDistinct(const std::string& read, const std::string& written);
 
+/// What most commands that print facts know.
+inline constexpr std::array<std::string_view, 2> kTextOrJson{"text", "json"};
 /// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
                               std::span<const std::string_view> known);

@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::string_view kLevels[] = {"error", "warning", "info", "debug"};
 
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stderr);
-  std::fflush(stderr);
-}
-
 /// The word "error:" or "warning:" of a message in bold red or yellow.
 std::string colored(const Message& message) {
   std::string text = toString(message);
@@ -38,6 +33,11 @@ std::string colored(const Message& message) {
 
 }  // namespace
 
+void printToTerminal(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 LogLevel logLevel(std::string_view who, std::string_view name) {
   const auto found = std::find(std::begin(kLevels), std::end(kLevels), name);
   if (found == std::end(kLevels))
@@ -52,9 +52,10 @@ Console::Console(LogLevel level, bool quiet) : level_(level), quiet_(quiet), col
 
 void Console::print(std::span<const Message> messages, std::string_view kind) const {
   for (const Message& message : messages.first(std::min(messages.size(), kMostMessages)))
-    cli::print(color_ ? colored(message) : toString(message));
+    printToTerminal(color_ ? colored(message) : toString(message));
   if (messages.size() > kMostMessages)
-    cli::print("... and " + counted(messages.size() - kMostMessages, "more " + std::string(kind)) + "\n");
+    printToTerminal("... and " + counted(messages.size() - kMostMessages, "more " + std::string(kind)) +
+                    "\n");
 }
 
 void Console::warnings(std::span<const Message> messages) const {
@@ -71,20 +72,21 @@ void Console::warnings(std::span<const Message> messages) const {
 void Console::error(const Error& error) const {
   print(error.messages(), "error");
   if (error.messages().size() == Messages::kMostErrors)
-    cli::print("... and perhaps more: reading ends at the " + std::to_string(Messages::kMostErrors) +
-               "th error\n");
+    printToTerminal("... and perhaps more: reading ends at the " + std::to_string(Messages::kMostErrors) +
+                    "th error\n");
 }
 
 void Console::line(LogLevel importance, const std::string& text) const {
-  if (importance == LogLevel::error || shows(importance)) cli::print(printable(text) + "\n");
+  if (importance == LogLevel::error || shows(importance)) printToTerminal(printable(text) + "\n");
 }
 
 void Console::lines(LogLevel importance, const std::string& text) const {
-  if (importance == LogLevel::error || shows(importance)) cli::print(printable(text, LineEnds::kept) + "\n");
+  if (importance == LogLevel::error || shows(importance))
+    printToTerminal(printable(text, LineEnds::kept) + "\n");
 }
 
 void Console::last(bool well, const std::string& text) const {
-  if (!well || !quiet_) cli::print(printable(text) + "\n");
+  if (!well || !quiet_) printToTerminal(printable(text) + "\n");
 }
 
 void printResult(const std::string& text, Paint paint) {

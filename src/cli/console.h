@@ -54,6 +54,9 @@ enum class Paint { none, colors };
 /// Writes to stdout. Throws Error(Fault::io) when that fails, as on a full disk, or ReaderGone.
 void printResult(const std::string& text, Paint paint = Paint::none);
 
+/// Writes to stderr, at once.
+void printToTerminal(const std::string& text);
+
 /// "1 error", "3 errors".
 std::string counted(std::size_t n, std::string_view noun);
 

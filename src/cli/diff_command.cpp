@@ -20,8 +20,6 @@
 namespace trace::cli {
 namespace {
 
-constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
-
 /// What the command found; each has an exit code in two scales.
 enum class Finding { identical, within, beyond, sizesDiffer, failed };
 
@@ -108,7 +106,7 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 2)
     throw Error(Fault::usage,
                 "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
-  const bool json = chosenFormat(arguments, "diff", kFormats) == "json";
+  const bool json = chosenFormat(arguments, "diff", kTextOrJson) == "json";
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);

@@ -21,7 +21,7 @@
 namespace trace::cli {
 namespace {
 
-constexpr std::array<std::string_view, 5> kFormats{"text", "json", "obj", "svg", "png"};
+constexpr std::array<std::string_view, 5> kExplainFormats{"text", "json", "obj", "svg", "png"};
 
 /// Whole numbers with commas between, as many as asked. Throws Error(Fault::usage).
 template <std::size_t N>
@@ -43,9 +43,9 @@ std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text
 /// As chosen, or by the suffix of the file to write. Throws Error(Fault::usage) for one that promises
 /// something else, such as .jpg.
 std::string_view formatOf(const Arguments& arguments) {
-  if (arguments.format) return chosenFormat(arguments, "explain", kFormats);
+  if (arguments.format) return chosenFormat(arguments, "explain", kExplainFormats);
   const std::string suffix = std::filesystem::path(arguments.output).extension().string();
-  for (std::string_view format : kFormats)
+  for (std::string_view format : kExplainFormats)
     if (suffix == "." + std::string(format)) return format;
   if (suffix.empty() || suffix == ".txt" || suffix == ".log") return "text";
   throw Error(

@@ -19,8 +19,6 @@
 namespace trace::cli {
 namespace {
 
-constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
-
 constexpr int kNotAllWithin = 6;
 
 GradeTask taskOf(const Arguments& arguments) {
@@ -157,7 +155,7 @@ class StopKey {
 }  // namespace
 
 int gradeCommand(const Arguments& arguments, const Console& console) {
-  const bool asJson = chosenFormat(arguments, "grade", kFormats) == "json";
+  const bool asJson = chosenFormat(arguments, "grade", kTextOrJson) == "json";
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   StopKey stop(console);

@@ -136,8 +136,7 @@ int infoCommand(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray info: expected the name of one scene file, found " +
                     (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
-  constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
-  const bool json = chosenFormat(arguments, "info", kFormats) == "json";
+  const bool json = chosenFormat(arguments, "info", kTextOrJson) == "json";
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   // Not Session::build(): looking at a scene needs no memory for a picture.

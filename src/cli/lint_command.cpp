@@ -47,8 +47,7 @@ int lintCommand(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage,
                 "ray lint: expected the name of one scene file, found " +
                     (arguments.files.empty() ? "none" : std::to_string(arguments.files.size())));
-  constexpr std::array<std::string_view, 2> kFormats{"text", "json"};
-  const bool json = chosenFormat(arguments, "lint", kFormats) == "json";
+  const bool json = chosenFormat(arguments, "lint", kTextOrJson) == "json";
   checkDistinct(arguments.files[0], arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   Session session;

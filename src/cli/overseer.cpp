@@ -16,15 +16,8 @@
 namespace trace::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kInterval{100};
-constexpr double kQuiet = 1;           // seconds; shorter work needs no words
-constexpr double kPlainInterval = 10;  // seconds
-constexpr double kGrace = 6;           // seconds after the limit; more than a render's patience
-
-void print(const std::string& text) {
-  std::fputs(text.c_str(), stderr);
-  std::fflush(stderr);
-}
+constexpr std::chrono::milliseconds kLook{100};
+constexpr double kGrace = 6;  // seconds after the limit; more than a render's patience
 
 }  // namespace
 
@@ -52,7 +45,7 @@ Overseer::~Overseer() {
 
 void Overseer::run() {
   std::unique_lock lock(mutex_);
-  while (!ends_.wait_for(lock, kInterval, [this] { return ended_; })) {
+  while (!ends_.wait_for(lock, kLook, [this] { return ended_; })) {
     endIfLate();
     if (shows_) report();
   }
@@ -72,7 +65,7 @@ void Overseer::endIfLate() const {
 void Overseer::report() {
   const auto [step, since] = budget_.outermost();
   const double now = budget_.seconds();
-  if (!*step.doing || now - since < kQuiet) return clear();
+  if (!*step.doing || now - since < kQuietSeconds) return clear();
   std::string text = step.doing;
   if (step.total > 0)
     text += ": " +
@@ -82,16 +75,16 @@ void Overseer::report() {
   text += ", " + durationText(now) + " elapsed";
   if (draws_) {
     // The cursor goes back, so that whatever is printed next begins there.
-    print("\r" + text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))) + "\033[K\r");
+    printToTerminal("\r" + text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))) + "\033[K\r");
     drawn_ = true;
-  } else if (now - std::max(lastPrint_, since) >= kPlainInterval) {
-    print(text + "\n");
+  } else if (now - std::max(lastPrint_, since) >= kPlainLineSeconds) {
+    printToTerminal(text + "\n");
     lastPrint_ = now;
   }
 }
 
 void Overseer::clear() {
-  if (drawn_) print("\r\033[K");
+  if (drawn_) printToTerminal("\r\033[K");
   drawn_ = false;
 }
 

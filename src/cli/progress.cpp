@@ -11,8 +11,6 @@
 namespace trace::cli {
 namespace {
 
-constexpr double kQuiet = 1;           // seconds; a shorter render needs no progress
-constexpr double kPlainInterval = 10;  // seconds
 constexpr double kJsonInterval = 0.25;
 
 double share(std::int64_t done, std::int64_t total) {
@@ -47,7 +45,7 @@ void Progress::update(std::int64_t done, std::int64_t total, double elapsed) {
     if (lastPrint_ < 0 || elapsed - lastPrint_ >= kJsonInterval) json(done, total, elapsed);
     return;
   }
-  if (elapsed < kQuiet) return;
+  if (elapsed < kQuietSeconds) return;
   if (style_ == ProgressStyle::bar) {
     const std::string left = percent(fraction) + " [", right = "] " + times(elapsed, remaining_);
     const int width = columns_ - 1 - static_cast<int>(left.size() + right.size());
@@ -62,7 +60,8 @@ void Progress::update(std::int64_t done, std::int64_t total, double elapsed) {
     return;
   }
   const int tenth = static_cast<int>(std::floor(10 * fraction));
-  if (done >= total || (tenth <= lastTenth_ && elapsed - std::max(0.0, lastPrint_) < kPlainInterval)) return;
+  if (done >= total || (tenth <= lastTenth_ && elapsed - std::max(0.0, lastPrint_) < kPlainLineSeconds))
+    return;
   print_(percent(fraction) + " done, " + times(elapsed, remaining_) + "\n");
   lastPrint_ = elapsed;
   lastTenth_ = tenth;

@@ -11,6 +11,9 @@
 
 namespace trace::cli {
 
+inline constexpr double kQuietSeconds = 1;       ///< shorter work needs no words
+inline constexpr double kPlainLineSeconds = 10;  ///< between two lines of a log
+
 enum class ProgressStyle { automatic, bar, plain, json, none };
 
 class Progress {

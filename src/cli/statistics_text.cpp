@@ -1,10 +1,10 @@
 #include "cli/statistics_text.h"
 
-#include <cstdio>
 #include <optional>
 #include <string_view>
 
 #include "base/parallel.h"
+#include "cli/formatted.h"
 #include "cli/json.h"
 
 namespace trace::cli {
@@ -38,13 +38,6 @@ std::optional<double> raysPerSecond(const Run& run) {
 std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
   if (b == 0) return {};
   return static_cast<double>(a) / static_cast<double>(b);
-}
-
-template <class... Args>
-std::string formatted(const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, args...);
-  return text;
 }
 
 std::string orDash(const char* format, std::optional<double> value) {

@@ -26,10 +26,10 @@ std::atomic<int> gStops{0};
 std::atomic<bool> gRendering{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
+constexpr int kCaught[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
 constexpr int kStoppedAtOnce = 130;  // 128 + SIGINT, as shells report it
 
-struct sigaction gBefore[std::size(kSignals)];
+struct sigaction gBefore[std::size(kCaught)];
 
 /// Ends the process from within a handler, with a last line.
 [[noreturn]] void stopAtOnce() {
@@ -122,15 +122,15 @@ Signals::Signals() {
   struct sigaction action {};
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;
-  for (size_t i = 0; i < std::size(kSignals); ++i) {
-    ::sigaction(kSignals[i], nullptr, &gBefore[i]);
+  for (size_t i = 0; i < std::size(kCaught); ++i) {
+    ::sigaction(kCaught[i], nullptr, &gBefore[i]);
     // Whoever started us with a signal ignored (nohup, a shell's background job) wants it so.
-    if (gBefore[i].sa_handler != SIG_IGN) ::sigaction(kSignals[i], &action, nullptr);
+    if (gBefore[i].sa_handler != SIG_IGN) ::sigaction(kCaught[i], &action, nullptr);
   }
 }
 
 Signals::~Signals() {
-  for (size_t i = 0; i < std::size(kSignals); ++i) ::sigaction(kSignals[i], &gBefore[i], nullptr);
+  for (size_t i = 0; i < std::size(kCaught); ++i) ::sigaction(kCaught[i], &gBefore[i], nullptr);
   for (auto& end : gPipe) ::close(end.exchange(-1));
 }
 
@@ -139,7 +139,7 @@ void Signals::renderingBegins() { gRendering = true; }
 void Signals::receive(bool here) {
   sigset_t set;
   ::sigemptyset(&set);
-  for (int signal : kSignals) ::sigaddset(&set, signal);
+  for (int signal : kCaught) ::sigaddset(&set, signal);
   ::pthread_sigmask(here ? SIG_UNBLOCK : SIG_BLOCK, &set, nullptr);
 }
 

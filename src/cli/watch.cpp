@@ -7,7 +7,7 @@
 namespace trace::cli {
 namespace {
 
-constexpr int kInterval = 100;  // milliseconds
+constexpr int kLookForChanges = 100;  // milliseconds
 
 }  // namespace
 
@@ -86,7 +86,7 @@ void Watch::run() {
   Signals::receive(true);
   Clock::time_point last = Clock::now();
   while (!finished_) {
-    switch (signals_.wait(kInterval)) {
+    switch (signals_.wait(kLookForChanges)) {
       case Signals::Event::stop:
         session_.job().cancel = true;
         progress_.clear();

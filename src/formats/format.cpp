@@ -32,7 +32,7 @@ using Suffixes = std::array<std::string_view, 1>;
 constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
 constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"}, kInventor{".wrl", ".iv"};
 
-constexpr std::array kTable{
+constexpr std::array kFormats{
     SceneFormat{.name = "ray",
                 .suffixes = kRay,
                 .help = "scenes that begin with SBT-raytracer 1.0",
@@ -172,7 +172,7 @@ auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) 
 
 }  // namespace
 
-std::span<const SceneFormat> sceneFormats() { return kTable; }
+std::span<const SceneFormat> sceneFormats() { return kFormats; }
 
 Scene readScene(const std::string& file, Messages& messages, Real time) {
   return readScene(file, readFile(file), messages, time);

@@ -31,9 +31,9 @@ std::string withoutCommas(std::string_view bytes, std::size_t from) {
   return text;
 }
 
-class Reader {
+class IesReader {
  public:
-  Reader(const std::string& file, std::string_view bytes, Messages& messages)
+  IesReader(const std::string& file, std::string_view bytes, Messages& messages)
       : file_(file),
         tilt_(tiltIn(file, bytes)),
         text_(withoutCommas(bytes, tilt_)),
@@ -153,7 +153,7 @@ class Reader {
 }  // namespace
 
 Photometry readIes(const std::string& file, std::string_view bytes, Messages& messages) {
-  return Reader(file, bytes, messages).read();
+  return IesReader(file, bytes, messages).read();
 }
 
 }  // namespace trace

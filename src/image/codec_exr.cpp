@@ -38,7 +38,6 @@ namespace {
 constexpr int kNoThreads = 0;
 /// Keeps our words apart from the attributes OpenEXR gives a meaning.
 constexpr std::string_view kPrefix = "trace:";
-constexpr int kMagicAndVersion = 8;
 
 class MemoryOutput : public Imf::OStream {
  public:
@@ -78,8 +77,8 @@ class MemoryInput : public Imf::IStream {
 /// The header alone, before OpenEXR allocates what it asks for. Of several parts, the first.
 Imf::Header headerOf(std::string_view bytes) {
   MemoryInput input(bytes);
-  char start[kMagicAndVersion];
-  input.read(start, kMagicAndVersion);
+  char start[kExrMagicAndVersion];
+  input.read(start, kExrMagicAndVersion);
   int version = 0;
   for (int i = 3; i >= 0; --i) version = version << 8 | static_cast<unsigned char>(start[4 + i]);
   Imf::Header header;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,8 @@ struct PictureLimits;
 /// How many pixels a byte of a file can stand for. Deflate packs a thousandfold; a picture of one colour
 /// comes near that, as PNG and as JPEG.
 inline constexpr double kPackedPixelsPerByte = 1100;
+
+[[noreturn]] inline void failAtEnd() { throw std::runtime_error("the file ends too early"); }
 
 /// To be asked before anybody takes memory for the pixels. Throws std::runtime_error for a size that no sound
 /// file of so many bytes can have, Error(Fault::limit) for one beyond the limits.

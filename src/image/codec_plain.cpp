@@ -19,8 +19,6 @@
 namespace trace {
 namespace {
 
-[[noreturn]] void failAtEnd() { throw std::runtime_error("the file ends too early"); }
-
 /// Takes a netpbm file apart from its start.
 class NetpbmReader {
  public:

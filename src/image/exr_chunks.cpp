@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "image/codec_parts.h"
+
 namespace trace {
 namespace {
-
-constexpr std::size_t kMagicAndVersion = 8;
-
-[[noreturn]] void failAtEnd() { throw std::runtime_error("the file ends too early"); }
 
 /// Takes little-endian numbers and names from a place in the file on.
 class Walker {
@@ -146,7 +144,7 @@ void checkBlock(std::string_view packed, std::uint64_t wanted, ExrLayout::Packin
 
 ExrHeaders exrHeaders(std::string_view bytes) {
   constexpr int kTiled = 0x200, kSeveral = 0x1000;
-  Walker walker(bytes, kMagicAndVersion - 4);
+  Walker walker(bytes, kExrMagicAndVersion - 4);
   const int flags = walker.integer();
   ExrHeaders headers{(flags & kTiled) != 0, (flags & kSeveral) != 0, 0};
   bool more = skipHeader(walker);

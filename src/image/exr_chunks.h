@@ -9,6 +9,8 @@
 
 namespace trace {
 
+inline constexpr std::size_t kExrMagicAndVersion = 8;  ///< bytes
+
 /// Where the first header ends, and where the blocks' offsets begin behind all headers.
 struct ExrHeaders {
   bool tiled = false, several = false;  ///< several parts

@@ -52,11 +52,11 @@ Vec3 huntLabFromRgb(const Vec3& rgb) {
 
 // --- filters ------------------------------------------------------------------------------------------
 
-struct Plane {
+struct Layer {
   int width = 0, height = 0;
   std::vector<double> values;
 
-  Plane(int w, int h)
+  Layer(int w, int h)
       : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
   double& at(int x, int y) {
     return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -86,7 +86,7 @@ Kernel normalized(Kernel k) {
 }
 
 /// Beyond its border the picture goes on as it ends.
-Plane filteredRows(Plane plane, const Kernel& k) {
+Layer filteredRows(Layer plane, const Kernel& k) {
   const int radius = static_cast<int>(k.size() / 2), length = plane.width + 2 * radius;
   std::vector<double> row(static_cast<std::size_t>(length));
   for (int y = 0; y < plane.height; ++y) {
@@ -100,14 +100,14 @@ Plane filteredRows(Plane plane, const Kernel& k) {
   return plane;
 }
 
-Plane transposed(Plane plane) {
-  Plane result(plane.height, plane.width);
+Layer transposed(Layer plane) {
+  Layer result(plane.height, plane.width);
   for (int y = 0; y < plane.height; ++y)
     for (int x = 0; x < plane.width; ++x) result.at(y, x) = plane.at(x, y);
   return result;
 }
 
-Plane filtered(const Plane& plane, const Kernel& alongX, const Kernel& alongY) {
+Layer filtered(const Layer& plane, const Kernel& alongX, const Kernel& alongY) {
   return transposed(filteredRows(transposed(filteredRows(plane, alongX)), alongY));
 }
 
@@ -123,9 +123,9 @@ int colorRadius(double pixelsPerDegree) {
   return static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
 }
 
-Plane spatiallyFiltered(const Plane& plane, std::initializer_list<Sensitivity> sum, double pixelsPerDegree) {
+Layer spatiallyFiltered(const Layer& plane, std::initializer_list<Sensitivity> sum, double pixelsPerDegree) {
   const int radius = colorRadius(pixelsPerDegree);
-  Plane result(plane.width, plane.height);
+  Layer result(plane.width, plane.height);
   double all = 0;
   for (const Sensitivity& s : sum) {
     const Kernel k = kernel(radius, [&](double x) {
@@ -135,7 +135,7 @@ Plane spatiallyFiltered(const Plane& plane, std::initializer_list<Sensitivity> s
     const double weight = s.a * std::sqrt(kPi / s.b);
     const double size = std::accumulate(k.begin(), k.end(), 0.0);
     all += weight * size * size;
-    const Plane part = filtered(plane, k, k);
+    const Layer part = filtered(plane, k, k);
     for (std::size_t i = 0; i < result.values.size(); ++i) result.values[i] += weight * part.values[i];
   }
   for (double& value : result.values) value /= all;
@@ -143,10 +143,10 @@ Plane spatiallyFiltered(const Plane& plane, std::initializer_list<Sensitivity> s
 }
 
 /// The colours that an eye sees at this distance, to be subtracted.
-std::vector<Vec3> seenColors(const std::array<Plane, 3>& opponent, double pixelsPerDegree) {
-  const Plane y = spatiallyFiltered(opponent[0], {{1, 0.0047}}, pixelsPerDegree);
-  const Plane cx = spatiallyFiltered(opponent[1], {{1, 0.0053}}, pixelsPerDegree);
-  const Plane cz = spatiallyFiltered(opponent[2], {{34.1, 0.04}, {13.5, 0.025}}, pixelsPerDegree);
+std::vector<Vec3> seenColors(const std::array<Layer, 3>& opponent, double pixelsPerDegree) {
+  const Layer y = spatiallyFiltered(opponent[0], {{1, 0.0047}}, pixelsPerDegree);
+  const Layer cx = spatiallyFiltered(opponent[1], {{1, 0.0053}}, pixelsPerDegree);
+  const Layer cz = spatiallyFiltered(opponent[2], {{34.1, 0.04}, {13.5, 0.025}}, pixelsPerDegree);
   std::vector<Vec3> colors;
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     const Vec3 rgb = rgbFromOpponent({y.values[i], cx.values[i], cz.values[i]});
@@ -183,8 +183,8 @@ int featureRadius(double pixelsPerDegree) {
   return static_cast<int>(std::ceil(3 * featureDeviation(pixelsPerDegree)));
 }
 
-Features features(const Plane& opponentY, double pixelsPerDegree) {
-  Plane luminance = opponentY;
+Features features(const Layer& opponentY, double pixelsPerDegree) {
+  Layer luminance = opponentY;
   for (double& value : luminance.values) value = (value + 16) / 116;
   const double deviation = featureDeviation(pixelsPerDegree);
   const int radius = featureRadius(pixelsPerDegree);
@@ -194,7 +194,7 @@ Features features(const Plane& opponentY, double pixelsPerDegree) {
   const Kernel second =
       normalized(kernel(radius, [&](double x) { return (x * x / (deviation * deviation) - 1) * gauss(x); }));
   const auto magnitude = [&](const Kernel& across) {
-    const Plane x = filtered(luminance, across, smooth), y = filtered(luminance, smooth, across);
+    const Layer x = filtered(luminance, across, smooth), y = filtered(luminance, smooth, across);
     std::vector<double> lengths;
     for (std::size_t i = 0; i < x.values.size(); ++i) lengths.push_back(std::hypot(x.values[i], y.values[i]));
     return lengths;
@@ -202,9 +202,9 @@ Features features(const Plane& opponentY, double pixelsPerDegree) {
   return {magnitude(first), magnitude(second)};
 }
 
-std::array<Plane, 3> opponentPlanes(const Picture& picture) {
-  const Plane empty(picture.width, picture.height);
-  std::array<Plane, 3> planes{empty, empty, empty};
+std::array<Layer, 3> opponentPlanes(const Picture& picture) {
+  const Layer empty(picture.width, picture.height);
+  std::array<Layer, 3> planes{empty, empty, empty};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const Color& c = picture.pixels[i];
     const Vec3 opponent = opponentFromRgb({linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b)});

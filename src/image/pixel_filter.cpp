@@ -26,7 +26,7 @@ Real blackmanHarris(Real x) {
   return 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2 * t) - 0.01168 * std::cos(3 * t);
 }
 
-constexpr std::array kTable{
+constexpr std::array kFilters{
     FilterRow{FilterKind::box, "box", "all of a pixel counts the same", 0.5, [](Real) { return Real(1); }},
     FilterRow{FilterKind::tent, "tent", "falls off evenly", 1, [](Real x) { return 1 - std::abs(x); }},
     FilterRow{FilterKind::gaussian, "gaussian", "a bell, softer than the others", 1.5, gaussian},
@@ -38,10 +38,10 @@ constexpr int kSteps = 1024;
 
 }  // namespace
 
-std::span<const FilterRow> filters() { return kTable; }
+std::span<const FilterRow> filters() { return kFilters; }
 
 PixelFilter::PixelFilter(FilterKind kind, Real radius) {
-  const FilterRow& row = kTable[static_cast<std::size_t>(kind)];
+  const FilterRow& row = kFilters[static_cast<std::size_t>(kind)];
   row_ = &row;
   radius_ = radius > 0 ? radius : row.radius;
   isPixel_ = kind == FilterKind::box && radius_ == 0.5;

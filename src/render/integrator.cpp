@@ -22,7 +22,7 @@ std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
   return std::make_unique<PathTracer>(PathTracer::Light::bounced);
 }
 
-constexpr std::array kTable{
+constexpr std::array kIntegrators{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
     IntegratorRow{IntegratorKind::path, "path", "paths by chance: light that bounces between surfaces",
@@ -45,10 +45,10 @@ constexpr std::array kTable{
 
 }  // namespace
 
-std::span<const IntegratorRow> integrators() { return kTable; }
+std::span<const IntegratorRow> integrators() { return kIntegrators; }
 
 const IntegratorRow& rowOf(const Settings& settings) {
-  return kTable[static_cast<std::size_t>(settings.integrator)];
+  return kIntegrators[static_cast<std::size_t>(settings.integrator)];
 }
 
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {

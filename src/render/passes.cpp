@@ -127,7 +127,7 @@ Picture changeShown(const Picture& values, const Settings& settings) {
 Color nearnessValue(const PassPlace& at) { return Color(1 / depthValue(at).r); }
 
 constexpr Color kNowhere(kInfinity);
-constexpr std::array kTable{
+constexpr std::array kPasses{
     PassRow{Pass::depth, "depth", "how far the first surface is from the eye; far is white",
             Film::Keep::first, kNowhere, kTooNear, depthValue, depthShown},
     PassRow{Pass::normal, "normal",
@@ -157,18 +157,18 @@ constexpr PassRow kNearness{Pass::depth, "nearness",    "",        Film::Keep::m
 
 }  // namespace
 
-std::span<const PassRow> passRows() { return kTable; }
+std::span<const PassRow> passRows() { return kPasses; }
 
 std::vector<const PassRow*> passesOf(const Settings& settings) {
   std::vector<const PassRow*> rows;
-  for (const PassRow& row : kTable)
+  for (const PassRow& row : kPasses)
     if (settings.passes.has(row.pass)) rows.push_back(&row);
   return rows;
 }
 
 std::vector<const PassRow*> layersOf(const Settings& settings) {
   std::vector<const PassRow*> rows;
-  for (const PassRow& row : kTable) {
+  for (const PassRow& row : kPasses) {
     const bool guides = settings.denoise && (row.pass == Pass::albedo || row.pass == Pass::normal);
     if (row.value && (guides || settings.passes.has(row.pass))) rows.push_back(&row);
   }

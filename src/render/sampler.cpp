@@ -63,7 +63,7 @@ Vec2 bluePair(const Draw& d) {
   return sobolPoint(static_cast<std::uint32_t>(shuffled), d.branch);
 }
 
-constexpr std::array kTable{
+constexpr std::array kGenerators{
     GeneratorRow{SampleKind::grid, "grid", "camera rays on a regular grid in each pixel, all else by sobol",
                  true, false, sobolPair, sobolFirst},
     GeneratorRow{SampleKind::random, "random", "independent of one another", false, true, randomPair},
@@ -81,13 +81,13 @@ constexpr std::array kTable{
 
 }  // namespace
 
-std::span<const GeneratorRow> generators() { return kTable; }
+std::span<const GeneratorRow> generators() { return kGenerators; }
 
 const GeneratorRow& generatorOf(const Settings& settings) {
   // Some samples of a grid are a part of the pixel, of the others all of it.
   const bool anyNumber =
       (settings.noiseTarget > 0 || settings.denoise) && settings.sampling == SampleKind::grid;
-  return kTable[static_cast<std::size_t>(anyNumber ? SampleKind::sobol : settings.sampling)];
+  return kGenerators[static_cast<std::size_t>(anyNumber ? SampleKind::sobol : settings.sampling)];
 }
 
 bool subdivides(const Settings& settings) { return settings.subdivide > 0 && !rowOf(settings).throws; }

@@ -8,7 +8,7 @@ namespace {
 // Columns as in docs/conventions.md, where each value's source is given.
 /// Not a constant of the compiler: settings hold names of files, which clang does not take for one.
 const std::array<Convention, 7>& table() {
-  static const std::array<Convention, 7> kTable{{
+  static const std::array<Convention, 7> kConventions{{
       {"uw",
        "University of Washington, 2010 to 2015",
        {.like = Like::uw,
@@ -157,7 +157,7 @@ const std::array<Convention, 7>& table() {
         .tone = Tone::clamp,
         .rounding = Rounding::truncate}},
   }};
-  return kTable;
+  return kConventions;
 }
 
 }  // namespace

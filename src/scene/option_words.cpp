@@ -13,7 +13,7 @@ struct Row {
 };
 
 /// In small letters, each once.
-constexpr std::array kTable{
+constexpr std::array kWordRows{
     Row{"width", "size resolution"},
     Row{"height", "size resolution"},
     Row{"region", "crop part window rectangle"},
@@ -105,7 +105,7 @@ std::vector<std::string_view> split(std::string_view text) {
 }  // namespace
 
 std::string_view wordsFor(const Option& option) {
-  for (const Row& row : kTable)
+  for (const Row& row : kWordRows)
     if (row.option == option.name) return row.words;
   return "";
 }

@@ -319,7 +319,7 @@ Option row(const Text& t) {
 
 constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
 
-const std::array kTable{
+const std::array kOptions{
     row<&Settings::width>(
         {.name = "width",
          .group = "Picture",
@@ -1176,7 +1176,7 @@ constexpr size_t fieldCount() {
   else
     return sizeof...(Args);
 }
-static_assert(std::tuple_size_v<decltype(kTable)> == fieldCount<>(),
+static_assert(std::tuple_size_v<decltype(kOptions)> == fieldCount<>(),
               "a field of Settings has no row in the options table, or two");
 
 void apply(Settings& settings, const Choice& choice) {
@@ -1219,18 +1219,18 @@ std::string colorText(const Color& c) {
   return toText(c.r) + "," + toText(c.g) + "," + toText(c.b);
 }
 
-std::span<const Option> options() { return kTable; }
+std::span<const Option> options() { return kOptions; }
 
 const Option& findOption(std::string_view name) {
-  for (const Option& option : kTable)
+  for (const Option& option : kOptions)
     if (option.name == name) return option;
   std::string hint;
   for (std::string_view meant : optionsMeant(name))
     hint += (hint.empty() ? "did you mean \"" : "\" or \"") + std::string(meant);
   if (!hint.empty()) hint += "\"?";
   std::vector<std::string_view> names;
-  names.reserve(kTable.size());
-  for (const Option& option : kTable) names.push_back(option.name);
+  names.reserve(kOptions.size());
+  for (const Option& option : kOptions) names.push_back(option.name);
   if (hint.empty()) hint = didYouMean(name, names);
   throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", std::move(hint));
 }
@@ -1242,7 +1242,7 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
       if (choice.option != "like") continue;
       apply(settings, choice);
       const Settings& given = convention(settings.like).settings;
-      for (const Option& option : kTable)
+      for (const Option& option : kOptions)
         if (isConvention(option)) option.assign(settings, option.get(given));
     }
     for (const Choice& choice : layer)
@@ -1282,7 +1282,7 @@ bool sameValue(const Option& option, const Settings& a, const Settings& b) {
 std::vector<Choice> changedOptions(const Settings& settings) {
   std::vector<Choice> changed;
   const Settings defaults;
-  for (const Option& option : kTable)
+  for (const Option& option : kOptions)
     if (const std::string value = option.get(settings); value != option.get(defaults))
       changed.push_back({std::string(option.name), value, {}});
   return changed;

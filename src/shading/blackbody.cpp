@@ -10,7 +10,7 @@ namespace trace {
 namespace {
 
 constexpr Real kColdest = 500, kHottest = 20000, kCandle = 1900;
-constexpr int kSteps = 256;  // of the logarithm of the temperature
+constexpr int kBlackbodySteps = 256;  // of the logarithm of the temperature
 
 /// Planck's law up to a factor.
 Real planck(Real nanometres, Real kelvin) {
@@ -28,16 +28,16 @@ Color summed(Real kelvin) {
 Real brightness(const Color& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 /// The logarithm of the brightness, and the colour of brightness 1, at each step.
-struct Row {
+struct BlackbodyRow {
   Real brightness;
   Color color;
 };
 
-std::array<Row, kSteps + 1> table() {
-  std::array<Row, kSteps + 1> rows;
+std::array<BlackbodyRow, kBlackbodySteps + 1> table() {
+  std::array<BlackbodyRow, kBlackbodySteps + 1> rows;
   const Real candle = brightness(summed(kCandle));
-  for (int i = 0; i <= kSteps; ++i) {
-    const Color color = summed(kColdest * std::pow(kHottest / kColdest, Real(i) / kSteps));
+  for (int i = 0; i <= kBlackbodySteps; ++i) {
+    const Color color = summed(kColdest * std::pow(kHottest / kColdest, Real(i) / kBlackbodySteps));
     rows[static_cast<std::size_t>(i)] = {std::log(brightness(color) / candle), color / brightness(color)};
   }
   return rows;
@@ -48,10 +48,11 @@ std::array<Row, kSteps + 1> table() {
 Color blackbodyColor(Real kelvin) {
   static const auto kRows = table();
   if (!(kelvin >= kColdest)) return {};
-  const Real place = std::log(std::min(kelvin, kHottest) / kColdest) / std::log(kHottest / kColdest) * kSteps;
-  const auto i = std::min(static_cast<std::size_t>(place), std::size_t{kSteps - 1});
+  const Real place =
+      std::log(std::min(kelvin, kHottest) / kColdest) / std::log(kHottest / kColdest) * kBlackbodySteps;
+  const auto i = std::min(static_cast<std::size_t>(place), std::size_t{kBlackbodySteps - 1});
   const Real rest = place - static_cast<Real>(i);
-  const Row &a = kRows[i], &b = kRows[i + 1];
+  const BlackbodyRow &a = kRows[i], &b = kRows[i + 1];
   return lerp(rest, a.color, b.color) * std::exp((1 - rest) * a.brightness + rest * b.brightness);
 }
 

@@ -14,8 +14,6 @@
 namespace trace {
 namespace {
 
-constexpr Real kDegree = kPi / 180;
-
 /// Right, down and outward of each face, as seen from inside.
 struct FaceAxes {
   Vec3 right, down, outward;
@@ -215,7 +213,7 @@ EnvironmentMap EnvironmentMap::sampled(int side, int threads, const Texel& texel
 
 EnvironmentMap EnvironmentMap::blurred(Real angle, int threads) const {
   constexpr int kLeast = 17, kMost = 1025;
-  const Real cone = angle * kDegree;
+  const Real cone = angle * kPi / 180;
   if (cone < texelAngle()) return *this;  // a pixel of the picture is wider
   // As many samples as leave no gaps between them where the reduced picture is as coarse as it gets.
   const Real coarsest = kPi / 2 / (kLeast - 1);

@@ -15,7 +15,7 @@ constexpr int kSamples = 32;  // along each side of the square of numbers for a 
 constexpr Real kMostIndex = 4;
 
 /// Of one index and width, by the root of the cosine, where the albedo changes evenly.
-struct Row {
+struct WidthRow {
   std::once_flag made;
   Real at[kCosines + 1];
   Real mean = 0;
@@ -50,9 +50,9 @@ struct Row {
 
 /// Rows by the root of the width and by (eta - 1) / (eta + 1), each made when it is first asked for: most
 /// pictures show one kind of glass.
-class Table {
+class GlassTable {
  public:
-  explicit Table(Distribution kind) : kind_(kind) {}
+  explicit GlassTable(Distribution kind) : kind_(kind) {}
 
   /// What ask(row) gives at the place, from the rows around it.
   template <class Ask>
@@ -62,8 +62,8 @@ class Table {
   }
 
  private:
-  const Row& row(int index, int width) {
-    Row& row = rows_[static_cast<std::size_t>(index * (kWidths + 1) + width)];
+  const WidthRow& row(int index, int width) {
+    WidthRow& row = rows_[static_cast<std::size_t>(index * (kWidths + 1) + width)];
     std::call_once(row.made, [&] {
       const Real x = (2.0 * index / kIndices - 1) * kMost;
       row.make(Microfacets::of(kind_, 1.0 * width / kWidths), (1 + x) / (1 - x));
@@ -73,11 +73,11 @@ class Table {
 
   static constexpr Real kMost = (kMostIndex - 1) / (kMostIndex + 1);
   Distribution kind_;
-  std::vector<Row> rows_ = std::vector<Row>((kIndices + 1) * (kWidths + 1));
+  std::vector<WidthRow> rows_ = std::vector<WidthRow>((kIndices + 1) * (kWidths + 1));
 };
 
-Table& table(Distribution kind) {
-  static Table ggx(Distribution::ggx), beckmann(Distribution::beckmann);
+GlassTable& table(Distribution kind) {
+  static GlassTable ggx(Distribution::ggx), beckmann(Distribution::beckmann);
   return kind == Distribution::ggx ? ggx : beckmann;
 }
 
@@ -85,11 +85,12 @@ Table& table(Distribution kind) {
 
 Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta) {
   const Between c(std::sqrt(max(0, cosine)), kCosines);
-  return table(kind).at(width, eta, [&](const Row& row) { return c.of([&](int i) { return row.at[i]; }); });
+  return table(kind).at(width, eta,
+                        [&](const WidthRow& row) { return c.of([&](int i) { return row.at[i]; }); });
 }
 
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta) {
-  return table(kind).at(width, eta, [](const Row& row) { return row.mean; });
+  return table(kind).at(width, eta, [](const WidthRow& row) { return row.mean; });
 }
 
 GlassLoss::GlassLoss(Distribution kind, Real width, Real index)

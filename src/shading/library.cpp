@@ -143,7 +143,7 @@ Material cloth(const Color& base, const Color& sheen, Real roughness) {
 
 // --- the table ----------------------------------------------------------------------------------------
 
-constexpr std::array kTable{
+constexpr std::array kFinishes{
     Finish{"silver", "metal", "polished", [] { return metal(Metal::silver, kPolished); }},
     Finish{"gold", "metal", "polished", [] { return metal(Metal::gold, kPolished); }},
     Finish{"copper", "metal", "polished", [] { return metal(Metal::copper, kPolished); }},
@@ -310,7 +310,7 @@ Material body(const Translucent& translucent) {
 
 }  // namespace
 
-std::span<const Finish> finishes() { return kTable; }
+std::span<const Finish> finishes() { return kFinishes; }
 
 std::optional<Material> libraryMaterial(std::string_view name) {
   const auto named = [&](Material material) {
@@ -321,7 +321,7 @@ std::optional<Material> libraryMaterial(std::string_view name) {
     if (substance.name == name) return named(clear(substance));
   for (const Translucent& translucent : translucents())
     if (translucent.name == name) return named(body(translucent));
-  for (const Finish& finish : kTable)
+  for (const Finish& finish : kFinishes)
     if (finish.name == name) return named(finish.make());
   return {};
 }
@@ -330,7 +330,7 @@ std::vector<std::string_view> libraryNames() {
   std::vector<std::string_view> names;
   for (const Substance& substance : substances()) names.push_back(substance.name);
   for (const Translucent& translucent : translucents()) names.push_back(translucent.name);
-  for (const Finish& finish : kTable) names.push_back(finish.name);
+  for (const Finish& finish : kFinishes) names.push_back(finish.name);
   return names;
 }
 

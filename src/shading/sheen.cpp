@@ -5,14 +5,15 @@
 namespace trace {
 namespace {
 
-constexpr int kSteps = 24;
+constexpr int kSheenSteps = 24;
 
-struct Table {
-  Real at[kSteps + 1][kSteps + 1];  ///< by roughness, cosine
+struct SheenTable {
+  Real at[kSheenSteps + 1][kSheenSteps + 1];  ///< by roughness, cosine
 
-  Table() {
-    for (int r = 0; r <= kSteps; ++r)
-      for (int c = 0; c <= kSteps; ++c) at[r][c] = albedo(Sheen::of(1.0 * r / kSteps), 1.0 * c / kSteps);
+  SheenTable() {
+    for (int r = 0; r <= kSheenSteps; ++r)
+      for (int c = 0; c <= kSheenSteps; ++c)
+        at[r][c] = albedo(Sheen::of(1.0 * r / kSheenSteps), 1.0 * c / kSheenSteps);
   }
 
   static Real albedo(const Sheen& sheen, Real cosine) {
@@ -29,10 +30,10 @@ struct Table {
 }  // namespace
 
 Real sheenAlbedo(Real cosine, Real roughness) {
-  static const Table kTable;
+  static const SheenTable kTable;
   const auto place = [](Real x, int& low) {
-    const Real p = max(0, min(1, x)) * kSteps;
-    low = std::min(kSteps - 1, static_cast<int>(p));
+    const Real p = max(0, min(1, x)) * kSheenSteps;
+    low = std::min(kSheenSteps - 1, static_cast<int>(p));
     return p - low;
   };
   int r, c;

@@ -10,7 +10,7 @@ constexpr std::string_view kSchott = "Schott, catalogue of optical glass",
                            kPlastics = "Handbook of Optics, vol. IV",
                            kKaye = "Kaye and Laby, Tables of Physical and Chemical Constants";
 
-constexpr std::array kTable{
+constexpr std::array kSubstances{
     Substance{"vacuum", "gas", 1, 0, "by definition"},
     Substance{"air", "gas", 1.000292, 0, kKaye},
     Substance{"helium", "gas", 1.000035, 0, kKaye},
@@ -98,7 +98,7 @@ constexpr std::array kTranslucents{
 
 }  // namespace
 
-std::span<const Substance> substances() { return kTable; }
+std::span<const Substance> substances() { return kSubstances; }
 std::span<const Translucent> translucents() { return kTranslucents; }
 
 }  // namespace trace

@@ -79,7 +79,7 @@ void zoomText(Studio& studio, float factor) {
   studio.themeChanged = true;
 }
 
-constexpr std::array kTable{
+constexpr std::array kActions{
     Action{"File", "Open scene...", 'O', true, false, "choose a scene file", openScene, always, nullptr},
     Action{"File", "Open reference...", 'R', true, true, "choose a picture to compare with", openReference,
            always, nullptr},
@@ -173,15 +173,15 @@ void takeKeys(Studio& studio) {
   const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
   for (const KeyPress& press : studio.keys) {
     if ((text && belongsToText(press)) || (popup && !press.control && !press.alt)) continue;
-    for (const Action& action : kTable)
+    for (const Action& action : kActions)
       if (action.key == press.key && action.control == press.control && action.shift == press.shift &&
           !press.alt && action.enabled(studio))
         action.run(studio);
     if (press.alt)
       for (const Panel& panel : panels())
         if (panel.key == press.key) studio.goTo(std::string(panel.name));
-    for (const Action& action : kTable)
-      if (press.alt ? action.menu[0] == press.key : press.key == kF10 && &action == kTable.data())
+    for (const Action& action : kActions)
+      if (press.alt ? action.menu[0] == press.key : press.key == kF10 && &action == kActions.data())
         studio.menuToOpen = action.menu;
   }
 }
@@ -207,7 +207,7 @@ void goToNextMenu(Studio& studio, std::string_view menu) {
     at = at->ParentWindow;  // right in a submenu
   if (at != own || (!left && !right) || !ImGui::NavMoveRequestButNoResultYet()) return;
   std::vector<const char*> bar;
-  for (const Action& action : kTable)
+  for (const Action& action : kActions)
     if (bar.empty() || std::string_view(bar.back()) != action.menu) bar.push_back(action.menu);
   const auto here = static_cast<std::size_t>(std::find(bar.begin(), bar.end(), menu) - bar.begin());
   studio.menuToOpen = bar[(here + (left ? bar.size() - 1 : 1)) % bar.size()];
@@ -234,7 +234,7 @@ void drawHelp(Studio& studio) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  const float rows = row * static_cast<float>(kTable.size() + panels().size() + 4);
+  const float rows = row * static_cast<float>(kActions.size() + panels().size() + 4);
   ImGui::SetNextWindowSize({characters(96), std::min(rows, ImGui::GetMainViewport()->Size.y * 0.9f)},
                            ImGuiCond_Appearing);
   bool open = true;
@@ -253,7 +253,7 @@ void drawHelp(Studio& studio) {
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", help.c_str());
     };
-    for (const Action& action : kTable)
+    for (const Action& action : kActions)
       if (action.key) line(keyText(action), action.name, action.help);
     for (const Panel& panel : panels())
       line(std::string("Alt+") + static_cast<char>(panel.key), std::string(panel.name),
@@ -316,7 +316,7 @@ void chooseFile(Studio& studio, const Option& option) {
                      [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
 }
 
-std::span<const Action> actions() { return kTable; }
+std::span<const Action> actions() { return kActions; }
 
 std::string keyText(const Action& action) {
   if (!action.key) return "";
@@ -340,12 +340,12 @@ void drawMenu(Studio& studio) {
     ImGui::OpenPopup(asked.c_str());
     showKeyboardCursor();
   }
-  for (std::size_t i = 0; i < kTable.size();) {
-    const char* menu = kTable[i].menu;
+  for (std::size_t i = 0; i < kActions.size();) {
+    const char* menu = kActions[i].menu;
     const bool open = ImGui::BeginMenu(menu);
     if (!open) landmark("menu " + std::string(menu));
-    for (; i < kTable.size() && std::string_view(kTable[i].menu) == menu; ++i) {
-      const Action& action = kTable[i];
+    for (; i < kActions.size() && std::string_view(kActions[i].menu) == menu; ++i) {
+      const Action& action = kActions[i];
       if (!open) continue;
       const bool checked = action.checked && action.checked(studio);
       if (ImGui::MenuItem(action.name, keyText(action).c_str(), checked, action.enabled(studio)))

@@ -91,7 +91,7 @@ std::optional<std::string> editReal(const Option& option, const std::string& val
   return toText(number);
 }
 
-std::optional<std::string> editChoice(const Option& option, const std::string& value) {
+std::optional<std::string> editChoiceOf(const Option& option, const std::string& value) {
   std::optional<std::string> chosen;
   if (!ImGui::BeginCombo("##value", value.c_str())) return {};
   for (std::string_view choice : option.choices)
@@ -164,7 +164,7 @@ std::optional<std::string> edit(Studio& studio, const Option& option, const std:
     }
     case Option::Kind::integer: return editInteger(option, value);
     case Option::Kind::real: return editReal(option, value);
-    case Option::Kind::choice: return editChoice(option, value);
+    case Option::Kind::choice: return editChoiceOf(option, value);
     case Option::Kind::choices: return editChoices(option, value);
     case Option::Kind::color: return editColor(option, value);
     case Option::Kind::region: return editRegion(value);

@@ -10,7 +10,7 @@ namespace trace::studio {
 namespace {
 
 using Level = Workspace::LogEntry::Level;
-constexpr ImGuiTableFlags kTableFlags =
+constexpr ImGuiTableFlags kLogTable =
     ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
 
 void row(std::initializer_list<std::string> cells) {
@@ -71,7 +71,7 @@ void drawBadSamples(Studio& studio) {
     return ImGui::TextDisabled("every sample of the last finished render was a number");
   ImGui::TextColored(studio.palette().warning, "%llu samples were not finite and left out of the picture",
                      static_cast<unsigned long long>(result.statistics.badSamples));
-  if (!ImGui::BeginTable("samples", 3, kTableFlags)) return;
+  if (!ImGui::BeginTable("samples", 3, kLogTable)) return;
   ImGui::TableSetupColumn("pixel");
   ImGui::TableSetupColumn("sample");
   ImGui::TableSetupColumn("");
@@ -95,7 +95,7 @@ void drawStatistics(Studio& studio) {
   const RenderResult result = studio.workspace.render.result();
   if (!session || result.statistics.allRays() == 0) return ImGui::TextDisabled("nothing was rendered yet");
   const Statistics& s = result.statistics;
-  if (!ImGui::BeginTable("statistics", 3, kTableFlags)) return;
+  if (!ImGui::BeginTable("statistics", 3, kLogTable)) return;
   ImGui::TableSetupColumn("what");
   ImGui::TableSetupColumn("count");
   ImGui::TableSetupColumn("hits");

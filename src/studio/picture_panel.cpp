@@ -33,7 +33,8 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
     if (view.convergence.judged) view.noise.push_back(static_cast<float>(255 * view.convergence.error));
   }
   view.planeShown = view.plane;
-  if (view.plane == Plane::picture || film.width() != view.shown.width || film.height() != view.shown.height)
+  if (view.plane == FilmPlane::picture || film.width() != view.shown.width ||
+      film.height() != view.shown.height)
     return;
   const PlaneView plane = planeView(view.plane, film, view.shown);
   view.planeTexture.set(toBytes(plane.colours, Rounding::nearest));
@@ -129,7 +130,7 @@ void drawBar(Studio& studio) {
   ImGui::SetNextItemWidth(characters(17));
   int plane = static_cast<int>(view.plane);
   if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
-    view.plane = static_cast<Plane>(plane);
+    view.plane = static_cast<FilmPlane>(plane);
   landmark("plane");
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
@@ -156,14 +157,14 @@ void drawBar(Studio& studio) {
 }
 
 /// Where one picture lies on the screen.
-struct Frame {
+struct FrameArea {
   ImVec2 low, size;
   ImVec2 at(double x, double y) const {
     return {low.x + static_cast<float>(x) * size.x, low.y + static_cast<float>(y) * size.y};
   }
 };
 
-Frame frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int height) {
+FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int height) {
   if (view.fit) {
     view.zoom = std::min(area.x / static_cast<float>(width), area.y / static_cast<float>(height));
     view.centreX = view.centreY = 0.5;
@@ -174,7 +175,7 @@ Frame frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int heig
           size};
 }
 
-void pictureIn(const Frame& frame, const Texture& texture) {
+void pictureIn(const FrameArea& frame, const Texture& texture) {
   ImGui::GetWindowDrawList()->AddImage(texture.id(), frame.low,
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
 }
@@ -187,7 +188,7 @@ void caption(ImVec2 at, const char* text) {
   list.AddText({at.x + pad.x, at.y + pad.y}, IM_COL32(255, 255, 255, 255), text);
 }
 
-void zoomAndPan(PictureView& view, const Frame& frame) {
+void zoomAndPan(PictureView& view, const FrameArea& frame) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0) {
     const double x = (io.MousePos.x - frame.low.x) / frame.size.x,
@@ -298,15 +299,15 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   PictureView& view = studio.picture;
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
-  const bool ofPlane = view.plane != Plane::picture && !view.planeTexture.empty();
+  const bool ofPlane = view.plane != FilmPlane::picture && !view.planeTexture.empty();
   const View mode = reference && !ofPlane ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
   const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
-  const Frame frame = frameOf(view, canvas, part, width, height);
-  const Frame second{{frame.low.x + part.x + kGap, frame.low.y}, frame.size};
+  const FrameArea frame = frameOf(view, canvas, part, width, height);
+  const FrameArea second{{frame.low.x + part.x + kGap, frame.low.y}, frame.size};
   ImDrawList& list = *ImGui::GetWindowDrawList();
 
-  const auto clipped = [&](ImVec2 low, ImVec2 high, const Frame& at, const Texture& texture) {
+  const auto clipped = [&](ImVec2 low, ImVec2 high, const FrameArea& at, const Texture& texture) {
     list.PushClipRect(low, high, true);
     pictureIn(at, texture);
     list.PopClipRect();
@@ -347,7 +348,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   }
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const Frame& under = two && mouse.x > canvas.x + part.x ? second : frame;
+  const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) zoomAndPan(view, under);
   x = static_cast<int>(std::floor((mouse.x - under.low.x) / under.size.x * static_cast<float>(width)));
   y = static_cast<int>(std::floor((mouse.y - under.low.y) / under.size.y * static_cast<float>(height)));

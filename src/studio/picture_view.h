@@ -18,7 +18,7 @@ inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by s
 
 struct PictureView {
   View view = View::picture;
-  Plane plane = Plane::picture;  ///< what of the render is seen
+  FilmPlane plane = FilmPlane::picture;  ///< what of the render is seen
   bool fit = true;
   float zoom = 1;                       ///< screen pixels per pixel of the picture
   double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
@@ -42,7 +42,7 @@ struct PictureView {
 
   Texture planeTexture;     ///< where another plane than the picture is seen
   std::string planeLegend;  ///< what its colours mean
-  Plane planeShown = Plane::picture;
+  FilmPlane planeShown = FilmPlane::picture;
   Convergence convergence;    ///< of what is shown
   std::vector<float> noise;   ///< levels, one for each look at the render that goes on
   std::uint64_t noiseOf = 0;  ///< the render's number

@@ -12,9 +12,9 @@
 namespace trace::studio {
 namespace {
 
-constexpr ImGuiTableFlags kTableFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
-                                        ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_Resizable |
-                                        ImGuiTableFlags_PadOuterX;
+constexpr ImGuiTableFlags kTreeTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
+                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_Resizable |
+                                       ImGuiTableFlags_PadOuterX;
 
 const RayNode& nodeAt(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
 
@@ -28,7 +28,7 @@ ImVec4 textColour(const Studio& studio, const TracedPixel& pixel, int node) {
   return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1};
 }
 
-const char* nameOf(const TracedPixel& pixel, int node) { return look(pixel.looks(node)).name.data(); }
+const char* lookName(const TracedPixel& pixel, int node) { return look(pixel.looks(node)).name.data(); }
 
 std::string metBy(const TracedPixel& pixel, int index) {
   const RayNode& node = nodeAt(pixel.tree(), index);
@@ -83,7 +83,7 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
-  if (!ImGui::BeginTable("tree", 4, kTableFlags, {0, -below})) return;
+  if (!ImGui::BeginTable("tree", 4, kTreeTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
@@ -120,7 +120,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
       ImGui::SetNextItemOpen(!view.closed[n]);
       ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, i));
-      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", nameOf(pixel, i));
+      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", lookName(pixel, i));
       ImGui::PopStyleColor();
       if (ImGui::IsItemToggledOpen())
         view.closed[n] = !open;
@@ -190,7 +190,7 @@ void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   if (view.selected < 0) return ImGui::TextDisabled("select a ray, in space or in the table");
   const RayNode& node = nodeAt(pixel.tree(), view.selected);
   ImGui::PushTextWrapPos();
-  ImGui::TextColored(textColour(studio, pixel, view.selected), "%s ray: %s", nameOf(pixel, view.selected),
+  ImGui::TextColored(textColour(studio, pixel, view.selected), "%s ray: %s", lookName(pixel, view.selected),
                      sentence(node, pixel.scene()).c_str());
   ImGui::PopTextWrapPos();
   drawBoxes(studio);
@@ -222,7 +222,7 @@ void drawDifference(Studio& studio, const TracedPixel& traced) {
   ImGui::Text("pinned %s: %.4f %.4f %.4f", title(*pinned).c_str(), before.r, before.g, before.b);
   ImGui::Text("now %s: %.4f %.4f %.4f", title(traced).c_str(), now.r, now.g, now.b);
   ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(pairs.size()));
-  if (!ImGui::BeginTable("pairs", 3, kTableFlags)) return;
+  if (!ImGui::BeginTable("pairs", 3, kTreeTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.34f);
   ImGui::TableSetupColumn("met now", ImGuiTableColumnFlags_WidthStretch, 0.26f);
@@ -241,7 +241,7 @@ void drawDifference(Studio& studio, const TracedPixel& traced) {
       const float indent = static_cast<float>(pair.depth) * ImGui::GetFontSize() * 0.75f;
       if (indent > 0) ImGui::Indent(indent);
       ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, index));
-      if (ImGui::Selectable(nameOf(pixel, index), pair.b >= 0 && pair.b == view.selected,
+      if (ImGui::Selectable(lookName(pixel, index), pair.b >= 0 && pair.b == view.selected,
                             ImGuiSelectableFlags_SpanAllColumns) &&
           pair.b >= 0)
         view.selected = pair.b;

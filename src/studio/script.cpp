@@ -116,11 +116,11 @@ View viewOf(const std::string& word) {
   return static_cast<View>(number);
 }
 
-Plane planeOf(const std::string& word) {
+FilmPlane planeOf(const std::string& word) {
   const int number = whole(word);
   if (number < 0 || number >= static_cast<int>(std::size(kPlaneNames)))
     throw Error(Fault::usage, "expected 0 to 3, found " + word);
-  return static_cast<Plane>(number);
+  return static_cast<FilmPlane>(number);
 }
 
 Studio::Selected kindOf(const std::string& word) {
@@ -158,7 +158,7 @@ struct Command {
   bool (*until)(Studio&, const Words&) = nullptr;
 };
 
-constexpr std::array kTable{
+constexpr std::array kCommands{
     Command{"open", "FILE", 1, 1, "open a scene", [](Studio& s, const Words& a) { s.workspace.open(a[0]); }},
     Command{"drop", "FILE", 1, 1, "drop a file onto the window: a scene, or a picture to compare with",
             [](Studio& s, const Words& a) { s.window.drop(a[0]); }},
@@ -251,7 +251,7 @@ constexpr std::array kTable{
 };
 
 const Command& commandOf(const Words& words) {
-  for (const Command& command : kTable) {
+  for (const Command& command : kCommands) {
     if (words[0] != command.name) continue;
     if (words.size() - 1 < command.least || words.size() - 1 > command.most)
       throw Error(Fault::usage, std::string("expected ") + command.name + " " + command.arguments);
@@ -314,7 +314,7 @@ bool Script::step(Studio& studio) {
 
 std::string scriptHelp() {
   std::string text;
-  for (const Command& command : kTable) {
+  for (const Command& command : kCommands) {
     std::string left = std::string("  ") + command.name + " " + command.arguments;
     left.resize(std::max<std::size_t>(left.size() + 2, 28), ' ');
     text += left + command.help + "\n";

@@ -13,7 +13,7 @@
 namespace trace::test {
 namespace {
 
-const std::string kScenes = sourceFolder() + "/scenes", kPage = sourceFolder() + "/docs/features";
+const std::string kExampleFolder = sourceFolder() + "/scenes", kPage = sourceFolder() + "/docs/features";
 
 bool listed(std::string_view name) {
   return std::any_of(extensions().begin(), extensions().end(),
@@ -34,11 +34,11 @@ TEST(Extensions, EveryExtraAndEveryShadingModelHasAnExample) {
 TEST(Extensions, EachChangesThePictureOfItsExample) {
   for (const Extension& e : extensions()) {
     SCOPED_TRACE(e.name);
-    ASSERT_TRUE(std::filesystem::exists(kScenes + "/" + std::string(e.scene)));
+    ASSERT_TRUE(std::filesystem::exists(kExampleFolder + "/" + std::string(e.scene)));
     std::vector<Choice> small;
     if (e.view.empty()) small.push_back({"width", "40", {}});
     if (!e.view.empty()) small.push_back({"spp", "1", {}});
-    const Picture off = pictureOf(e, false, kScenes, small), on = pictureOf(e, true, kScenes, small);
+    const Picture off = pictureOf(e, false, kExampleFolder, small), on = pictureOf(e, true, kExampleFolder, small);
     ASSERT_EQ(off.width, on.width);
     EXPECT_NE(off, on);
     if (!e.view.empty()) {

@@ -24,7 +24,7 @@
 namespace trace::test {
 namespace {
 
-const std::string kScenes = test::sourceFolder() + "/tests/corpus/lint/";
+const std::string kLintScenes = test::sourceFolder() + "/tests/corpus/lint/";
 
 std::vector<LintFinding> lintFile(const std::string& file) {
   Session session;
@@ -45,7 +45,7 @@ std::string names(const std::vector<LintFinding>& findings) {
 
 TEST(Lint, EachCheckWarnsOfItsSceneAtAPlaceWithACure) {
   for (const LintCheck& check : lintChecks()) {
-    const std::string file = kScenes + std::string(check.name) + ".bad.ray";
+    const std::string file = kLintScenes + std::string(check.name) + ".bad.ray";
     const std::vector<LintFinding> findings = lintFile(file);
     int found = 0;
     for (const LintFinding& finding : findings) {
@@ -62,13 +62,13 @@ TEST(Lint, EachCheckWarnsOfItsSceneAtAPlaceWithACure) {
 
 TEST(Lint, AndNotOfTheSceneBesideIt) {
   for (const LintCheck& check : lintChecks()) {
-    const std::vector<LintFinding> findings = lintFile(kScenes + std::string(check.name) + ".good.ray");
+    const std::vector<LintFinding> findings = lintFile(kLintScenes + std::string(check.name) + ".good.ray");
     EXPECT_TRUE(findings.empty()) << check.name << "\n" << names(findings);
   }
 }
 
 TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
-  EXPECT_EQ(filesUnder(kScenes, ".ray").size(), 2 * lintChecks().size());
+  EXPECT_EQ(filesUnder(kLintScenes, ".ray").size(), 2 * lintChecks().size());
 }
 
 TEST(Lint, OurOwnExamplesAreClean) {
@@ -283,16 +283,16 @@ TEST(Lint, IsSilentAboutTheGlassOfTheCourses) {
 }
 
 TEST(Lint, SaysTheSameEveryTime) {
-  const std::string file = kScenes + "depth-too-low.bad.ray";
+  const std::string file = kLintScenes + "depth-too-low.bad.ray";
   EXPECT_EQ(names(lintFile(file)), names(lintFile(file)));
 }
 
 TEST(Lint, TheDepthItProposesIsEnough) {
   Session session;
-  session.open(kScenes + "depth-too-low.bad.ray", {});
-  const std::string hint = lintFile(kScenes + "depth-too-low.bad.ray").at(0).message.hint;
+  session.open(kLintScenes + "depth-too-low.bad.ray", {});
+  const std::string hint = lintFile(kLintScenes + "depth-too-low.bad.ray").at(0).message.hint;
   const std::string depth = hint.substr(8, hint.find(',') - 8);
-  session.open(kScenes + "depth-too-low.bad.ray", std::vector<Choice>{{"depth", depth, {}}});
+  session.open(kLintScenes + "depth-too-low.bad.ray", std::vector<Choice>{{"depth", depth, {}}});
   Messages messages;
   const auto findings =
       lint(session.scene(), session.settings(), compile(session.scene(), session.settings(), messages), {});

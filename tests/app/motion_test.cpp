@@ -15,7 +15,7 @@ camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); aspectra
 translate(key((0, -1), (1, 1)), 0, 0, scale(0.5, 0.5, 1, square { material = { emissive = (1, 1, 1); }; }))
 )";
 
-Picture rendered(const std::string& file, std::vector<Choice> choices) {
+Picture moved(const std::string& file, std::vector<Choice> choices) {
   Session session;
   session.open(file, choices);
   session.build();
@@ -38,7 +38,7 @@ Real sum(const Picture& picture) {
 TEST(Motion, LeavesAnEvenStreakOfItsLengthAndKeepsItsLight) {
   const Folder folder;
   const std::string file = written(folder, kMoving);
-  const Picture moving = rendered(
+  const Picture moving = moved(
       file, {{"shutter", "1", {}}, {"moments", "500", {}}, {"spp", "1024", {}}, {"sampling", "sobol", {}}});
   EXPECT_NEAR(sum(moving), 20 * 20, 4) << "the light of the square, which is 20 pixels wide";
   // 40 pixels a unit: the square covers every place from -0.75 to 0.75 for a quarter of the time.
@@ -69,8 +69,8 @@ TEST(Motion, HasTheSameBitsForAnyNumberOfThreadsAndIsExplained) {
   std::vector<Choice> one = choices, seven = choices;
   one.push_back({"threads", "1", {}});
   seven.push_back({"threads", "7", {}});
-  const Picture picture = rendered(file, one);
-  EXPECT_EQ(picture, rendered(file, seven));
+  const Picture picture = moved(file, one);
+  EXPECT_EQ(picture, moved(file, seven));
 
   Session session;
   session.open(file, choices);
@@ -96,7 +96,7 @@ TEST(Motion, OfNothingIsToldAndChangesNothing) {
   session.build();
   EXPECT_NE(session.messages().all().back().what.find("nothing in the scene changes with time"),
             std::string::npos);
-  EXPECT_EQ(rendered(file, {{"shutter", "1", {}}}), rendered(file, {}));
+  EXPECT_EQ(moved(file, {{"shutter", "1", {}}}), moved(file, {}));
 }
 
 TEST(Motion, OfChangingNumbersOfObjectsIsRefused) {

@@ -58,16 +58,16 @@ TEST(PictureViews, ConvergenceIsTheErrorThatIsLeft) {
 TEST(PictureViews, PlanesAreHeatMapsWithALegend) {
   const Film film = twoPixels(3);
   const Picture shown = film.picture();
-  const PlaneView samples = planeView(Plane::samples, film, shown);
+  const PlaneView samples = planeView(FilmPlane::samples, film, shown);
   EXPECT_EQ(samples.colours.at(0, 0), Color(1)) << "the most";
   EXPECT_EQ(samples.legend, "rays a pixel: 4 to 4, which is white; 4 on the average");
-  const PlaneView noise = planeView(Plane::noise, film, shown);
+  const PlaneView noise = planeView(FilmPlane::noise, film, shown);
   EXPECT_EQ(noise.colours.at(0, 0), Color(0));
   EXPECT_EQ(noise.colours.at(1, 0), Color(1));
   EXPECT_NE(noise.legend.find("36.8 on the average"), std::string::npos) << noise.legend;
   const Film one = twoPixels(1);
-  EXPECT_NE(planeView(Plane::noise, one, one.picture()).legend.find("not known"), std::string::npos);
-  EXPECT_NE(planeView(Plane::change, film, shown).legend.find("denoise is off"), std::string::npos);
+  EXPECT_NE(planeView(FilmPlane::noise, one, one.picture()).legend.find("not known"), std::string::npos);
+  EXPECT_NE(planeView(FilmPlane::change, film, shown).legend.find("denoise is off"), std::string::npos);
 }
 
 TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {

@@ -17,19 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScenes = test::sharedFolder() + "/scenes/uw/uw2005/";
-const std::string kReference = test::sharedFolder() + "/reference/uw/";
+const std::string kReferenceScenes = test::sharedFolder() + "/scenes/uw/uw2005/";
+const std::string kReferencePictures = test::sharedFolder() + "/reference/uw/";
 
 /// The scene of a picture: its path under uw2005 with "/" written "_".
 std::string sceneOf(std::string name) {
   for (const char* folder : {"simple", "polymesh"}) {
     const std::string prefix = std::string(folder) + "_";
     if (name.compare(0, prefix.size(), prefix) == 0) {
-      const std::string path = kScenes + folder + "/" + name.substr(prefix.size()) + ".ray";
+      const std::string path = kReferenceScenes + folder + "/" + name.substr(prefix.size()) + ".ray";
       if (fs::exists(path)) return path;
     }
   }
-  return kScenes + name + ".ray";
+  return kReferenceScenes + name + ".ray";
 }
 
 /// The share of channel values within one level.
@@ -52,7 +52,7 @@ const std::map<std::string, double> kExceptions{{"polymesh_easy3b", 0.998}};
 TEST(Reference, AustinsPicturesAreRepeated) {
   TRACE_NEEDS_SHARED("reference/uw");
   int compared = 0;
-  for (const std::string& picture : filesUnder(kReference + "ut-w400-r5", ".png")) {
+  for (const std::string& picture : filesUnder(kReferencePictures + "ut-w400-r5", ".png")) {
     const std::string name = fs::path(picture).stem().string(), scene = sceneOf(name);
     if (!fs::exists(scene)) {
       std::printf("no scene for %s\n", name.c_str());
@@ -70,7 +70,7 @@ TEST(Reference, AustinsPicturesAreRepeated) {
 
 TEST(Reference, AustinsPicturesOfEachDepthAreRepeated) {
   TRACE_NEEDS_SHARED("reference/uw");
-  for (const std::string& picture : filesUnder(kReference + "ut-w200-depth-series", ".png")) {
+  for (const std::string& picture : filesUnder(kReferencePictures + "ut-w200-depth-series", ".png")) {
     const std::string stem = fs::path(picture).stem().string();
     const size_t split = stem.rfind("_r");
     const double within =
@@ -85,7 +85,7 @@ TEST(Reference, AustinsPicturesWithCubeMapsAreRepeated) {
   TRACE_NEEDS_SHARED("reference/uw");
   const std::string maps = test::sharedFolder() + "/scenes/uw/textures/cubemaps/";
   int compared = 0;
-  for (const std::string& picture : filesUnder(kReference + "ut-w200-cubemap", ".png")) {
+  for (const std::string& picture : filesUnder(kReferencePictures + "ut-w200-cubemap", ".png")) {
     const std::string stem = fs::path(picture).stem().string();
     const size_t split = stem.find("__");
     const double within = renderAndCompare(
@@ -106,7 +106,7 @@ TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
        {"polymesh_easy1", "polymesh_simple", "polymesh_sier", "polymesh_z-polytest", "polymesh_cube",
         "polymesh_trimesh2", "hitchcock", "simple_cyl_ambient", "simple_cyl_diffuse", "simple_cyl_emissive",
         "simple_box", "simple_box_dist_atten", "simple_box_cyl_opaque_shadow"}) {
-    const std::string picture = kReference + "ut-w400-r5/" + name + ".png";
+    const std::string picture = kReferencePictures + "ut-w400-r5/" + name + ".png";
     if (!fs::exists(picture)) continue;
     EXPECT_GE(renderAndCompare(sceneOf(name), picture, {{"camera-axes", "raw", {}}, {"like", "uw", {}}}),
               0.999)

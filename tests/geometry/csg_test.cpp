@@ -17,26 +17,26 @@
 namespace trace::test {
 namespace {
 
-Operand at(const Shape& shape, const Affine& place = {}, std::uint32_t material = 0) {
+Operand operandAt(const Shape& shape, const Affine& place = {}, std::uint32_t material = 0) {
   return {"", shape, place, material};
 }
-Affine move(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
+Affine movedBy(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
 
 const Box3 kUnit{{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}};
 
 /// The cylinder of radius 1 from -2 to 2, along an axis.
 Operand cylinder(int axis) {
-  Affine along = Affine::scaling({1, 1, 4}) * move(0, 0, -0.5);
+  Affine along = Affine::scaling({1, 1, 4}) * movedBy(0, 0, -0.5);
   if (axis == 0) along = Affine::rotation({0, 1, 0}, kPi / 2) * along;
   if (axis == 1) along = Affine::rotation({1, 0, 0}, kPi / 2) * along;
-  return at(Cylinder{}, along);
+  return operandAt(Cylinder{}, along);
 }
 
 TEST(Csg, VolumesOfTheCourses) {
   EXPECT_NEAR(volume(Intersection{Operands({cylinder(0), cylinder(1)})}, kUnit, 500), 16.0 / 3, 2e-3);
   EXPECT_NEAR(volume(Intersection{Operands({cylinder(0), cylinder(1), cylinder(2)})}, kUnit, 500),
               8 * (2 - std::sqrt(2.0)), 2e-3);
-  EXPECT_NEAR(volume(Intersection{Operands({at(Sphere{}, move(-0.5, 0, 0)), at(Sphere{}, move(0.5, 0, 0))})},
+  EXPECT_NEAR(volume(Intersection{Operands({operandAt(Sphere{}, movedBy(-0.5, 0, 0)), operandAt(Sphere{}, movedBy(0.5, 0, 0))})},
                      kUnit, 500),
               1.30900, 1e-3);
 }
@@ -49,11 +49,11 @@ TEST(Csg, VolumesOfRandomTreesAddUp) {
       for (;;) {
         const Shape& shape = shapes[static_cast<size_t>(random.below(static_cast<int>(shapes.size())))];
         if (isSolid(prepare(shape)))
-          return at(shape, Affine::rotation(random.direction(), 1) * move(random.uniform(-0.5, 0.5), 0, 0));
+          return operandAt(shape, Affine::rotation(random.direction(), 1) * movedBy(random.uniform(-0.5, 0.5), 0, 0));
       }
     };
     const Operand a = any(), b = any(), c = any();
-    const Operand ab = at(Difference{Operands({b, c})});
+    const Operand ab = operandAt(Difference{Operands({b, c})});
     const Box3 box{{-4, -4, -4}, {4, 4, 4}};
     const auto v = [&](const Shape& s) { return volume(s, box, 60); };
     const double both = v(Intersection{Operands({a, ab})});
@@ -64,16 +64,16 @@ TEST(Csg, VolumesOfRandomTreesAddUp) {
 
 TEST(Csg, PlanesCutInAnyPlace) {
   for (const Affine& place : {Affine{}, Affine::rotation({0.3, 1, 0.2}, 1.3)}) {
-    const Intersection half{Operands({at(Sphere{}), at(Plane{}, place)})};
+    const Intersection half{Operands({operandAt(Sphere{}), operandAt(Plane{}, place)})};
     EXPECT_EQ(boundsOf(prepare(Shape(half))), boundsOf(prepare(Shape(Sphere{}))));
     EXPECT_NEAR(volume(half, kUnit, 200), 2 * kPi / 3, 2e-3);
-    EXPECT_NEAR(volume(Difference{Operands({at(Sphere{}), at(Plane{}, place)})}, kUnit, 200), 2 * kPi / 3,
+    EXPECT_NEAR(volume(Difference{Operands({operandAt(Sphere{}), operandAt(Plane{}, place)})}, kUnit, 200), 2 * kPi / 3,
                 2e-3);
   }
 }
 
 TEST(Csg, CoincidentFacesAreOneOrNone) {
-  const Operand box = at(Cube{}), beside = at(Cube{}, move(1, 0, 0));
+  const Operand box = operandAt(Cube{}), beside = operandAt(Cube{}, movedBy(1, 0, 0));
   const Ray along{{-3, 0.1, 0.2}, {1, 0, 0}};
   EXPECT_EQ(crossingsOf(Union{Operands({box, beside})}, along).size(), 2u);  // no wall between
   EXPECT_EQ(crossingsOf(Intersection{Operands({box, beside})}, along).size(), 0u);
@@ -81,11 +81,11 @@ TEST(Csg, CoincidentFacesAreOneOrNone) {
   EXPECT_EQ(crossingsOf(Intersection{Operands({box, box})}, along).size(), 2u);
   EXPECT_EQ(crossingsOf(Difference{Operands({box, box})}, along).size(), 0u);
   // Drilled right through, flush with both faces: nothing is left over the hole.
-  const Operand drill = at(Cylinder{}, move(0, 0, -0.5) * Affine::scaling({0.3, 0.3, 1}));
+  const Operand drill = operandAt(Cylinder{}, movedBy(0, 0, -0.5) * Affine::scaling({0.3, 0.3, 1}));
   EXPECT_EQ(crossingsOf(Difference{Operands({box, drill})}, {{0.1, 0.1, 3}, {0, 0, -1}}).size(), 0u);
   // The first operand's face is the one seen.
-  const auto seen = crossingsOf(Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}, along);
-  const auto tree = Union{Operands({at(Cube{}, {}, 7), at(Cube{}, {}, 8)})}.prepared();
+  const auto seen = crossingsOf(Union{Operands({operandAt(Cube{}, {}, 7), operandAt(Cube{}, {}, 8)})}, along);
+  const auto tree = Union{Operands({operandAt(Cube{}, {}, 7), operandAt(Cube{}, {}, 8)})}.prepared();
   EXPECT_EQ(tree->material(seen[0].part, 0).material[0], 7u);
 }
 
@@ -96,15 +96,15 @@ TEST(Csg, FlushFacesUnderAnyTransform) {
   int through = 0;
   for (int i = 0; i < 2000; ++i) {
     const Affine m = random.affine(std::pow(10, random.uniform(-4, 6)));
-    const Affine drill = move(0, 0, -0.5) * Affine::scaling({0.3, 0.3, 1});
+    const Affine drill = movedBy(0, 0, -0.5) * Affine::scaling({0.3, 0.3, 1});
     const TracedShape drilled =
-        prepare(Shape(Difference{Operands({at(Cube{}, m), at(Cylinder{}, m * drill)})}));
+        prepare(Shape(Difference{Operands({operandAt(Cube{}, m), operandAt(Cylinder{}, m * drill)})}));
     const Vec3 start = m * Vec3{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 3};
     const Vec3 end = m * Vec3{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), -3};
     EXPECT_EQ(crossingsOf(drilled, {start, end - start}).size() % 2, 0u);
     const Vec3 straight = linear(m, {0, 0, -1});
     through += crossingsOf(drilled, {start, straight}).empty();
-    const TracedShape pair = prepare(Shape(Union{Operands({at(Cube{}, m), at(Cube{}, m * move(1, 0, 0))})}));
+    const TracedShape pair = prepare(Shape(Union{Operands({operandAt(Cube{}, m), operandAt(Cube{}, m * movedBy(1, 0, 0))})}));
     const Vec3 left = m * Vec3{-3, random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)};
     EXPECT_EQ(crossingsOf(pair, {left, linear(m, {1, 0, 0})}).size(), 2u);
   }
@@ -115,7 +115,7 @@ TEST(Csg, LargeUnionsMeetWhatTheirPartsMeet) {
   Random random(3);
   std::vector<Operand> all;
   for (std::uint32_t i = 0; i < 200; ++i)
-    all.push_back(at(Sphere{}, Affine::translation(random.inCube(3)) * Affine::scaling({0.3, 0.3, 0.3}), i));
+    all.push_back(operandAt(Sphere{}, Affine::translation(random.inCube(3)) * Affine::scaling({0.3, 0.3, 0.3}), i));
   const Union whole{Operands(all)};
   const TracedShape traced = prepare(Shape(whole));
   for (int i = 0; i < 5000; ++i) {
@@ -140,7 +140,7 @@ TEST(Csg, LargeUnionsMeetWhatTheirPartsMeet) {
 
 TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
   const Difference shape{
-      Operands({at(Cube{}, {}, 1), at(Sphere{}, move(0, 0, 0.5) * Affine::scaling({0.4, 0.4, 0.4}), 2)})};
+      Operands({operandAt(Cube{}, {}, 1), operandAt(Sphere{}, movedBy(0, 0, 0.5) * Affine::scaling({0.4, 0.4, 0.4}), 2)})};
   const Ray down{{0.05, 0, 3}, {0, 0, -1}};
   const auto c = crossingsOf(shape, down);
   ASSERT_EQ(c.size(), 2u);
@@ -150,7 +150,7 @@ TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
 }
 
 TEST(Csg, ClippedObjectsStayOpen) {
-  const Clip shape{Operands({at(Sphere{}), at(Cube{}, move(0, 0, 0.5) * Affine::scaling({3, 3, 1}))})};
+  const Clip shape{Operands({operandAt(Sphere{}), operandAt(Cube{}, movedBy(0, 0, 0.5) * Affine::scaling({3, 3, 1}))})};
   EXPECT_FALSE(isSolid(shape));
   const Ray up{{0.1, 0, -3}, {0, 0, 1}};  // through the open bottom to the inside of the dome
   const auto c = crossingsOf(shape, up);
@@ -159,7 +159,7 @@ TEST(Csg, ClippedObjectsStayOpen) {
 }
 
 TEST(Csg, ASheetThatIsMetOnceIsClippedToo) {
-  const Clip shape{Operands({at(Square{}), at(Cube{}, move(0.4, 0, 0))})};
+  const Clip shape{Operands({operandAt(Square{}), operandAt(Cube{}, movedBy(0.4, 0, 0))})};
   EXPECT_EQ(crossingsOf(shape, Ray{{0.2, 0, -3}, {0, 0, 1}}).size(), 1u);
   EXPECT_EQ(crossingsOf(shape, Ray{{-0.2, 0, -3}, {0, 0, 1}}).size(), 0u);
 }
@@ -168,19 +168,19 @@ TEST(Csg, MeshesAreOperands) {
   Random random(4);
   const Mesh ball{ballMesh(12, random)};
   const Box3 box{{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}};
-  const double whole = volume(Union{Operands({at(ball)})}, box, 200);
-  const Operand half = at(Cube{}, move(0, 0, 1) * Affine::scaling({4, 4, 2}));
+  const double whole = volume(Union{Operands({operandAt(ball)})}, box, 200);
+  const Operand half = operandAt(Cube{}, movedBy(0, 0, 1) * Affine::scaling({4, 4, 2}));
   EXPECT_GT(whole, 2);
-  EXPECT_NEAR(volume(Intersection{Operands({at(ball), half})}, box, 200) +
-                  volume(Difference{Operands({at(ball), half})}, box, 200),
+  EXPECT_NEAR(volume(Intersection{Operands({operandAt(ball), half})}, box, 200) +
+                  volume(Difference{Operands({operandAt(ball), half})}, box, 200),
               whole, 1e-9);
 }
 
 TEST(Csg, TooDeepANestIsRefused) {
-  Operand nest = at(Sphere{});
+  Operand nest = operandAt(Sphere{});
   EXPECT_THROW(
       for (int i = 0; i < 100; ++i) {
-        nest = at(Union{Operands({nest, at(Sphere{})})});
+        nest = operandAt(Union{Operands({nest, operandAt(Sphere{})})});
         prepare(nest.shape);
       },
       Error);

@@ -165,60 +165,60 @@ TEST(Shapes, NormalsStandOnTheSurface) {
 }
 
 /// Its volume (checks of the courses, E1).
-double volume(const Shape& shape, int n) { return test::volume(shape, boundsOf(prepare(shape)), n); }
+double volumeOver(const Shape& shape, int n) { return test::volume(shape, boundsOf(prepare(shape)), n); }
 
 TEST(Shapes, VolumeByParallelProjection) {
-  EXPECT_NEAR(volume(Sphere{}, 500), 4.18879, 2e-4);
-  EXPECT_NEAR(volume(Cube{}, 100), 1, 1e-12);
-  EXPECT_NEAR(volume(Cylinder{}, 500), kPi, 2e-4);
-  EXPECT_NEAR(volume(Cone{}, 500), 1.04720, 2e-4);
-  EXPECT_NEAR(volume(Conic{.zMin = -1}, 500), 2 * 1.04720, 8e-4);
-  EXPECT_NEAR(volume(Cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5}, 500),
+  EXPECT_NEAR(volumeOver(Sphere{}, 500), 4.18879, 2e-4);
+  EXPECT_NEAR(volumeOver(Cube{}, 100), 1, 1e-12);
+  EXPECT_NEAR(volumeOver(Cylinder{}, 500), kPi, 2e-4);
+  EXPECT_NEAR(volumeOver(Cone{}, 500), 1.04720, 2e-4);
+  EXPECT_NEAR(volumeOver(Conic{.zMin = -1}, 500), 2 * 1.04720, 8e-4);
+  EXPECT_NEAR(volumeOver(Cone{.height = 2, .bottomRadius = 1, .topRadius = 0.5}, 500),
               kPi * 2 * (1 + 0.5 + 0.25) / 3, 5e-4);
-  EXPECT_NEAR(volume(Torus{}, 500), 1.23370, 2e-4);
-  EXPECT_NEAR(volume(Torus{.minorRadius = 0.02}, 500), 2 * kPi * kPi * 0.02 * 0.02, 2e-5);
-  EXPECT_NEAR(volume(Ellipsoid{.radii = {1, 2, 3}}, 500), 25.13274, 2e-3);
-  EXPECT_NEAR(volume(Paraboloid{}, 500), 1.57080, 2e-4);
-  EXPECT_NEAR(volume(EllipticCone{.height = 2}, 500), kPi * 0.5 * 2 / 3, 2e-4);
-  EXPECT_NEAR(volume(Hyperboloid{}, 500), kPi * (0.5 + 0.5 * 1), 5e-4);  // a h + c h^3 / 12, a = 1/4, c = 3/4
-  EXPECT_NEAR(volume(TwoSheets{.gap = 0}, 500), 2 * kPi / 3, 5e-4);      // then a double cone
-  EXPECT_NEAR(volume(Quadric{.squares = {1, 0, 1}, .products = {}, .linear = {}, .constant = -1}, 500),
+  EXPECT_NEAR(volumeOver(Torus{}, 500), 1.23370, 2e-4);
+  EXPECT_NEAR(volumeOver(Torus{.minorRadius = 0.02}, 500), 2 * kPi * kPi * 0.02 * 0.02, 2e-5);
+  EXPECT_NEAR(volumeOver(Ellipsoid{.radii = {1, 2, 3}}, 500), 25.13274, 2e-3);
+  EXPECT_NEAR(volumeOver(Paraboloid{}, 500), 1.57080, 2e-4);
+  EXPECT_NEAR(volumeOver(EllipticCone{.height = 2}, 500), kPi * 0.5 * 2 / 3, 2e-4);
+  EXPECT_NEAR(volumeOver(Hyperboloid{}, 500), kPi * (0.5 + 0.5 * 1), 5e-4);  // a h + c h^3 / 12, a = 1/4, c = 3/4
+  EXPECT_NEAR(volumeOver(TwoSheets{.gap = 0}, 500), 2 * kPi / 3, 5e-4);      // then a double cone
+  EXPECT_NEAR(volumeOver(Quadric{.squares = {1, 0, 1}, .products = {}, .linear = {}, .constant = -1}, 500),
               2 * kPi, 5e-4);
   const double r = 0.1, inner = 0.8;
   EXPECT_NEAR(
-      volume(RoundedBox{}, 500),
+      volumeOver(RoundedBox{}, 500),
       inner * inner * inner + 6 * inner * inner * r + 3 * kPi * inner * r * r + 4 * kPi / 3 * r * r * r,
       2e-4);
   const double third = 1.0 / 3;  // Pappus: a triangle with its centroid 4/3 from the axis
-  EXPECT_NEAR(volume(Lathe{{{1, 0}, {1.5, 0}, {1.5, 0.5}, {1, 0}}, Spline::linear}, 500),
+  EXPECT_NEAR(volumeOver(Lathe{{{1, 0}, {1.5, 0}, {1.5, 0.5}, {1, 0}}, Spline::linear}, 500),
               2 * kPi * (1 + third) * 0.125, 5e-4);
-  EXPECT_NEAR(volume(Lathe{{{1, 0}, {0, 1}}, Spline::linear}, 500), kPi / 3, 5e-4);
+  EXPECT_NEAR(volumeOver(Lathe{{{1, 0}, {0, 1}}, Spline::linear}, 500), kPi / 3, 5e-4);
   const Prism::Outline square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
       hole{{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}};
-  EXPECT_NEAR(volume(Prism{square, {hole}, Spline::linear, 2, 1}, 400), (4 - 1) * 2, 1e-9);
-  EXPECT_NEAR(volume(Prism{square, {hole}, Spline::linear, 2, 0}, 400), (4 - 1) * 2 * third, 5e-4);
-  EXPECT_NEAR(volume(Prism{square, {hole}, Spline::linear, 2, 0.5, 200}, 150),
+  EXPECT_NEAR(volumeOver(Prism{square, {hole}, Spline::linear, 2, 1}, 400), (4 - 1) * 2, 1e-9);
+  EXPECT_NEAR(volumeOver(Prism{square, {hole}, Spline::linear, 2, 0}, 400), (4 - 1) * 2 * third, 5e-4);
+  EXPECT_NEAR(volumeOver(Prism{square, {hole}, Spline::linear, 2, 0.5, 200}, 150),
               (4 - 1) * 2 * (1 + 0.5 + 0.25) * third, 5e-3);
-  EXPECT_NEAR(volume(SphereSweep{{{0, 0, 0, 1}, {0, 0, 2, 1}}, Spline::linear}, 500), 2 * kPi + 4 * kPi / 3,
+  EXPECT_NEAR(volumeOver(SphereSweep{{{0, 0, 0, 1}, {0, 0, 2, 1}}, Spline::linear}, 500), 2 * kPi + 4 * kPi / 3,
               1e-3);
   for (int level = 0; level < 4; ++level)
-    EXPECT_NEAR(volume(Menger{level}, 243), std::pow(20.0 / 27, level), 1e-12);
+    EXPECT_NEAR(volumeOver(Menger{level}, 243), std::pow(20.0 / 27, level), 1e-12);
   for (int level = 0; level < 4; ++level)
-    EXPECT_NEAR(volume(Sierpinski{level}, 256), std::pow(0.5, level) / 3, 2e-4);
-  EXPECT_NEAR(volume(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 1}, 300), 1.23370, 5e-4);
-  EXPECT_NEAR(volume(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 2}, 300), 2 * kPi * 0.125, 5e-4);
+    EXPECT_NEAR(volumeOver(Sierpinski{level}, 256), std::pow(0.5, level) / 3, 2e-4);
+  EXPECT_NEAR(volumeOver(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 1}, 300), 1.23370, 5e-4);
+  EXPECT_NEAR(volumeOver(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 2}, 300), 2 * kPi * 0.125, 5e-4);
   for (const bool smooth : {false, true}) {  // a slope, down to z = -0.5
     HeightField slope;
     slope.formula = "0.3 * x - 0.2 * y + 0.1", slope.points = 8, slope.smooth = smooth;
-    EXPECT_NEAR(volume(slope, 200), 4 * 0.6, 1e-3);
+    EXPECT_NEAR(volumeOver(slope, 200), 4 * 0.6, 1e-3);
   }
   Isosurface ball;
   ball.formula = "sqrt(x^2 + y^2 + z^2) - 1";
-  EXPECT_NEAR(volume(ball, 300), 4.18879, 1e-3);
-  EXPECT_NEAR(volume(Metaballs{0.25, {{0, 0, 0, 1, 1}}, {}}, 500), 4 * kPi / 3 * std::pow(0.5, 1.5), 2e-4);
-  EXPECT_NEAR(volume(Superellipsoid{.east = 1, .north = 1}, 500), 4.18879, 2e-4);
-  EXPECT_NEAR(volume(Superellipsoid{.east = 2, .north = 2}, 500), 4.0 / 3, 2e-4);
-  EXPECT_NEAR(volume(Superellipsoid{.east = 1, .north = 2}, 500), 2 * kPi / 3, 1e-3);
+  EXPECT_NEAR(volumeOver(ball, 300), 4.18879, 1e-3);
+  EXPECT_NEAR(volumeOver(Metaballs{0.25, {{0, 0, 0, 1, 1}}, {}}, 500), 4 * kPi / 3 * std::pow(0.5, 1.5), 2e-4);
+  EXPECT_NEAR(volumeOver(Superellipsoid{.east = 1, .north = 1}, 500), 4.18879, 2e-4);
+  EXPECT_NEAR(volumeOver(Superellipsoid{.east = 2, .north = 2}, 500), 4.0 / 3, 2e-4);
+  EXPECT_NEAR(volumeOver(Superellipsoid{.east = 1, .north = 2}, 500), 2 * kPi / 3, 1e-3);
 }
 
 /// Mean chord of uniform isotropic lines that meet a convex body: 4 V / S (Cauchy).

@@ -40,21 +40,21 @@ std::vector<std::array<Real, N>> circle(Real radius) {
   return points;
 }
 
-Real volumeOf(const Sweep& sweep, int n) { return volume(sweep, boundsOf(prepare(Shape(sweep))), n); }
+Real sweepVolume(const Sweep& sweep, int n) { return volume(sweep, boundsOf(prepare(Shape(sweep))), n); }
 
 TEST(Sweep, HasTheVolumeOfProfileTimesPath) {
-  EXPECT_NEAR(volumeOf(straight(2, 1), 50), 2, 1e-12);
-  EXPECT_NEAR(volumeOf(straight(2, 0), 100), 2.0 / 3, 1e-3);  // a pyramid
+  EXPECT_NEAR(sweepVolume(straight(2, 1), 50), 2, 1e-12);
+  EXPECT_NEAR(sweepVolume(straight(2, 0), 100), 2.0 / 3, 1e-3);  // a pyramid
   Sweep twisted = straight(2, 1);
   twisted.twist = 180;
-  EXPECT_NEAR(volumeOf(twisted, 80), 2, 3e-3);
+  EXPECT_NEAR(sweepVolume(twisted, 80), 2, 3e-3);
   Sweep ring;  // Pappus
   ring.profile = circle<2>(0.25), ring.profileSpline = Spline::bezier, ring.points = circle<4>(1);
-  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+  EXPECT_NEAR(sweepVolume(ring, 80), 1.23370, 3e-3);
   ring.twist = 720;
-  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+  EXPECT_NEAR(sweepVolume(ring, 80), 1.23370, 3e-3);
   std::reverse(ring.profile.begin(), ring.profile.end());  // either way around
-  EXPECT_NEAR(volumeOf(ring, 80), 1.23370, 3e-3);
+  EXPECT_NEAR(sweepVolume(ring, 80), 1.23370, 3e-3);
 }
 
 /// The distance of a place in the plane from an arc; infinite beside its ends.

@@ -9,7 +9,7 @@
 namespace trace {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Compare, EqualLevels) {
@@ -19,7 +19,7 @@ TEST(Compare, EqualLevels) {
   EXPECT_TRUE(c.identical);
   EXPECT_EQ(c.maxDifference, 0);
   EXPECT_EQ(c.rmse, 0);
-  EXPECT_EQ(c.psnr, kInfinity);
+  EXPECT_EQ(c.psnr, kEndless);
   EXPECT_EQ(c.valuesBeyond, 0u);
   EXPECT_EQ(c.fractionBeyond, 0);
 }
@@ -52,17 +52,17 @@ TEST(Compare, DifferentSizesAreAsFarAsCanBe) {
   const Comparison c = compare(Picture(2, 3), Picture(3, 2));
   EXPECT_FALSE(c.sameSize);
   EXPECT_FALSE(c.identical);
-  EXPECT_EQ(c.maxDifference, kInfinity);
+  EXPECT_EQ(c.maxDifference, kEndless);
   EXPECT_EQ(c.psnr, 0);
 }
 
 TEST(Compare, NumbersThatAreNone) {
   Picture a(1, 1), b(1, 1);
-  a.at(0, 0) = {kNan, kInfinity, -kInfinity};
+  a.at(0, 0) = {kNan, kEndless, -kEndless};
   EXPECT_TRUE(compare(a, a).identical);
-  EXPECT_EQ(compare(a, b).maxDifference, kInfinity);
+  EXPECT_EQ(compare(a, b).maxDifference, kEndless);
   EXPECT_EQ(compare(a, b).valuesBeyond, 3u);
-  b.at(0, 0) = {0, kInfinity, -kInfinity};
+  b.at(0, 0) = {0, kEndless, -kEndless};
   EXPECT_EQ(compare(a, b, 1e9).valuesBeyond, 1u);
 }
 

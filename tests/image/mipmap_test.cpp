@@ -19,7 +19,7 @@ namespace {
 constexpr TexelFilter kFilters[] = {TexelFilter::nearest, TexelFilter::bilinear, TexelFilter::trilinear,
                                     TexelFilter::ewa};
 constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::clamp, Wrap::mirror, Wrap::black};
-constexpr int kSizes[][2] = {{1, 1}, {2, 2}, {8, 8}, {7, 5}, {1, 9}, {33, 4}, {100, 37}};
+constexpr int kMipmapSizes[][2] = {{1, 1}, {2, 2}, {8, 8}, {7, 5}, {1, 9}, {33, 4}, {100, 37}};
 
 template <class T, class At>
 Raster raster(int width, int height, int channels, double most, const At& at) {
@@ -55,7 +55,7 @@ TEST(MipMap, APictureOfOneColourGivesItExactly) {
     return raster<float>(width, height, channels, 1, at);
   };
   test::Random random(1);
-  for (const auto& [width, height] : kSizes)
+  for (const auto& [width, height] : kMipmapSizes)
     for (int channels = 1; channels <= 4; ++channels)
       for (int bits : {8, 16, 32}) {
         const MipMap map(ofOneColour(width, height, channels, bits));
@@ -80,7 +80,7 @@ TEST(MipMap, APictureOfOneColourGivesItExactly) {
 
 TEST(MipMap, EveryLevelHasTheMeanOfThePicture) {
   test::Random random(2);
-  for (const auto& size : kSizes) {
+  for (const auto& size : kMipmapSizes) {
     const int width = size[0], height = size[1];
     const MipMap::Level base{
         width, height, 1, false, 1, 1, raster<float>(width, height, 1, 1, [&](int, int, int) {

@@ -152,11 +152,11 @@ TEST(Materials, SamplesHaveTheWeightsAndDensitiesThatAreReported) {
 }
 
 /// How often samples are expected, and found, in the cells of the sphere around a surface.
-class Cells {
+class HitCells {
  public:
   static constexpr int kAcross = 20, kAround = 40, kFine = 14;
 
-  Cells(const Bsdf& bsdf, const Vec3& eye) : expected_(kAcross * kAround), found_(kAcross * kAround) {
+  HitCells(const Bsdf& bsdf, const Vec3& eye) : expected_(kAcross * kAround), found_(kAcross * kAround) {
     for (int i = 0; i < kAcross * kFine; ++i)
       for (int j = 0; j < kAround * kFine; ++j) {
         const Real theta = (i + 0.5) * kPi / (kAcross * kFine), phi = (j + 0.5) * 2 * kPi / (kAround * kFine);
@@ -179,7 +179,7 @@ class Cells {
         std::min(kAround - 1, static_cast<int>((phi < 0 ? phi + 2 * kPi : phi) / (2 * kPi) * kAround));
     ++found_[at(i, j)];
   }
-  /// Pearson's chi-square of n samples, as a standard normal deviate (Wilson and Hilferty 1931). Cells where
+  /// Pearson's chi-square of n samples, as a standard normal deviate (Wilson and Hilferty 1931). HitCells where
   /// less than five are expected are taken together.
   Real deviate(int n) const {
     Real chi = 0, fewExpected = 0, fewFound = 0;
@@ -215,7 +215,7 @@ TEST(Materials, SamplesAreAsDenseAsTheySay) {
   forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
     for (const Real cosine : {0.95, 0.4}) {
       const Vec3 eye = world(local(cosine, 2.1));
-      Cells cells(bsdf, eye);
+      HitCells cells(bsdf, eye);
       EXPECT_NEAR(cells.total(), 1, 3e-3) << "at cosine " << cosine;
       int drawn = 0;
       for (int i = 0; i < n; ++i)
@@ -239,7 +239,7 @@ TEST(Materials, MixturesOfModelsAddWhatTheirPartsScatter) {
   const auto value = [&](const Bsdf& bsdf) { return evaluate(bsdf, kFrame, eye, light).r; };
   EXPECT_NEAR(value(mixed), 0.5 * value(a) + 0.3 * value(b) + 0.2 * value(c), 1e-15);
   EXPECT_NEAR(whitted(mixed).index, 1.2, 1e-15);
-  Cells cells(mixed, eye);
+  HitCells cells(mixed, eye);
   EXPECT_NEAR(cells.total(), 1, 2e-3);
   Random random(5);
   for (int i = 0; i < 40'000; ++i)

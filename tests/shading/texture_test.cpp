@@ -8,7 +8,7 @@
 namespace trace {
 namespace {
 
-TexturePlace at(const Vec3& point, const Vec2& uv = {}) {
+TexturePlace texturePlace(const Vec3& point, const Vec2& uv = {}) {
   TexturePlace place;
   place.point = point, place.uv = uv;
   return place;
@@ -24,11 +24,11 @@ std::shared_ptr<const MipMap> fourTexels() {
 
 TEST(Texture, CheckersHaveTheirColorsInTurn) {
   const Checker checker{.a = {1, 0, 0}, .b = {0, 1, 0}};
-  EXPECT_EQ(checker.at(at({0.5, 0.5, 0.5})), checker.a);
-  EXPECT_EQ(checker.at(at({-0.5, 0.5, 0.5})), checker.b);
-  EXPECT_EQ(checker.at(at({1.5, 0.5, -0.5})), checker.a);
+  EXPECT_EQ(checker.at(texturePlace({0.5, 0.5, 0.5})), checker.a);
+  EXPECT_EQ(checker.at(texturePlace({-0.5, 0.5, 0.5})), checker.b);
+  EXPECT_EQ(checker.at(texturePlace({1.5, 0.5, -0.5})), checker.a);
   const Checker flat{.a = {1, 0, 0}, .b = {0, 1, 0}, .space = TextureSpace::uv};
-  EXPECT_EQ(flat.at(at({9.5, 0, 0}, {0.5, 1.5})), flat.b);
+  EXPECT_EQ(flat.at(texturePlace({9.5, 0, 0}, {0.5, 1.5})), flat.b);
 }
 
 TEST(Texture, PlacementsMoveThePattern) {
@@ -38,10 +38,10 @@ TEST(Texture, PlacementsMoveThePattern) {
   // (0.5, 0.5, 0.5) of the pattern, twice as large (1, 1, 1), turned (-1, 1, 1), moved (9, 1, 1).
   for (const Vec3& p : {Vec3{0.5, 0.5, 0.5}, Vec3{1.5, 0.5, 0.5}, Vec3{-3.25, 0.5, 2.5}}) {
     const Vec3 there{10 - 2 * p.y, 2 * p.x, 2 * p.z};
-    EXPECT_EQ(Texture(placed).at(at(there)), Texture(plain).at(at(p)));
+    EXPECT_EQ(Texture(placed).at(texturePlace(there)), Texture(plain).at(texturePlace(p)));
   }
   placed.placement = {.scale = {0, 1, 1}};
-  EXPECT_EQ(Texture(placed).at(at({0.5, 0.5, 0.5})), Color(1)) << "a flat placement is none";
+  EXPECT_EQ(Texture(placed).at(texturePlace({0.5, 0.5, 0.5})), Color(1)) << "a flat placement is none";
 }
 
 TEST(Texture, InputsScaleTheConstantsOfATexture) {
@@ -49,16 +49,16 @@ TEST(Texture, InputsScaleTheConstantsOfATexture) {
       TextureNode{.model = Checker{.a = {1, 0, 0}, .b = {0, 0, 1}}, .placement = {.scale = {0.5, 0.5, 0.5}}};
   const Texture outer =
       TextureNode{.model = Checker{.a = Color(0.5), .b = {0, 1, 0}}, .inputs = {{"a", inner}}};
-  EXPECT_EQ(outer.at(at({0.25, 0.25, 0.25})), (Color{0.5, 0, 0}));
-  EXPECT_EQ(outer.at(at({0.75, 0.25, 0.25})), (Color{0, 0, 0.5}));
-  EXPECT_EQ(outer.at(at({1.25, 0.25, 0.25})), (Color{0, 1, 0}));
+  EXPECT_EQ(outer.at(texturePlace({0.25, 0.25, 0.25})), (Color{0.5, 0, 0}));
+  EXPECT_EQ(outer.at(texturePlace({0.75, 0.25, 0.25})), (Color{0, 0, 0.5}));
+  EXPECT_EQ(outer.at(texturePlace({1.25, 0.25, 0.25})), (Color{0, 1, 0}));
 }
 
 TEST(Texture, NumbersTakeTheLuminance) {
   Phong phong;
   phong.shininess = 10, phong.diffuse = {1, 0.5, 0};
   const Texture red = TextureNode{.model = Checker{.a = {1, 0, 0}}};
-  applyTextures(phong, {{"shininess", red}, {"diffuse", red}}, at({0.5, 0.5, 0.5}));
+  applyTextures(phong, {{"shininess", red}, {"diffuse", red}}, texturePlace({0.5, 0.5, 0.5}));
   EXPECT_DOUBLE_EQ(phong.shininess, 2.99);
   EXPECT_EQ(phong.diffuse, (Color{1, 0, 0}));
 }
@@ -66,7 +66,7 @@ TEST(Texture, NumbersTakeTheLuminance) {
 TEST(Texture, PicturesHaveTheirBottomLeftAtZero) {
   ImageMap map;
   map.file.map = fourTexels();
-  const auto seen = [&](Real u, Real v) { return map.at(at({}, {u, v})); };
+  const auto seen = [&](Real u, Real v) { return map.at(texturePlace({}, {u, v})); };
   EXPECT_EQ(seen(0.25, 0.25), (Color{0, 0, 1}));
   EXPECT_EQ(seen(0.75, 0.25), (Color{1, 1, 1}));
   EXPECT_EQ(seen(0.25, 0.75), (Color{1, 0, 0}));

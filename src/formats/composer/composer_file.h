@@ -16,6 +16,9 @@
 
 namespace trace::composer {
 
+inline constexpr Real kGlass = 1.5;           ///< the index of what lets light through
+inline constexpr Real kShininessScale = 128;  ///< from shininess to the exponent
+
 struct View {
   Vec3 position{0, 0, 1}, direction{0, 0, -1};
   Real focalDistance = 5;
@@ -33,7 +36,7 @@ struct Lamp {
 
 struct Material {
   Color diffuse{0.8}, ambient{0.2}, specular{}, emission{};
-  Real shininess = 0.2;  ///< times 128 is the exponent
+  Real shininess = 0.2;  ///< times kShininessScale is the exponent
   Real ktran = 0;        ///< share of light that passes
 };
 

@@ -28,7 +28,6 @@ namespace {
 namespace cf = composer;
 
 constexpr std::string_view kMagic = "Composer format";
-constexpr Real kGlass = 1.5, kShininessScale = 128;
 constexpr Real kBumpHeight = 0.02;  // of white, in units of the object: its name says only which picture
 
 /// What an object's name says beside the name.
@@ -67,9 +66,9 @@ Extras extrasOf(const cf::Object& object, Messages& messages) {
   return extras;
 }
 
-class Reader {
+class ComposerReader {
  public:
-  Reader(const std::string& file, cf::File content, Messages& messages)
+  ComposerReader(const std::string& file, cf::File content, Messages& messages)
       : content_(std::move(content)), messages_(messages) {
     scene_.file = file;
     scene_.format = "composer";
@@ -136,7 +135,7 @@ class Reader {
       case cf::Lamp::Kind::spot: {
         SpotLight light{.position = lamp.position, .direction = lamp.direction, .color = lamp.color};
         light.angle = light.fullAngle = std::clamp(lamp.cutOffAngle * 180 / kPi, 0.0, 180.0);
-        light.exponent = std::max(0.0, kShininessScale * lamp.dropOffRate);
+        light.exponent = std::max(0.0, cf::kShininessScale * lamp.dropOffRate);
         light.constant = kConstant;
         light.linear = kLinear;
         light.quadratic = kQuadratic;
@@ -179,7 +178,7 @@ class Reader {
     phong.emissive = m.emission;
     phong.transmissive = Color(m.ktran);
     phong.shininess = m.shininess;
-    phong.index = extras.ior.value_or(kGlass);
+    phong.index = extras.ior.value_or(cf::kGlass);
     Material material{"", phong, {}};
     if (extras.texture) setTexture(material.textures, "diffuse", pictureTexture(*extras.texture));
     if (extras.bump) {
@@ -299,10 +298,11 @@ Scene readComposer(const std::string& file, std::string_view bytes, Messages& me
   const std::size_t start = line.size() == bytes.size() ? line.size() : line.size() + 1;
   const std::string_view kind = line.substr(std::min(line.size(), kMagic.size() + 1 + version->length));
   if (kind.find("binary") != std::string_view::npos)
-    return Reader(file, cf::readBinary(file, bytes, start, version->value < 2.05, messages), messages).read();
+    return ComposerReader(file, cf::readBinary(file, bytes, start, version->value < 2.05, messages), messages)
+        .read();
   if (kind.find("ascii") == std::string_view::npos)
     throw Error(Fault::scene, place, "expected \"ascii\" or \"binary\" after the version");
-  return Reader(file, cf::readText(file, bytes, start, messages), messages).read();
+  return ComposerReader(file, cf::readText(file, bytes, start, messages), messages).read();
 }
 
 }  // namespace trace

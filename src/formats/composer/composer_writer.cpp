@@ -20,8 +20,6 @@ namespace {
 
 namespace cf = composer;
 
-constexpr Real kGlass = 1.5, kShininessScale = 128;
-
 class Writer {
  public:
   Writer(const Scene& scene, Messages& messages)
@@ -72,7 +70,7 @@ class Writer {
     if (light.fullAngle < light.angle) warn("spot lights get a sharp edge");
     cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
     lamp.color = light.color;
-    lamp.dropOffRate = light.exponent / kShininessScale;
+    lamp.dropOffRate = light.exponent / cf::kShininessScale;
     lamp.cutOffAngle = light.angle * kPi / 180;
     file_.lamps.push_back(lamp);
   }
@@ -88,7 +86,7 @@ class Writer {
     if (light.open() != WarnLight{}.open()) warn("the flaps of lights are left out");
     cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
     lamp.color = light.color;
-    lamp.dropOffRate = light.exponent / kShininessScale;
+    lamp.dropOffRate = light.exponent / cf::kShininessScale;
     lamp.cutOffAngle = light.angle * kPi / 180;
     file_.lamps.push_back(lamp);
   }
@@ -145,11 +143,11 @@ class Writer {
     m.ambient = {share(around.r, p.diffuse.r), share(around.g, p.diffuse.g), share(around.b, p.diffuse.b)};
     m.specular = p.specular;
     m.emission = p.emissive;
-    m.shininess = p.shininess * settings_.shininessScale / kShininessScale;
+    m.shininess = p.shininess * settings_.shininessScale / cf::kShininessScale;
     const bool mirrorsAsItShines = p.mirrorsSpecular && settings_.mirrorDefault == MirrorDefault::specular;
     const Color mirror = mirrorsAsItShines ? p.specular : p.reflective;
     if (!(mirror == p.specular)) say(name, "reflect=" + toText((mirror.r + mirror.g + mirror.b) / 3));
-    if (m.ktran > 0 && p.index != kGlass) say(name, "ior=" + toText(p.index));
+    if (m.ktran > 0 && p.index != cf::kGlass) say(name, "ior=" + toText(p.index));
     return m;
   }
   static void say(std::string& name, const std::string& word) {

@@ -9,7 +9,7 @@
 namespace trace::inventor {
 namespace {
 
-constexpr TokenRules kRules{
+constexpr TokenRules kInventorTokens{
     .marks = "[]{}()|~=", .comment = '#', .commasAreBlank = true, .stringEscapes = true};
 
 Document::Version versionOf(const std::string& file, std::string_view line) {
@@ -251,7 +251,7 @@ class Parser {
 };
 
 Document::Document(std::string file, std::string_view bytes, Messages& messages)
-    : version_(versionOf(file, firstLine(bytes))), tokens_(std::move(file), bytes, kRules) {
+    : version_(versionOf(file, firstLine(bytes))), tokens_(std::move(file), bytes, kInventorTokens) {
   oldCrease_ = version_ == Version::vrml1 || bytes.starts_with("#Inventor V1");
   Parser(*this, messages).file();
 }

@@ -57,7 +57,7 @@ std::string found(const json& value) {
 }
 
 /// An object of the file and where it stands, as in `materials[0].pbrMetallicRoughness`.
-struct Part {
+struct JsonPart {
   const json& value;
   std::string path;
 
@@ -79,27 +79,27 @@ class GltfCheck {
     checkVersion();
     checkExtensions();
     index(root_, "scene", "scenes");
-    each(root_, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
-    each(root_, "nodes", [&](const Part& node) { checkNode(node); });
-    each(root_, "meshes", [&](const Part& mesh) {
-      each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
+    each(root_, "scenes", [&](const JsonPart& scene) { indices(scene, "nodes", "nodes"); });
+    each(root_, "nodes", [&](const JsonPart& node) { checkNode(node); });
+    each(root_, "meshes", [&](const JsonPart& mesh) {
+      each(mesh, "primitives", [&](const JsonPart& primitive) { checkPrimitive(primitive); });
     });
-    each(root_, "cameras", [&](const Part& camera) { checkCamera(camera); });
-    each(root_, "materials", [&](const Part& material) { checkMaterial(material); });
-    each(root_, "textures", [&](const Part& texture) {
+    each(root_, "cameras", [&](const JsonPart& camera) { checkCamera(camera); });
+    each(root_, "materials", [&](const JsonPart& material) { checkMaterial(material); });
+    each(root_, "textures", [&](const JsonPart& texture) {
       index(texture, "source", "images");
       index(texture, "sampler", "samplers");
     });
-    each(root_, "samplers", [&](const Part& sampler) { checkSampler(sampler); });
-    each(root_, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
-    each(root_, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
-    each(root_, "bufferViews", [&](const Part& view) {
+    each(root_, "samplers", [&](const JsonPart& sampler) { checkSampler(sampler); });
+    each(root_, "images", [&](const JsonPart& image) { index(image, "bufferView", "bufferViews"); });
+    each(root_, "accessors", [&](const JsonPart& accessor) { checkAccessor(accessor); });
+    each(root_, "bufferViews", [&](const JsonPart& view) {
       index(view, "buffer", "buffers");
       for (const char* key : {"byteOffset", "byteLength", "byteStride"}) whole(view, key);
     });
     if (const json* all = root_.find("extensions"); all && all->is_object())
-      object({*all, "extensions"}, kLights, [&](const Part& lights) {
-        each(lights, "lights", [&](const Part& light) { checkLight(light); });
+      object({*all, "extensions"}, kLights, [&](const JsonPart& lights) {
+        each(lights, "lights", [&](const JsonPart& light) { checkLight(light); });
       });
     checkWhatIsNotRead();
     warnings_.report(messages_);
@@ -116,7 +116,7 @@ class GltfCheck {
   // --- parts and values ---
 
   template <class Visit>
-  void each(const Part& owner, std::string_view key, Visit&& visit) {
+  void each(const JsonPart& owner, std::string_view key, Visit&& visit) {
     const json* list = owner.find(key);
     if (!list) return;
     const std::string path = owner.pathOf(key);
@@ -124,19 +124,19 @@ class GltfCheck {
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string place = path + "[" + std::to_string(i) + "]";
       if (!(*list)[i].is_object()) fail(place + ": expected an object, found " + found((*list)[i]));
-      visit(Part{(*list)[i], place});
+      visit(JsonPart{(*list)[i], place});
     }
   }
   template <class Visit>
-  void object(const Part& owner, std::string_view key, Visit&& visit) {
+  void object(const JsonPart& owner, std::string_view key, Visit&& visit) {
     const json* value = owner.find(key);
     if (!value) return;
     if (!value->is_object()) fail(owner.pathOf(key) + ": expected an object, found " + found(*value));
-    visit(Part{*value, owner.pathOf(key)});
+    visit(JsonPart{*value, owner.pathOf(key)});
   }
   template <class Visit>
-  void extension(const Part& owner, std::string_view name, Visit&& visit) {
-    object(owner, "extensions", [&](const Part& all) { object(all, name, visit); });
+  void extension(const JsonPart& owner, std::string_view name, Visit&& visit) {
+    object(owner, "extensions", [&](const JsonPart& all) { object(all, name, visit); });
   }
 
   /// The length of the top list of that name; lights stand in an extension.
@@ -145,7 +145,7 @@ class GltfCheck {
     if (list == "lights") {
       all = root_.find("extensions");
       for (std::string_view key : {kLights, list})
-        if (all && all->is_object()) all = Part{*all, ""}.find(key);
+        if (all && all->is_object()) all = JsonPart{*all, ""}.find(key);
     }
     return all && all->is_array() ? all->size() : 0;
   }
@@ -156,30 +156,30 @@ class GltfCheck {
              ", found " + found(value),
          count > 0 ? "they are counted from 0" : "");
   }
-  void index(const Part& owner, std::string_view key, std::string_view list) const {
+  void index(const JsonPart& owner, std::string_view key, std::string_view list) const {
     if (const json* value = owner.find(key)) checkIndex(*value, owner.pathOf(key), list);
   }
-  void indices(const Part& owner, std::string_view key, std::string_view list) const {
+  void indices(const JsonPart& owner, std::string_view key, std::string_view list) const {
     const json* all = owner.find(key);
     if (!all) return;
     if (!all->is_array()) fail(owner.pathOf(key) + ": expected a list of numbers, found " + found(*all));
     for (const json& value : *all) checkIndex(value, owner.pathOf(key), list);
   }
 
-  void inRange(const Part& owner, std::string_view key, double value, double least, double most) {
+  void inRange(const JsonPart& owner, std::string_view key, double value, double least, double most) {
     if (value >= least && value <= most) return;
     const std::string range =
         most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
     warn(owner.pathOf(key) + ": expected " + range + ", found " + toText(value), {},
          "range of " + std::string(key));
   }
-  void number(const Part& owner, std::string_view key, double least = -kNoLimit, double most = kNoLimit) {
+  void number(const JsonPart& owner, std::string_view key, double least = -kNoLimit, double most = kNoLimit) {
     const json* value = owner.find(key);
     if (!value) return;
     if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
     inRange(owner, key, value->get<double>(), least, most);
   }
-  void whole(const Part& owner, std::string_view key, std::uint64_t least = 0) const {
+  void whole(const JsonPart& owner, std::string_view key, std::uint64_t least = 0) const {
     const json* value = owner.find(key);
     if (!value || (value->is_number_unsigned() && value->get<std::uint64_t>() >= least)) return;
     const bool tooLarge = value->is_number_float() && value->get<double>() >= 1.8e19;
@@ -187,7 +187,7 @@ class GltfCheck {
          (tooLarge ? "that 64 bits can hold" : "of at least " + std::to_string(least)) + ", found " +
          found(*value));
   }
-  void numbers(const Part& owner, std::string_view key, std::size_t count, double least = -kNoLimit,
+  void numbers(const JsonPart& owner, std::string_view key, std::size_t count, double least = -kNoLimit,
                double most = kNoLimit) {
     const json* value = owner.find(key);
     if (!value) return;
@@ -197,7 +197,7 @@ class GltfCheck {
       fail(owner.pathOf(key) + ": expected " + std::to_string(count) + " numbers, found " + found(*value));
     for (const json& n : *value) inRange(owner, key, n.get<double>(), least, most);
   }
-  void word(const Part& owner, std::string_view key, std::initializer_list<std::string_view> words) {
+  void word(const JsonPart& owner, std::string_view key, std::initializer_list<std::string_view> words) {
     const json* value = owner.find(key);
     if (!value) return;
     if (value->is_string() && isOneOf(value->get_ref<const std::string&>(), {words.begin(), words.size()}))
@@ -207,7 +207,7 @@ class GltfCheck {
     fail(owner.pathOf(key) + ": expected one of " + list + ", found " + found(*value));
   }
   /// Warns of properties that the specification does not have there.
-  void known(const Part& owner, std::initializer_list<std::string_view> keys) {
+  void known(const JsonPart& owner, std::initializer_list<std::string_view> keys) {
     for (const auto& [key, value] : owner.value.items()) {
       if (key == "name" || key == "extensions" || key == "extras") continue;
       if (isOneOf(key, {keys.begin(), keys.size()})) continue;
@@ -222,7 +222,7 @@ class GltfCheck {
     const json* asset = root_.find("asset");
     if (!asset || !asset->is_object()) fail("expected an object \"asset\" with the version");
     const auto version = [&](const char* key) -> double {
-      const json* value = Part{*asset, ""}.find(key);
+      const json* value = JsonPart{*asset, ""}.find(key);
       if (!value) return -1;
       const auto number = value->is_string() ? parseNumber(value->get_ref<const std::string&>())
                                              : std::optional<ParsedNumber>();
@@ -266,7 +266,7 @@ class GltfCheck {
          "export the scene without compression");
   }
 
-  void checkNode(const Part& node) {
+  void checkNode(const JsonPart& node) {
     known(node,
           {"camera", "children", "skin", "matrix", "mesh", "rotation", "scale", "translation", "weights"});
     index(node, "mesh", "meshes");
@@ -290,10 +290,10 @@ class GltfCheck {
       for (const char* other : {"translation", "rotation", "scale"})
         if (node.find(other))
           warn(node.path + ": " + other + " is ignored, since matrix is given", {}, "matrix and others");
-    extension(node, kLights, [&](const Part& light) { index(light, "light", "lights"); });
+    extension(node, kLights, [&](const JsonPart& light) { index(light, "light", "lights"); });
   }
 
-  void checkPrimitive(const Part& primitive) {
+  void checkPrimitive(const JsonPart& primitive) {
     known(primitive, {"attributes", "indices", "material", "mode", "targets"});
     index(primitive, "material", "materials");
     index(primitive, "indices", "accessors");
@@ -302,18 +302,20 @@ class GltfCheck {
         fail(primitive.pathOf("mode") + ": expected 0 to 6, found " + found(*mode));
     const json* attributes = primitive.find("attributes");
     if (!attributes || !attributes->is_object()) fail(primitive.path + ": expected an object \"attributes\"");
-    const Part of{*attributes, primitive.pathOf("attributes")};
+    const JsonPart of{*attributes, primitive.pathOf("attributes")};
     for (const auto& [key, value] : attributes->items()) checkIndex(value, of.pathOf(key), "accessors");
     knownAttributes(of);
     if (!of.find("POSITION"))
       warn(primitive.path + " has no POSITION: there is nothing to see of it", {}, "no POSITION");
-    extension(primitive, kDraco, [&](const Part&) {  // unless the file has the mesh a second time, as it is
-      if (const json* points = of.find("POSITION"); points && !hasData(*points)) failOfCompression(kDraco);
-    });
+    extension(primitive, kDraco,
+              [&](const JsonPart&) {  // unless the file has the mesh a second time, as it is
+                if (const json* points = of.find("POSITION"); points && !hasData(*points))
+                  failOfCompression(kDraco);
+              });
     morphs_ += primitive.find("targets") != nullptr;
   }
   /// Sets are counted, as in TEXCOORD_1, and programs may add names that begin with _.
-  void knownAttributes(const Part& attributes) {
+  void knownAttributes(const JsonPart& attributes) {
     constexpr std::string_view kNames[] = {"POSITION", "NORMAL",   "TANGENT",  "TEXCOORD_0",
                                            "COLOR_0",  "JOINTS_0", "WEIGHTS_0"};
     for (const auto& [key, value] : attributes.value.items()) {
@@ -329,7 +331,7 @@ class GltfCheck {
     return (*root_.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
   }
 
-  void checkAccessor(const Part& accessor) {
+  void checkAccessor(const JsonPart& accessor) {
     index(accessor, "bufferView", "bufferViews");
     word(accessor, "type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
     whole(accessor, "count", 1);
@@ -342,22 +344,22 @@ class GltfCheck {
 
   // --- cameras, lights, materials ---
 
-  void checkCamera(const Part& camera) {
+  void checkCamera(const JsonPart& camera) {
     word(camera, "type", {"perspective", "orthographic"});
-    object(camera, "perspective", [&](const Part& p) {
+    object(camera, "perspective", [&](const JsonPart& p) {
       known(p, {"aspectRatio", "yfov", "zfar", "znear"});
       for (const char* key : {"aspectRatio", "yfov", "zfar", "znear"}) number(p, key, 0);
     });
   }
 
-  void checkLight(const Part& light) {
+  void checkLight(const JsonPart& light) {
     known(light, {"color", "intensity", "type", "range", "spot"});
     if (!light.find("type")) fail(light.path + ": expected a type, as in \"point\"");
     word(light, "type", {"directional", "point", "spot"});
     numbers(light, "color", 3, 0);
     number(light, "intensity", 0);
     number(light, "range", 0);
-    object(light, "spot", [&](const Part& spot) {
+    object(light, "spot", [&](const JsonPart& spot) {
       known(spot, {"innerConeAngle", "outerConeAngle"});
       number(spot, "innerConeAngle", 0, 1.5708);
       number(spot, "outerConeAngle", 0, 1.5708);
@@ -370,14 +372,14 @@ class GltfCheck {
     });
   }
 
-  void checkMaterial(const Part& material) {
+  void checkMaterial(const JsonPart& material) {
     known(material, {"alphaCutoff", "alphaMode", "doubleSided", "emissiveFactor", "emissiveTexture",
                      "normalTexture", "occlusionTexture", "pbrMetallicRoughness"});
     word(material, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
     number(material, "alphaCutoff", 0);
     numbers(material, "emissiveFactor", 3, 0, 1);
     for (const char* key : {"emissiveTexture", "normalTexture", "occlusionTexture"}) texture(material, key);
-    object(material, "pbrMetallicRoughness", [&](const Part& pbr) {
+    object(material, "pbrMetallicRoughness", [&](const JsonPart& pbr) {
       known(pbr, {"baseColorFactor", "baseColorTexture", "metallicFactor", "metallicRoughnessTexture",
                   "roughnessFactor"});
       numbers(pbr, "baseColorFactor", 4, 0, 1);
@@ -385,17 +387,17 @@ class GltfCheck {
       number(pbr, "roughnessFactor", 0, 1);
       for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"}) texture(pbr, key);
     });
-    extension(material, "KHR_materials_ior", [&](const Part& e) {
+    extension(material, "KHR_materials_ior", [&](const JsonPart& e) {
       number(e, "ior", 0);
       if (const double ior = e.value.value("ior", 1.5); ior > 0 && ior < 1)
         inRange(e, "ior", ior, 1, kNoLimit);
     });
-    extension(material, "KHR_materials_transmission", [&](const Part& e) {
+    extension(material, "KHR_materials_transmission", [&](const JsonPart& e) {
       known(e, {"transmissionFactor", "transmissionTexture"});
       number(e, "transmissionFactor", 0, 1);
       texture(e, "transmissionTexture");
     });
-    extension(material, "KHR_materials_iridescence", [&](const Part& e) {
+    extension(material, "KHR_materials_iridescence", [&](const JsonPart& e) {
       known(e, {"iridescenceFactor", "iridescenceTexture", "iridescenceIor", "iridescenceThicknessMinimum",
                 "iridescenceThicknessMaximum", "iridescenceThicknessTexture"});
       number(e, "iridescenceFactor", 0, 1);
@@ -405,40 +407,40 @@ class GltfCheck {
       for (const char* key : {"iridescenceTexture", "iridescenceThicknessTexture"}) texture(e, key);
     });
     extension(material, "KHR_materials_emissive_strength",
-              [&](const Part& e) { number(e, "emissiveStrength", 0); });
+              [&](const JsonPart& e) { number(e, "emissiveStrength", 0); });
     checkLayers(material);
     checkPassage(material);
   }
-  void checkLayers(const Part& material) {
-    const auto textures = [&](const Part& e, std::initializer_list<const char*> keys) {
+  void checkLayers(const JsonPart& material) {
+    const auto textures = [&](const JsonPart& e, std::initializer_list<const char*> keys) {
       for (const char* key : keys) texture(e, key);
     };
-    extension(material, "KHR_materials_clearcoat", [&](const Part& e) {
+    extension(material, "KHR_materials_clearcoat", [&](const JsonPart& e) {
       known(e, {"clearcoatFactor", "clearcoatTexture", "clearcoatRoughnessFactor",
                 "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
       number(e, "clearcoatFactor", 0, 1);
       number(e, "clearcoatRoughnessFactor", 0, 1);
       textures(e, {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
     });
-    extension(material, "KHR_materials_sheen", [&](const Part& e) {
+    extension(material, "KHR_materials_sheen", [&](const JsonPart& e) {
       known(e, {"sheenColorFactor", "sheenColorTexture", "sheenRoughnessFactor", "sheenRoughnessTexture"});
       numbers(e, "sheenColorFactor", 3, 0, 1);
       number(e, "sheenRoughnessFactor", 0, 1);
       textures(e, {"sheenColorTexture", "sheenRoughnessTexture"});
     });
-    extension(material, "KHR_materials_anisotropy", [&](const Part& e) {
+    extension(material, "KHR_materials_anisotropy", [&](const JsonPart& e) {
       known(e, {"anisotropyStrength", "anisotropyRotation", "anisotropyTexture"});
       number(e, "anisotropyStrength", 0, 1);
       number(e, "anisotropyRotation");
       textures(e, {"anisotropyTexture"});
     });
-    extension(material, "KHR_materials_specular", [&](const Part& e) {
+    extension(material, "KHR_materials_specular", [&](const JsonPart& e) {
       known(e, {"specularFactor", "specularTexture", "specularColorFactor", "specularColorTexture"});
       number(e, "specularFactor", 0, 1);
       numbers(e, "specularColorFactor", 3, 0);
       textures(e, {"specularTexture", "specularColorTexture"});
     });
-    extension(material, "KHR_materials_pbrSpecularGlossiness", [&](const Part& e) {
+    extension(material, "KHR_materials_pbrSpecularGlossiness", [&](const JsonPart& e) {
       known(e, {"diffuseFactor", "diffuseTexture", "specularFactor", "glossinessFactor",
                 "specularGlossinessTexture"});
       numbers(e, "diffuseFactor", 4, 0, 1);
@@ -447,24 +449,24 @@ class GltfCheck {
       textures(e, {"diffuseTexture", "specularGlossinessTexture"});
     });
   }
-  void checkPassage(const Part& material) {
-    extension(material, "KHR_materials_volume", [&](const Part& e) {
+  void checkPassage(const JsonPart& material) {
+    extension(material, "KHR_materials_volume", [&](const JsonPart& e) {
       known(e, {"thicknessFactor", "thicknessTexture", "attenuationDistance", "attenuationColor"});
       number(e, "thicknessFactor", 0);
       number(e, "attenuationDistance", 0);
       numbers(e, "attenuationColor", 3, 0, 1);
       texture(e, "thicknessTexture");
     });
-    extension(material, "KHR_materials_dispersion", [&](const Part& e) { number(e, "dispersion", 0); });
+    extension(material, "KHR_materials_dispersion", [&](const JsonPart& e) { number(e, "dispersion", 0); });
   }
-  void texture(const Part& owner, std::string_view key) {
-    object(owner, key, [&](const Part& info) {
+  void texture(const JsonPart& owner, std::string_view key) {
+    object(owner, key, [&](const JsonPart& info) {
       if (!info.find("index")) fail(info.path + ": expected an index");
       index(info, "index", "textures");
       if (const json* set = info.find("texCoord"); set && (!set->is_number_unsigned()))
         fail(info.pathOf("texCoord") + ": expected a whole number from 0, found " + found(*set));
       number(info, "strength", 0, 1);
-      extension(info, "KHR_texture_transform", [&](const Part& e) {
+      extension(info, "KHR_texture_transform", [&](const JsonPart& e) {
         known(e, {"offset", "rotation", "scale", "texCoord"});
         numbers(e, "offset", 2);
         number(e, "rotation");
@@ -473,14 +475,14 @@ class GltfCheck {
       });
     });
   }
-  void checkSampler(const Part& sampler) {
+  void checkSampler(const JsonPart& sampler) {
     known(sampler, {"magFilter", "minFilter", "wrapS", "wrapT"});
     code(sampler, "magFilter", {9728, 9729});
     code(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
     for (const char* key : {"wrapS", "wrapT"}) code(sampler, key, {10497, 33071, 33648});
   }
   /// One of OpenGL's numbers.
-  void code(const Part& owner, std::string_view key, std::initializer_list<int> codes) {
+  void code(const JsonPart& owner, std::string_view key, std::initializer_list<int> codes) {
     const json* value = owner.find(key);
     if (!value || std::any_of(codes.begin(), codes.end(), [&](int code) { return *value == code; })) return;
     if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
@@ -497,7 +499,7 @@ class GltfCheck {
     if (morphs_ > 0) warn("morph targets are left out: " + std::to_string(morphs_));
   }
 
-  Part root_;
+  JsonPart root_;
   const Place& place_;
   Messages& messages_;
   WarningsByKind warnings_;

@@ -75,10 +75,6 @@ constexpr std::array<MapOption, 14> kMapOptions{{{"-blendu", 1},
 constexpr std::array<std::string_view, 10> kMapOptionsUsed{
     "-bm", "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
 
-template <std::size_t N>
-bool has(const std::array<std::string_view, N>& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
 template <class Row, std::size_t N>
 const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == key; });
@@ -138,7 +134,7 @@ class MtlCheck {
   static std::string plainOf(std::string_view line) {
     LineWords words(line);
     const std::string_view key = words.next();
-    if (has(kMaps, key)) return plainMap(key, words);
+    if (listed(kMaps, key)) return plainMap(key, words);
     const Numbers* row = rowOf(kNumbers, key);
     const std::string_view first = words.next(), second = words.next();
     std::string text(line);
@@ -170,7 +166,7 @@ class MtlCheck {
     if (!inMaterial_)
       warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
     if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
-    if (has(kMaps, key)) return map(key, words);
+    if (listed(kMaps, key)) return map(key, words);
     if (key == "map_aat") return;
     warn(key, quoted(key) + " is not known and is skipped");
   }
@@ -217,11 +213,11 @@ class MtlCheck {
   void map(std::string_view key, LineWords words) {
     const std::string_view picture =
         pictureOf(words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>&) {
-          if (!has(kMapOptionsUsed, name))
+          if (!listed(kMapOptionsUsed, name))
             warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
         });
     if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
-    if (has(kRendered, key)) return;
+    if (listed(kRendered, key)) return;
     textures_.note(picture, textures_.empty() ? place(key) : Place());
   }
 

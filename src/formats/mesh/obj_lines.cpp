@@ -23,11 +23,6 @@ constexpr std::array<std::string_view, 25> kSilent{
     "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",  "shadow_obj",
     "trace_obj", "ctech",  "stech", "maplib", "usemap", "csh",      "call"};
 
-template <std::size_t N>
-bool has(const std::array<std::string_view, N>& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
 /// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
 struct CornerNumbers {
   std::int64_t point = 0, uv = 0, normal = 0;
@@ -99,9 +94,9 @@ class ObjCheck {
       names_.materials.try_emplace(std::string(name), offsetOf(name));
     }
     if (key == "mtllib") names_.materialFiles.emplace_back(words.rest(), offsetOf(words.rest()));
-    if (key.empty() || has(kDrawn, key) || has(kSilent, key)) return;
-    if (has(kThin, key)) return warn(key, "points and lines are left out");
-    if (has(kCurved, key)) return warn(key, "curves and surfaces are left out");
+    if (key.empty() || listed(kDrawn, key) || listed(kSilent, key)) return;
+    if (listed(kThin, key)) return warn(key, "points and lines are left out");
+    if (listed(kCurved, key)) return warn(key, "curves and surfaces are left out");
     warn(key, "\"" + std::string(key.substr(0, 40)) + "\" is not known and is skipped");
   }
 

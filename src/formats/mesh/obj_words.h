@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -36,6 +37,10 @@ class LineWords {
 
   std::string_view rest_;
 };
+
+inline bool listed(std::span<const std::string_view> list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 /// Is the whole word a number that a float can hold?
 inline bool isFloat(std::string_view word) {

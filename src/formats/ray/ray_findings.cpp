@@ -46,7 +46,7 @@ std::string allOf(std::span<const std::string_view> fields) {
   return text;
 }
 
-std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
+std::string quotedStart(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
 
 }  // namespace
 
@@ -104,9 +104,9 @@ void Findings::notRendered(std::string_view kind, const Item& node, std::string 
   const std::string key = "not rendered: " + std::string(kind);
   if (again(key)) return;
   if (isRelative(kind))
-    add(key, node, quoted(kind) + " is not rendered yet", std::string(insteadOf(kind)));
+    add(key, node, quotedStart(kind) + " is not rendered yet", std::string(insteadOf(kind)));
   else
-    add(key, node, quoted(kind) + " is not known and is left out", didYouMean(kind, known));
+    add(key, node, quotedStart(kind) + " is not known and is left out", didYouMean(kind, known));
 }
 
 void Findings::unknownField(std::string_view owner, const Item& field,
@@ -118,7 +118,7 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = didYouMean(name, known);
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
-  add(key, field, "unknown field " + quoted(name) + " of " + std::string(owner) + " is ignored",
+  add(key, field, "unknown field " + quotedStart(name) + " of " + std::string(owner) + " is ignored",
       std::move(hint));
 }
 

@@ -17,7 +17,7 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 15> kFields{
+constexpr std::array<std::string_view, 15> kMeshFields{
     "uv",      "shared", "crease", "faces",       "gennormals", "material",   "materials", "name",
     "normals", "points", "scheme", "sharp_edges", "subdivide",  "texture_uv", "two_sided"};
 
@@ -88,7 +88,7 @@ class MeshReader {
       return true;
     }
     if (operations_.read(findings_, item)) return true;
-    findings_.unknownField(Mesh::kKeyword, item, kFields);
+    findings_.unknownField(Mesh::kKeyword, item, kMeshFields);
     return true;
   }
 

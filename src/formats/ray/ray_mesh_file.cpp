@@ -13,16 +13,18 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 8> kFields{"uv",         "crease",   "file", "objfile",
-                                                  "gennormals", "material", "name", "subdivide"};
+constexpr std::array<std::string_view, 8> kFileFields{"uv",         "crease",   "file", "objfile",
+                                                      "gennormals", "material", "name", "subdivide"};
 
-bool isFile(const Item& item) { return item.keyed() && (item.key() == "file" || item.key() == "objfile"); }
+bool isMeshFile(const Item& item) {
+  return item.keyed() && (item.key() == "file" || item.key() == "objfile");
+}
 
 }  // namespace
 
 bool namesMeshFile(const Item& block) {
   for (const Item item : block)
-    if (isFile(item)) return true;
+    if (isMeshFile(item)) return true;
   return false;
 }
 
@@ -39,7 +41,7 @@ std::vector<Object> MeshFiles::read(const Item& block) {
       generate = true;
     } else if (!item.keyed()) {
       findings_.expected(item, Mesh::kKeyword, "a field, as in file = \"bunny.ply\"");
-    } else if (isFile(item)) {
+    } else if (isMeshFile(item)) {
       if (rayfile::read(findings_, item.key(), item.value(), fileName)) file = item;
     } else if (item.key() == "name") {
       rayfile::read(findings_, "name", item.value(), name);
@@ -48,7 +50,7 @@ std::vector<Object> MeshFiles::read(const Item& block) {
     } else if (item.key() == "material") {
       material = materials_.read(item.value(), materials_.current);
     } else if (!operations.read(findings_, item)) {
-      findings_.unknownField("a mesh from a file", item, kFields);
+      findings_.unknownField("a mesh from a file", item, kFileFields);
     }
   }
   const Model* found = file ? model(*file, fileName) : nullptr;

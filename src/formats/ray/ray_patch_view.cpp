@@ -7,11 +7,10 @@
 #include "base/text.h"
 #include "formats/ray/ray_keys.h"
 #include "formats/ray/ray_patch.h"
+#include "formats/ray/ray_settings.h"
 
 namespace trace::rayfile {
 namespace {
-
-constexpr std::string_view kSettings = "settings";
 
 /// The blocks `name { ... }` at the top of the file.
 std::vector<Item> blocksOf(const Syntax& syntax, std::string_view name) {

@@ -26,7 +26,7 @@ bool withModel(std::string_view keyword, Visit&& visit) {
 }
 
 /// A bare string where a constant is expected.
-bool isFile(const Item& value) { return value.is(Kind::word) && value.source().starts_with('"'); }
+bool isPictureFile(const Item& value) { return value.is(Kind::word) && value.source().starts_with('"'); }
 
 }  // namespace
 
@@ -46,7 +46,7 @@ Texture mappedPicture(std::string file, Place place) {
 }
 
 bool TextureReader::isTexture(const Item& value) const {
-  if (isFile(value)) return true;
+  if (isPictureFile(value)) return true;
   if (!value.is(Kind::call)) return false;
   return value.key() == kMap || value.key() == kTexture ||
          withModel(textureKeyword(value.key()), [](const auto&) {});
@@ -57,7 +57,7 @@ std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
     findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(word.text())));
     return mappedPicture(std::string(word.text()), findings_.syntax().shortPlace(value.offset()));
   };
-  if (isFile(value)) return Scaled{picture(value), {}, true};
+  if (isPictureFile(value)) return Scaled{picture(value), {}, true};
   const bool isMap = value.key() == kMap;
   if (!isMap && value.key() != kTexture) {
     std::optional<Texture> own = block(value);

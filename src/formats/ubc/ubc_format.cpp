@@ -30,7 +30,7 @@ namespace trace {
 namespace ubc {
 namespace {
 
-constexpr TokenRules kRules{.marks = "[]", .comment = '#'};
+constexpr TokenRules kUbcTokens{.marks = "[]", .comment = '#'};
 constexpr int kMostPixels = 100000;
 
 constexpr std::array<std::string_view, 14> kCommands{
@@ -45,10 +45,10 @@ struct Parameter {
   std::optional<std::string_view> text;
 };
 
-class Reader {
+class UbcReader {
  public:
-  Reader(const std::string& file, std::string_view bytes, Messages& messages)
-      : tokens_(file, bytes, kRules), messages_(messages) {
+  UbcReader(const std::string& file, std::string_view bytes, Messages& messages)
+      : tokens_(file, bytes, kUbcTokens), messages_(messages) {
     scene_.file = file;
     scene_.format = "ubc";
   }
@@ -489,7 +489,7 @@ bool recognisesUbc(std::string_view bytes) {
 
 Scene readUbc(const std::string& file, std::string_view bytes, Messages& messages) {
   if (ubc::beginning(bytes).old) return ubc::readOld(file, bytes, messages);
-  return ubc::Reader(file, bytes, messages).read();
+  return ubc::UbcReader(file, bytes, messages).read();
 }
 
 }  // namespace trace

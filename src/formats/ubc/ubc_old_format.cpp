@@ -13,9 +13,9 @@
 namespace trace::ubc {
 namespace {
 
-class Reader {
+class OldReader {
  public:
-  Reader(const std::string& file, std::string_view bytes, Messages& messages)
+  OldReader(const std::string& file, std::string_view bytes, Messages& messages)
       : tokens_(file, bytes, {.marks = "", .comment = '#'}), messages_(messages) {
     scene_.file = file;
     scene_.format = "ubc";
@@ -144,7 +144,7 @@ class Reader {
 }  // namespace
 
 Scene readOld(const std::string& file, std::string_view bytes, Messages& messages) {
-  return Reader(file, bytes, messages).read();
+  return OldReader(file, bytes, messages).read();
 }
 
 }  // namespace trace::ubc

@@ -44,9 +44,9 @@ Piece clip(const Piece& piece, int axis, Real plane, bool below) {
 }
 
 /// Planes over the mesh, along which all its triangles are cut.
-class Grid {
+class SplitGrid {
  public:
-  explicit Grid(const Box3& box) : low_(box.low), cell_((box.high - box.low) * (1.0 / kCells)) {
+  explicit SplitGrid(const Box3& box) : low_(box.low), cell_((box.high - box.low) * (1.0 / kCells)) {
     for (int axis = 0; axis < 3; ++axis) perUnit_[axis] = cell_[axis] > 0 ? 1 / cell_[axis] : 0;
   }
 
@@ -77,9 +77,9 @@ class Grid {
 };
 
 /// Cuts the piece `times` times; appends the boxes.
-void split(const Piece& piece, const Box3& box, int times, const Grid& grid, std::uint32_t triangle,
+void split(const Piece& piece, const Box3& box, int times, const SplitGrid& grid, std::uint32_t triangle,
            std::vector<BoxedItem>& parts) {
-  const Grid::Cut cut = times > 0 ? grid.coarsestCut(box) : Grid::Cut{};
+  const SplitGrid::Cut cut = times > 0 ? grid.coarsestCut(box) : SplitGrid::Cut{};
   if (cut.axis < 0) {
     parts.push_back(boxedItem(box, triangle));
     return;
@@ -127,11 +127,11 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
   if (wholeOnly || !(count * sumOfSquares > kUneven * sum * sum)) return parts;
 
   // More is gained at the tree's coarse planes.
-  const Grid grid(box3(all));
+  const SplitGrid grid(box3(all));
   const Real share = 1 / halfArea(box3(all));
   Real allGains = 0;
   for (std::size_t i = 0; i < wholes; ++i) {
-    const Grid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
+    const SplitGrid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
     const Real empty = Real{parts[i].note} * parts[i].note;
     const float gain = cut.axis < 0 ? 0 : std::cbrt(static_cast<float>(empty * share * (1 << cut.bit)));
     parts[i].note = gain;

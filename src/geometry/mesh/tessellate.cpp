@@ -25,9 +25,9 @@ struct Sample {
   std::uint32_t next = kNone;  ///< of the same cell
 };
 
-class Grid {
+class SampleGrid {
  public:
-  Grid(const Box3& bounds, int divisions) : bounds_(bounds) {
+  SampleGrid(const Box3& bounds, int divisions) : bounds_(bounds) {
     const Real longest = maxComponent(bounds.size()), cell = longest / divisions;
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<Real>& at = lines_[axis];
@@ -200,7 +200,7 @@ std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const B
   const TracedShape form = prepare(shape);
   const Box3 box = cutOff(form.bounds(), within);
   if (!(maxComponent(box.size()) > 0)) return {};
-  Grid grid(box, divisions);
+  SampleGrid grid(box, divisions);
   grid.sample(form);
   return grid.triangles(form.solid());
 }

@@ -62,7 +62,7 @@ Spot<T> evaluate(const std::array<T, 16>& p, Real u, Real v) {
 }
 
 /// The part of a patch between two values of u and two of v, as distances from two planes through the ray.
-struct Piece {
+struct PatchPiece {
   std::array<Real, 16> a, b;
   Real u0, u1, v0, v1;
 };
@@ -94,7 +94,7 @@ enum class Roots { none, oneAtMost, unknown };
 /// Moore's test: the two distances mixed so that in the middle the first changes with u alone and the second
 /// with v. Where their slopes differ from that by less than 1 there is one common root at most, and it lies
 /// not farther from Newton's step than the slopes differ.
-Roots rootsOf(const Piece& piece) {
+Roots rootsOf(const PatchPiece& piece) {
   const Spot<Real> a = evaluate(piece.a, 0.5, 0.5), b = evaluate(piece.b, 0.5, 0.5);
   const Real det = a.byU * b.byV - a.byV * b.byU;
   if (!(std::abs(det) > 0)) return Roots::unknown;
@@ -127,8 +127,8 @@ void halve(Real& p0, Real& p1, Real& p2, Real& p3, Real& q0, Real& q1, Real& q2,
   p3 = middle;
 }
 
-Piece splitOff(Piece& piece, bool inU) {
-  Piece other = piece;
+PatchPiece splitOff(PatchPiece& piece, bool inU) {
+  PatchPiece other = piece;
   const std::size_t step = inU ? 1 : 4, next = 5 - step;
   for (auto [p, q] : {std::pair{&piece.a, &other.a}, std::pair{&piece.b, &other.b}})
     for (std::size_t k = 0; k < 4; ++k) {
@@ -170,7 +170,7 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
   const Vec3 third = cross(along, aside);
   tree_.query(ray, [&](std::uint32_t number) {
     const Patch& patch = patches_[number];
-    Piece whole{{}, {}, 0, 1, 0, 1};
+    PatchPiece whole{{}, {}, 0, 1, 0, 1};
     for (std::size_t i = 0; i < 16; ++i) {
       const Vec3 p = patch[i] - ray.origin;
       whole.a[i] = dot(p, aside);
@@ -181,7 +181,7 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
     constexpr int kMostDepth = 48;
     constexpr std::size_t kMostPieces =
         4000;  // where the ray runs along in the patch nothing tells roots apart
-    std::array<Piece, kMostDepth + 2> stack;
+    std::array<PatchPiece, kMostDepth + 2> stack;
     std::array<int, kMostDepth + 2> depths;
     std::size_t count = 0, looked = 0;
     stack[count] = whole;
@@ -189,7 +189,7 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
     SmallList<Root, 8> roots;
     while (count > 0 && ++looked < kMostPieces) {
       checkBudget();
-      Piece piece = stack[--count];
+      PatchPiece piece = stack[--count];
       const int depth = depths[count];
       if (!mayBeZero(piece.a, room) || !mayBeZero(piece.b, room)) continue;
       const Roots held = rootsOf(piece);
@@ -206,7 +206,7 @@ void TracedPatches::crossings(const Ray& ray, VisitCrossing visit) const {
         }
       }
       if (depth == kMostDepth) continue;  // where the ray only touches
-      const Piece other = splitOff(piece, depth % 2 == 0);
+      const PatchPiece other = splitOff(piece, depth % 2 == 0);
       stack[count] = other;
       depths[count++] = depth + 1;
       stack[count] = piece;

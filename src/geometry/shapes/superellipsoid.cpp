@@ -7,7 +7,7 @@
 namespace trace {
 namespace {
 
-Real exponent(Real squareness) { return 2 / std::clamp(squareness, 0.02, 2.0); }
+Real ellipsoidExponent(Real squareness) { return 2 / std::clamp(squareness, 0.02, 2.0); }
 
 /// (a^p + b^p)^(1/p) for a, b >= 0, and its derivatives, without overflow.
 Real norm2(Real a, Real b, Real p, Real& byA, Real& byB) {
@@ -38,8 +38,8 @@ Real norm2(Real a, Real b, Real p, Real& byA, Real& byB) {
 Real norm(const Superellipsoid& shape, const Vec3& p, Vec3& slopes) {
   const Vec3 q = abs(p);
   Real byX, byY, byRho, byZ;
-  const Real rho = norm2(q.x, q.y, exponent(shape.east), byX, byY);
-  const Real size = norm2(rho, q.z, exponent(shape.north), byRho, byZ);
+  const Real rho = norm2(q.x, q.y, ellipsoidExponent(shape.east), byX, byY);
+  const Real size = norm2(rho, q.z, ellipsoidExponent(shape.north), byRho, byZ);
   slopes = {std::copysign(byRho * byX, p.x), std::copysign(byRho * byY, p.y), std::copysign(byZ, p.z)};
   return size;
 }

@@ -8,7 +8,7 @@
 namespace trace {
 namespace {
 
-Real exponent(Real squareness) { return 2 / std::clamp(squareness, 0.05, 2.0); }
+Real torusExponent(Real squareness) { return 2 / std::clamp(squareness, 0.05, 2.0); }
 
 /// (a^p + b^p)^(1/p) for a, b >= 0, without overflow.
 Real norm(Real a, Real b, Real p) {
@@ -49,9 +49,9 @@ Along<Interval> norm(const Along<Interval>& a, const Along<Interval>& b, Real p)
 template <class T>
 Along<T> tube(const Supertoroid& shape, const Vec3& o, const Vec3& d, T t) {
   const auto axis = [&](int i) { return Along<T>{T(o[i]) + t * T(d[i]), T(d[i])}; };
-  Along<T> rho = norm(axis(0), axis(1), exponent(shape.east));
+  Along<T> rho = norm(axis(0), axis(1), torusExponent(shape.east));
   rho.value = rho.value - T(std::abs(shape.majorRadius));
-  Along<T> across = norm(rho, axis(2), exponent(shape.north));
+  Along<T> across = norm(rho, axis(2), torusExponent(shape.north));
   across.value = across.value - T(std::abs(shape.minorRadius));
   return across;
 }
@@ -71,7 +71,7 @@ void Supertoroid::crossings(const Ray& ray, const Range& range, VisitCrossing vi
 
 SurfacePoint Supertoroid::surface(const Ray& ray, const Crossing& crossing) const {
   const Real R = std::abs(majorRadius), r = std::abs(minorRadius);
-  const Real p = exponent(east), q = exponent(north);
+  const Real p = torusExponent(east), q = torusExponent(north);
   const Vec3 at = ray.at(crossing.t);
   const Real rho = norm(std::abs(at.x), std::abs(at.y), p), out = rho - R;
   // Back to the surface: across the tube, its norm made that of the radius.

@@ -65,7 +65,7 @@ struct Section {
 };
 
 /// The Bezier points of a path's middle and of the profile's two axes over one piece.
-struct Piece {
+struct PathPiece {
   std::array<Vec3, 4> center, x, y;
 };
 
@@ -74,7 +74,7 @@ class Path {
  public:
   Path(const Sweep& shape, std::vector<PathArc> arcs);
 
-  std::vector<Piece> pieces;
+  std::vector<PathPiece> pieces;
   Frame first, last;  ///< at the ends of an open path
   bool closed = false;
 
@@ -245,7 +245,7 @@ TracedProfileSweep::TracedProfileSweep(const Sweep& shape) {
                 "give the profile or the path fewer points");
 
   std::vector<TracedPatches::Patch> patches;
-  for (const Piece& piece : path.pieces)
+  for (const PathPiece& piece : path.pieces)
     for (std::size_t i = 0; i < across_; ++i) {
       const auto &x = profile.arcs[i].c[0], &y = profile.arcs[i].c[1];
       const auto bezier = [&](const std::array<Real, 4>& c, Real end) {
@@ -259,7 +259,7 @@ TracedProfileSweep::TracedProfileSweep(const Sweep& shape) {
     }
   const bool ends = shape.closed && shape.capped && !path.closed;
   if (ends) {
-    const Piece &front = path.pieces.front(), &back = path.pieces.back();
+    const PathPiece &front = path.pieces.front(), &back = path.pieces.back();
     caps_ = {{front.center[0], front.x[0], front.y[0], -path.first.along},
              {back.center[3], back.x[3], back.y[3], path.last.along}};
   }

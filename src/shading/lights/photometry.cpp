@@ -9,12 +9,12 @@ namespace {
 
 constexpr Real kDegree = kPi / 180;
 
-/// Between which two of the ascending numbers it lies, and how far from the first; outside at the end.
-struct Between {
+/// BetweenAngles which two of the ascending numbers it lies, and how far from the first; outside at the end.
+struct BetweenAngles {
   std::size_t low, high;
   Real share;
 
-  Between(const std::vector<Real>& list, Real x) {
+  BetweenAngles(const std::vector<Real>& list, Real x) {
     const auto above = static_cast<std::size_t>(std::upper_bound(list.begin(), list.end(), x) - list.begin());
     low = above == 0 ? 0 : above - 1;
     high = std::min(above, list.size() - 1);
@@ -88,7 +88,7 @@ Real Photometry::atAngles(Real vertical, Real horizontal) const {
   if (type_ != Type::c && horizontal_.size() > 1 &&
       (horizontal < horizontal_.front() || horizontal > horizontal_.back()))
     return 0;
-  const Between row(vertical_, vertical), column(horizontal_, horizontal);
+  const BetweenAngles row(vertical_, vertical), column(horizontal_, horizontal);
   const auto of = [&](std::size_t c, std::size_t r) { return candelas_[c * vertical_.size() + r]; };
   const auto along = [&](std::size_t c) {
     return of(c, row.low) * (1 - row.share) + of(c, row.high) * row.share;
