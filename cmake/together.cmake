@@ -1,6 +1,7 @@
 # together(TARGET): with CMAKE_UNITY_BUILD, which the preset for users switches on, the files of a folder are compiled several
-# at a time, for most of the time of one goes into headers. So the names in anonymous namespaces are distinct within a folder.
-# Files with options of their own are compiled by themselves.
+# at a time, for most of the time of one goes into headers. So the names in anonymous namespaces are distinct within a folder of
+# sources; the tests of a file stand in a namespace of its name where they share names. Files with options of their own are
+# compiled by themselves.
 function(together TARGET)
   set(filesAtATime 16)
   get_target_property(sources ${TARGET} SOURCES)

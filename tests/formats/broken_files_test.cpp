@@ -19,7 +19,7 @@
 #include "support/folder.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::broken_files_test {
 namespace {
 
 struct Broken {
@@ -844,4 +844,4 @@ TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::broken_files_test

@@ -7,7 +7,7 @@
 #include "mesh_helpers.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::composer_format_test {
 namespace {
 
 std::string corpusFile(const char* name) {
@@ -156,4 +156,4 @@ TEST(Composer, TellsWhereAndWhat) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::composer_format_test

@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::docs_test {
 namespace {
 
 std::string page(const char* name) { return readFile(test::sourceFolder() + "/docs/" + name); }
@@ -62,4 +62,4 @@ TEST(Docs, TableOfFormatsIsThatOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::docs_test

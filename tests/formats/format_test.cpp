@@ -5,7 +5,7 @@
 #include "ray_helpers.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::format_test {
 namespace {
 
 TEST(Format, TheTableNamesEachFormatOnce) {
@@ -55,4 +55,4 @@ TEST(Format, ReadsFilesByName) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::format_test

@@ -12,7 +12,7 @@
 #include "support/paths.h"
 #include "support/random.h"
 
-namespace trace::test {
+namespace trace::test::ies_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST(Ies, AScenesLightNamesItsFile) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::ies_test

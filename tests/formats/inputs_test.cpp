@@ -8,7 +8,7 @@
 #include "image/codec.h"
 #include "support/folder.h"
 
-namespace trace::test {
+namespace trace::test::inputs_test {
 namespace {
 
 class Inputs : public testing::Test {
@@ -109,4 +109,4 @@ TEST_F(Inputs, FingerprintFollowsEveryByteThatWasRead) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::inputs_test

@@ -14,7 +14,7 @@
 #include "support/gltf.h"
 #include "support/random.h"
 
-namespace trace {
+namespace trace::inventor_background_test {
 namespace {
 
 using inventor::gradientOf;
@@ -175,4 +175,4 @@ TEST(VrmlBackground, IsWrittenAsItWasRead) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::inventor_background_test

@@ -9,7 +9,7 @@
 #include "support/paths.h"
 #include "support/shapes.h"
 
-namespace trace {
+namespace trace::inventor_format_test {
 namespace {
 
 std::string iv(const std::string& text) { return "#Inventor V2.1 ascii\n" + text; }
@@ -287,4 +287,4 @@ TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::inventor_format_test

@@ -11,7 +11,7 @@
 #include "support/folder.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::mesh_formats_test {
 namespace {
 
 /// What a picture of a model becomes, on those fields.
@@ -326,4 +326,4 @@ TEST(RayMeshFile, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::mesh_formats_test

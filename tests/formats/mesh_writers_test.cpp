@@ -11,7 +11,7 @@
 #include "mesh_helpers.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::mesh_writers_test {
 namespace {
 
 const std::string kScene = R"(SBT-raytracer 1.0
@@ -164,4 +164,4 @@ TEST(MeshWriters, KeepPicturesThatLieAsTheCoordinatesHaveThem) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::mesh_writers_test

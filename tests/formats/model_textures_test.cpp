@@ -17,7 +17,7 @@
 #include "shading/microfacet.h"
 #include "support/folder.h"
 
-namespace trace {
+namespace trace::model_textures_test {
 namespace {
 
 const Color kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1), kWhite(1);
@@ -681,4 +681,4 @@ TEST(PictureKinds, FollowFromTheHead) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::model_textures_test

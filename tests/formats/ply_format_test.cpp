@@ -13,7 +13,7 @@
 #include "support/paths.h"
 #include "support/random.h"
 
-namespace trace {
+namespace trace::ply_format_test {
 namespace {
 
 constexpr const char* kSquare = R"(ply
@@ -210,4 +210,4 @@ TEST(Ply, ReadsALargeMesh) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ply_format_test

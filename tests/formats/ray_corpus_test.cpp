@@ -11,7 +11,7 @@
 #include "ray_helpers.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::ray_corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST(RayCorpus, KnowsTheDialectsApart) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_corpus_test

@@ -3,7 +3,7 @@
 
 #include "ray_helpers.h"
 
-namespace trace {
+namespace trace::ray_errors_test {
 namespace {
 
 struct Case {
@@ -180,4 +180,4 @@ TEST(RayErrors, ShowTheLine) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_errors_test

@@ -20,7 +20,7 @@
 #include "image/codec.h"
 #include "ray_helpers.h"
 
-namespace trace {
+namespace trace::ray_format_test {
 namespace {
 
 void expectNear(const Vec3& a, const Vec3& b) {
@@ -770,4 +770,4 @@ TEST(RayFormat, TakesVersionsUpTo1_1) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_format_test

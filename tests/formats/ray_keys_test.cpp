@@ -6,7 +6,7 @@
 #include "math/keyframes.h"
 #include "ray_helpers.h"
 
-namespace trace {
+namespace trace::ray_keys_test {
 namespace {
 
 Scene at(Real time, std::string_view text) {
@@ -136,4 +136,4 @@ TEST(RayKeys, TheWordIsFreeElsewhere) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_keys_test

@@ -5,7 +5,7 @@
 #include "formats/ray_helpers.h"
 #include "formats/ray_patch_helpers.h"
 
-namespace trace {
+namespace trace::ray_models_test {
 namespace {
 
 const Material& materialOf(const Scene& scene, std::size_t object) {
@@ -142,4 +142,4 @@ TEST(RayModels, OfOperandsAreWrittenWithThem) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_models_test

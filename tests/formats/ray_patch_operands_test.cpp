@@ -11,7 +11,7 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/torus.h"
 
-namespace trace {
+namespace trace::ray_patch_operands_test {
 namespace {
 
 using EditList = std::function<void(std::vector<Operand>&)>;
@@ -182,4 +182,4 @@ TEST(RayPatchOperands, AreAddedAndTakenOut) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_patch_operands_test

@@ -14,7 +14,7 @@
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
 
-namespace trace {
+namespace trace::ray_patch_test {
 namespace {
 
 Phong& phong(Scene& scene, std::size_t material) {
@@ -523,4 +523,4 @@ TEST(RayPatch, WhatCannotBeSaidInTheTextIsWrittenAnewWithAWarning) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_patch_test

@@ -13,7 +13,7 @@
 #include "ray_helpers.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::ray_robustness_test {
 namespace {
 
 /// Every file of our corpus, in the order of their names.
@@ -123,4 +123,4 @@ TEST(RayRobustness, RepeatedTroubleIsToldOnce) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_robustness_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace trace::rayfile {
+namespace trace::rayfile::ray_syntax_test {
 namespace {
 
 /// The tree in a notation of its own: words in quotes, entries as key=value, calls as name:body.
@@ -170,4 +170,4 @@ TEST(RaySyntax, DescribesWhatItFound) {
 }
 
 }  // namespace
-}  // namespace trace::rayfile
+}  // namespace trace::rayfile::ray_syntax_test

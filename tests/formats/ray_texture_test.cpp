@@ -8,7 +8,7 @@
 #include "geometry/shapes/torus.h"
 #include "ray_helpers.h"
 
-namespace trace {
+namespace trace::ray_texture_test {
 namespace {
 
 std::vector<FieldTexture> texturesOf(const std::string& fields) {
@@ -235,4 +235,4 @@ TEST(RayTexture, IsWrittenAsItIsRead) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_texture_test

@@ -17,7 +17,7 @@
 #include "support/shapes.h"
 #include "support/shared.h"
 
-namespace trace {
+namespace trace::ray_writer_test {
 namespace {
 
 /// Beside the scene's own file, so that both find the same pictures under the same names.
@@ -243,4 +243,4 @@ TEST(RayWriter, KeepsTextOfOtherFormatsAsComments) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ray_writer_test

@@ -16,7 +16,7 @@
 #include "support/folder.h"
 #include "support/paths.h"
 
-namespace trace {
+namespace trace::robustness_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST(Robustness, SurvivesDamagedMaterials) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::robustness_test

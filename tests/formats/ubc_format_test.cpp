@@ -4,7 +4,7 @@
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 
-namespace trace {
+namespace trace::ubc_format_test {
 namespace {
 
 const Phong& phongAt(const Scene& scene, std::size_t object) {
@@ -160,4 +160,4 @@ TEST(Ubc, ReadsItsPredecessor) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::ubc_format_test

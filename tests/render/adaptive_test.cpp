@@ -7,7 +7,7 @@
 #include "render/passes.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::adaptive_test {
 namespace {
 
 class Adaptive : public testing::Test {
@@ -100,4 +100,4 @@ TEST_F(Adaptive, IsExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::adaptive_test

@@ -9,7 +9,7 @@
 #include "geometry/shapes/square.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::agreement_test {
 namespace {
 
 Phong diffuse(const Color& albedo, Real emissive = 0) {
@@ -109,4 +109,4 @@ TEST(Agreement, DifferentLightIsFound) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::agreement_test

@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::bdpt_test {
 namespace {
 
 Phong diffuse(Real albedo, Real emissive = 0) {
@@ -328,4 +328,4 @@ TEST(Bidirectional, IsExplainedAndHasTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::bdpt_test

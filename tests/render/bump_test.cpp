@@ -8,7 +8,7 @@
 #include "render/tracer.h"
 #include "render/world.h"
 
-namespace trace {
+namespace trace::bump_test {
 namespace {
 
 Material bumped(std::string formula, Real height) {
@@ -140,4 +140,4 @@ TEST(Bump, PicturesOfNormalsTurnWithTheObject) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::bump_test

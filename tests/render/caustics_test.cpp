@@ -6,7 +6,7 @@
 #include "render/photons.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::caustics_test {
 namespace {
 
 Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle); }
@@ -197,4 +197,4 @@ TEST(Caustics, NearFindsTheNearestPhotons) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::caustics_test

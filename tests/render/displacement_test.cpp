@@ -8,7 +8,7 @@
 #include "support/ball.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::displacement_test {
 namespace {
 
 Texture formula(std::string text) {
@@ -124,4 +124,4 @@ TEST(Displacement, CountsTrianglesBeforeItMakesThem) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::displacement_test

@@ -9,7 +9,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-namespace trace::test {
+namespace trace::test::embree_test {
 namespace {
 
 #if defined(TRACE_HAS_EMBREE)
@@ -93,4 +93,4 @@ TEST(Embree, FindsTheSameHits) { GTEST_SKIP() << "SKIPPED: needs Embree 3 (Debia
 #endif
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::embree_test

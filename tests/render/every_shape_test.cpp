@@ -14,7 +14,7 @@
 #include "geometry/traced.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::every_shape_test {
 namespace {
 
 constexpr int kRays = kSanitized ? 5000 : 1000000;
@@ -235,4 +235,4 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(keywords()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::every_shape_test

@@ -6,7 +6,7 @@
 #include "geometry/shapes/square.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::fog_test {
 namespace {
 
 Settings fogSettings(Real density, const Color& color = Color(1)) {
@@ -191,4 +191,4 @@ TEST(Fog, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::fog_test

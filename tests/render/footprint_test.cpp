@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
-namespace trace {
+namespace trace::footprint_test {
 namespace {
 
 Scene sceneOf(const Shape& shape, const Affine& worldFromObject = {}) {
@@ -259,4 +259,4 @@ TEST(Footprint, WhatIsExplainedIsTheFilteredColour) {
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::footprint_test

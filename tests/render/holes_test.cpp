@@ -8,7 +8,7 @@
 #include "render/explain.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::holes_test {
 namespace {
 
 Affine at(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
@@ -274,4 +274,4 @@ TEST(Holes, DoNotDependOnTheHierarchyOrTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::holes_test

@@ -14,7 +14,7 @@
 #include "render/ray_tree.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::interfaces_test {
 namespace {
 
 Filling body(std::uint32_t object, Real priority, Real index) {
@@ -425,4 +425,4 @@ TEST(Glass, VarnishMirrorsByItsIndexAndTakesThatFromWhatIsBelow) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::interfaces_test

@@ -7,7 +7,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::lamp_samples_test {
 namespace {
 
 const Affine kFlat = Affine::rotation({1, 0, 0}, -kPi / 2);
@@ -114,4 +114,4 @@ TEST(LampSamples, TheSameBitsForAnyNumberOfThreadsAndExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::lamp_samples_test

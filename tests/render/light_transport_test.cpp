@@ -10,7 +10,7 @@
 #include "image/srgb.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::light_transport_test {
 namespace {
 
 Phong diffuse(Real albedo, Real emissive = 0) {
@@ -176,4 +176,4 @@ TEST(LightTransport, TwoLampsGiveWhatTheyGiveAloneAndTwiceTheLightTwiceThePictur
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::light_transport_test

@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::light_tree_test {
 namespace {
 
 /// Of every kind, of very different strength and size.
@@ -347,4 +347,4 @@ TEST(LightTree, AMeshOfManyTrianglesLightsAsOneOfFew) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::light_tree_test

@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::lights_test {
 namespace {
 
 const Affine kFlat = Affine::rotation({1, 0, 0}, -kPi / 2);
@@ -225,4 +225,4 @@ TEST(LightPhotons, BringWhatTheLightsGive) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::lights_test

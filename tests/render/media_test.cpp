@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::media_test {
 namespace {
 
 Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
@@ -264,4 +264,4 @@ TEST(Media, TheirPhaseIsChosenAsDenseAsItIs) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::media_test

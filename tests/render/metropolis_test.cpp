@@ -8,7 +8,7 @@
 #include "support/quarters.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::metropolis_test {
 namespace {
 
 TEST(PrimarySample, NumbersFillTheSquareEvenlyHoweverTheyAreMoved) {
@@ -190,4 +190,4 @@ TEST(Metropolis, WithoutLightThePictureIsBlack) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::metropolis_test

@@ -10,7 +10,7 @@
 #include "render/integrators/whitted.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::models_test {
 namespace {
 
 Affine at(Real x, Real y, Real z) { return Affine::translation({x, y, z}); }
@@ -181,4 +181,4 @@ TEST(Outlines, LieWhereThingsEndAndAreExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::models_test

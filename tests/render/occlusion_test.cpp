@@ -4,7 +4,7 @@
 #include "geometry/shapes/square.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::occlusion_test {
 namespace {
 
 Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle); }
@@ -73,4 +73,4 @@ TEST(Occlusion, WhatIsBeyondTheReachTakesNothing) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::occlusion_test

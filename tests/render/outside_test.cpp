@@ -9,7 +9,7 @@
 #include "render/explain.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::outside_test {
 namespace {
 
 /// Each direction has a colour of its own.
@@ -274,4 +274,4 @@ TEST(Panorama, TurnsAndIsHiddenByAnEnvironment) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::outside_test

@@ -10,7 +10,7 @@
 #include "scene/options.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::passes_test {
 namespace {
 
 /// A wall at z = -4 that fills the left half of the picture, nothing on the right; object 2 of two.
@@ -218,4 +218,4 @@ TEST(Passes, AreShownFromZeroToOne) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::passes_test

@@ -6,7 +6,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::path_test {
 namespace {
 
 Phong diffuse(Real albedo, Real emissive = 0) {
@@ -137,4 +137,4 @@ TEST(Path, TheSameBitsForAnyNumberOfThreadsAndExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::path_test

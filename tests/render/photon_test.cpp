@@ -9,7 +9,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::photon_test {
 namespace {
 
 Phong diffuse(const Color& albedo, Real emissive = 0) {
@@ -242,4 +242,4 @@ TEST(Photons, EachSampleTakesTheNextMap) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::photon_test

@@ -14,7 +14,7 @@
 #include "render/visited_boxes.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::ray_tree_test {
 namespace {
 
 bool sameBits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -334,4 +334,4 @@ TEST(RayTree, ASampleThatIsNoNumberIsExplainedToo) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::ray_tree_test

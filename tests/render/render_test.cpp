@@ -10,7 +10,7 @@
 #include "render/passes.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::render_test {
 namespace {
 
 bool sameBits(const Picture& a, const Picture& b) {
@@ -209,4 +209,4 @@ TEST(Integrators, EveryChoiceHasItsRow) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::render_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace trace {
+namespace trace::sampler_test {
 namespace {
 
 Settings with(const GeneratorRow& row, int spp) {
@@ -223,4 +223,4 @@ TEST(Sampler, NumbersAreSpreadEvenly) {  // chi-square of 64 cells of pairs
 }
 
 }  // namespace
-}  // namespace trace
+}  // namespace trace::sampler_test

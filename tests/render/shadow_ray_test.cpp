@@ -7,7 +7,7 @@
 #include "render/tracer.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::shadow_ray_test {
 namespace {
 
 constexpr int kPanes = 20;
@@ -54,4 +54,4 @@ TEST(ShadowRay, EndsAtAnythingOpaqueWhateverGlassIsBefore) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::shadow_ray_test

@@ -6,7 +6,7 @@
 #include "geometry/shapes/square.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::sky_table_test {
 namespace {
 
 /// Dark, with a band at 45 to 50 degrees of elevation that is bright.
@@ -75,4 +75,4 @@ TEST(SkyTable, PathsFindTheLightAndLessNoise) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::sky_table_test

@@ -10,7 +10,7 @@
 #include "render/pixel.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::subdivide_test {
 namespace {
 
 class Subdivide : public testing::Test {
@@ -200,4 +200,4 @@ TEST(SubdivideShapes, CoversWhatADiskCovers) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::subdivide_test

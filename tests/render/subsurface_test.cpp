@@ -9,7 +9,7 @@
 #include "support/half_space.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::subsurface_test {
 namespace {
 
 constexpr std::array kWays{Spreading::dipole, Spreading::diffusion, Spreading::walk};
@@ -180,4 +180,4 @@ TEST(Subsurface, IsTheSameForAnyThreadsAndAsExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::subsurface_test

@@ -8,7 +8,7 @@
 #include "support/ball.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::terminator_test {
 namespace {
 
 const Vec3 kToLight = normalize({1, 0.3, 0.2});
@@ -158,4 +158,4 @@ TEST(SmoothTerminator, IsExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::terminator_test

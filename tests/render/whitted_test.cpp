@@ -10,7 +10,7 @@
 #include "shading/optics.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::whitted_test {
 namespace {
 
 Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {},
@@ -528,4 +528,4 @@ TEST(Whitted, TheMiddleOfAPenumbraSeesHalfOfTheLamp) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::whitted_test

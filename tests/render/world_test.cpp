@@ -15,7 +15,7 @@
 #include "geometry/traced.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::world_test {
 namespace {
 
 Ray rayThrough(Random& random, double scale) {
@@ -418,4 +418,4 @@ TEST(World, CameraThatCannotLookIsRefused) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::world_test
