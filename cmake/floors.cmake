@@ -22,6 +22,8 @@ function(floor NAME)
   set(parts ${target})
   if(ARG_LIGHT)
     target_compile_options(${target} PRIVATE ${lightlyOptimised})
+  elseif(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${target} PRIVATE --param=inline-unit-growth=200)  # or files compiled together get less inlined
   endif()
   if(ARG_HOT)
     add_library(${target}_hot OBJECT ${ARG_HOT})

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
+#include "base/budget.h"
 #include "image/denoise.h"
 #include "render/passes.h"
 
 namespace trace {
 
 std::optional<Picture> denoised(const Film& film, const Settings& settings) {
+  const Work work("taking noise out");
   Job job;
   return denoised(film, settings, job);
 }

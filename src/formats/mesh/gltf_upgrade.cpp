@@ -95,6 +95,7 @@ class Upgrade {
       return camera;
     });
     list("nodes", [&](const json& from) { return node(from); });
+    for (json& node : more_) to_["nodes"].push_back(std::move(node));
     list("scenes", [&](const json& from) {
       json scene = json::object();
       links(from, scene, "nodes", "nodes");
@@ -248,7 +249,7 @@ class Upgrade {
     return nullptr;
   }
 
-  /// A node of several meshes gets one of all their parts.
+  /// Where a node has several meshes, each but the first gets a node of its own below this one.
   json node(const json& from) {
     json result = json::object();
     copy(from, result, {"name"});
@@ -259,22 +260,18 @@ class Upgrade {
     link(from, result, "camera", "cameras");
     const json& meshes = member(from, "meshes");
     if (!meshes.is_array() || meshes.empty()) return result;
-    std::vector<std::size_t> numbers;
-    for (const json& name : meshes) numbers.push_back(numberOf(name, "meshes"));
-    result["mesh"] = numbers.front();
-    if (numbers.size() == 1) return result;
-    json all = to_["meshes"][numbers.front()];
-    for (std::size_t i = 1; i < numbers.size(); ++i)
-      for (const json& primitive : to_["meshes"][numbers[i]]["primitives"])
-        all["primitives"].push_back(primitive);
-    result["mesh"] = to_["meshes"].size();
-    to_["meshes"].push_back(std::move(all));
+    result["mesh"] = numberOf(meshes.front(), "meshes");
+    for (std::size_t i = 1; i < meshes.size(); ++i) {
+      result["children"].push_back(object(root_, "nodes").size() + more_.size());
+      more_.push_back({{"mesh", numberOf(meshes[i], "meshes")}});
+    }
     return result;
   }
 
   const json& root_;
   const Place& place_;
   json to_ = json::object();
+  json more_ = json::array();  ///< nodes that the file does not have, behind its own
   std::vector<std::size_t> orderOfBuffers_;
 };
 

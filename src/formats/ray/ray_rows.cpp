@@ -12,6 +12,31 @@
 #include "scene/rows.h"
 
 namespace trace::rayfile {
+namespace {
+
+/// A copy of a light, which has a place: its flaps go along, and what it lights from grows with its size.
+LightSource moved(LightSource source, const Rows::Copy& copy) {
+  match(source.light, [&](auto& light) {
+    if constexpr (requires { light.position; }) light.position = copy.place + copy.size * light.position;
+    if constexpr (requires { light.radius; }) light.radius *= copy.size;
+    if constexpr (requires { light.u; }) light.u = light.u * copy.size, light.v = light.v * copy.size;
+    if constexpr (requires { light.xMin; }) {
+      const auto shift = [&](Real& low, Real& high, Real by) {
+        low = low * copy.size + by, high = high * copy.size + by;
+      };
+      shift(light.xMin, light.xMax, copy.place.x);
+      shift(light.yMin, light.yMax, copy.place.y);
+      shift(light.zMin, light.zMax, copy.place.z);
+    }
+  });
+  return source;
+}
+
+bool hasPlace(const LightSource& source) {
+  return match(source.light, [](const auto& light) { return requires { light.position; }; });
+}
+
+}  // namespace
 
 void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
   const NestedSolid nested(*this, call, true);
@@ -45,6 +70,8 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
   lights.swap(scene_.lights);
   materials_.current = outside;
 
+  if (copied.empty() && lights.empty()) return;  // the block has told why
+
   const Vec3& n = rows.count;
   for (const Real count : {n.x, n.y, n.z})
     if (!(count >= 1) || count != std::floor(count))
@@ -56,20 +83,18 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
                     std::to_string(copied.size() + lights.size()) + " objects are more than " +
                     toText(Rows::kMostObjects) + " objects",
                 "give a smaller count");
+  for (const LightSource& source : lights)
+    if (!hasPlace(source)) scene_.lights.push_back(source);  // once: it comes from everywhere or from afar
   for (int x = 0; x < static_cast<int>(n.x); ++x)
     for (int y = 0; y < static_cast<int>(n.y); ++y)
       for (int z = 0; z < static_cast<int>(n.z); ++z) {
         checkBudget();
-        const auto [place, size] = rows.copy(x, y, z);
-        const Affine moved = Affine::translation(place) * Affine::scaling({size, size, size});
-        for (const LightSource& source : lights) {
-          scene_.lights.push_back(source);
-          match(scene_.lights.back().light, [&](auto& light) {
-            if constexpr (requires { light.position; }) light.position = place + light.position;
-          });
-        }
+        const Rows::Copy copy = rows.copy(x, y, z);
+        const Affine placed = Affine::translation(copy.place) * Affine::scaling(Vec3(copy.size));
+        for (const LightSource& source : lights)
+          if (hasPlace(source)) scene_.lights.push_back(moved(source, copy));
         for (const Object& o : copied)
-          add(call, o.name, o.shape, worldFromObject * moved * o.worldFromObject, o.material);
+          add(call, o.name, o.shape, worldFromObject * placed * o.worldFromObject, o.material);
       }
 }
 
