@@ -49,7 +49,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   for (const Option& option : options()) {
     const bool concerned =
         option.integrators == "all" || option.integrators.find(integrator) != option.integrators.npos;
-    if (option.extra && !concerned && option.get(s) != option.get({}))
+    const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
+                                     [&](const Choice& choice) { return choice.option == option.name; });
+    if ((option.extra || !ofScene) && !concerned && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
@@ -124,9 +126,12 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   }
   if (whitted && s.caustics == 0 && s.causticTexels > 0)
     warn("--caustic-texels changes nothing: there are no photons to gather", "--caustics 200000 sends some");
-  if (whitted && s.lampSamples > 0 && Lamps(world, s.threads).empty())
-    warn("--lamp-samples changes nothing: no square, ball or mesh of the scene shines",
-         "give an object an emissive color; other shapes that shine light nothing");
+  if (whitted && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
+    warn(
+        "--lamp-samples changes nothing: no square, ball or mesh of the scene shines, and its sky is the "
+        "same "
+        "all around",
+        "give an object an emissive color; other shapes that shine light nothing");
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 
@@ -143,9 +148,28 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--unweighted: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");
 
-  if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && !world.media().empty())
+  if (s.integrator == IntegratorKind::bdpt && s.cameraVertices == 0)
+    warn("--camera-vertices 0 shows nothing: the camera is one of every path's places",
+         "--camera-vertices 1 shows what paths from lights bring straight to it");
+  if (s.integrator == IntegratorKind::bdpt && world.media().empty() && !(s.fog > 0) &&
+      s.lightVertices + std::max(s.cameraVertices, 1) > s.depth + 3)
+    warn("--light-vertices and --camera-vertices show nothing: with --depth " + std::to_string(s.depth) +
+             " a path has " + std::to_string(s.depth + 3) + " places at most",
+         "choose a larger --depth, or fewer places");
+  constexpr int kFewStarts = 1000;
+  if (chains && s.chainStarts < kFewStarts)
+    warn("--chain-starts " + std::to_string(s.chainStarts) +
+             ": how bright the picture is follows from so few samples",
+         "choose " + std::to_string(kFewStarts) + " at least");
+
+  const auto glows = [](const World::MediumBody& body) { return !isBlack(body.model.most().glows); };
+  if (s.integrator == IntegratorKind::photon &&
+      std::any_of(world.media().begin(), world.media().end(), glows))
+    warn("--integrator photon sees the light that media give off, but sends no photons from there",
+         "--integrator path follows that light further");
+  if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && world.hasSubsurface())
     warn("--integrator " + integrator +
-             " sees the media that fill bodies, but light from its other end passes them undimmed",
+             " lets no light spread in bodies of marble, milk or skin: it comes out where it went in",
          "--integrator path follows light through them");
 
   const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||

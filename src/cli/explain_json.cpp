@@ -165,6 +165,7 @@ class Writer {
       json["connection"] = {
           {"s", t.connection->light}, {"t", t.connection->camera}, {"share", t.connection->share}};
     if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
+    if (t.cache) json["cache"] = {{"records", t.cache->records}};
     if (t.medium) {
       constexpr std::array<std::string_view, 4> kWhat{"covers", "glows", "scatters", "follows"};
       json["medium"] = {{"what", kWhat[static_cast<std::size_t>(t.medium->what)]},

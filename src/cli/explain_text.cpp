@@ -162,6 +162,9 @@ class TreeText {
                  (term.body->steps > 0
                       ? ", and was scattered " + counted(static_cast<std::size_t>(term.body->steps), "time")
                       : "");
+      if (term.cache)
+        words += "\n" + margin_ + "    blended of " + counted(term.cache->records, "place") +
+                 " of the irradiance cache";
       if (term.photons)
         words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
                  text(term.photons->radius);
@@ -281,8 +284,9 @@ std::string explainText(const PixelFacts& facts, bool color) {
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
     text +=
-        "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
-        "see --camera-vertices 1\n";
+        "In the finished picture the pixel has more: what paths from lights, those of all pixels, bring "
+        "straight "
+        "to the camera (t = 1). --camera-vertices 1 shows that alone.\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"

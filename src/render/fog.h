@@ -32,10 +32,10 @@ class Fog {
   /// The distance along the ray at which that depth is reached; may be infinite.
   Real distance(const Ray& ray, Real depth) const;
   Real forward() const { return forward_; }  ///< the mean cosine of what is scattered
-
- private:
+  /// What is lost along a unit of length there.
   Real densityAt(const Vec3& point) const;
 
+ private:
   Real density_;  ///< scattered along a unit of length, at y = 0
   Real height_;   ///< above which it is thinner by e; 0: it is the same everywhere
   Real forward_;

@@ -63,10 +63,19 @@ class Gather {
       tracer_.record(node_, {kind, Color(1), value, Tracer::kNoNode, {}, {}, photons});
   }
 
+  /// The same of light that was worked out before.
+  void add(const Color& factor, const Color& value, const CacheTerm& cache) {
+    add(Term{Term::Kind::irradiance, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, {}, cache});
+  }
+
   /// sum += factor * value of a medium, whose light may be chosen by chance.
   void add(const Color& factor, const Color& value, const MediumTerm& medium,
            const std::optional<ChanceTerm>& chance = {}) {
     add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
+  }
+  /// The same of an estimate by photons.
+  void add(const Color& factor, const Color& value, const MediumTerm& medium, const PhotonTerm& photons) {
+    add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, {}, photons, {}, medium});
   }
   /// The same of light that comes out of a body; it was cast last where it goes in.
   void add(const Color& factor, const Color& value, const BodyTerm& body) {

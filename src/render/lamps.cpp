@@ -31,8 +31,8 @@ Real uniformScale(const Affine& m) {
 
 }  // namespace
 
-Lamps::Lamps(const World& world, int threads)
-    : sky_(world.outside(), threads), first_(world.objectCount(), kNone) {
+Lamps::Lamps(const World& world, int threads, bool onlyHere)
+    : sky_(world.outside(), threads, onlyHere), first_(world.objectCount(), kNone) {
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
     const Color emissive = world.termsOf(object).emissive;
     const std::string_view shape = world.shapeOf(object);

@@ -21,7 +21,8 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  Lamps(const World& world, int threads);
+  /// Where no ray meets the sky by chance, it is a lamp as soon as it is not the same all around.
+  Lamps(const World& world, int threads, bool onlyHere = false);
 
   bool empty() const { return parts_.empty() && !choosesSky(); }
 

@@ -83,7 +83,8 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
   }
   sum += lampShare_ + skyShare_;
   if (!(sum > 0)) return;
-  for (Source& source : lights_) source.share /= sum;
+  Real upTo = 0;
+  for (Source& source : lights_) sums_.push_back(upTo += source.share /= sum);
   lampShare_ /= sum;
   skyShare_ /= sum;
 }
@@ -126,9 +127,11 @@ void LightStarts::follow(Tracer& tracer, Start& start, const Sampler& sampler) c
 
 std::optional<LightStarts::Start> LightStarts::start(Tracer& tracer, const Sampler& sampler) const {
   Real which = sampler.branch(kChoice).next();
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    if (which < lights_[i].share) return fromLight(tracer, i, sampler);
-    which -= lights_[i].share;
+  if (!sums_.empty()) {
+    const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
+    if (found != sums_.end())
+      return fromLight(tracer, static_cast<std::size_t>(found - sums_.begin()), sampler);
+    which -= sums_.back();
   }
   if (which < lampShare_) return fromLamp(tracer, which / lampShare_, sampler);
   return skyShare_ > 0 ? fromSky(tracer, sampler) : std::nullopt;
@@ -142,6 +145,7 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   const Vec2 v = sampler.branch(kDirection).next2();
   Start start;
   start.light = light;
+  start.onLight = u;
   Real density = 0;  // of the direction, or of the place across parallel light
   match(world.lights()[light], [&](const auto& l) {
     using Kind = std::remove_cvref_t<decltype(l)>;
@@ -158,6 +162,7 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
       if (l.radius > 0) {
         const Vec3 normal = sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y), local = cosineDirection(v);
         start.ray = {l.position + normal * l.radius, Frame{normal}.basis().toWorld(local)};
+        start.cosine = local.z;
         density = cosineDensity(local) / Ball{l.position, l.radius}.area();
       } else {
         start.ray = {l.position, toCone(v, source.axis, source.cosine)};
@@ -170,26 +175,31 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
     }
   });
   if (!(density > 0)) return {};
-  density *= source.share;
+  start.density = density * source.share;
   start.inside = tracer.interfacesAt(start.ray.origin);
   follow(tracer, start, sampler);
-  if (!start.hit) return start;
-  if (!world.lights(light, start.hit->object)) return {};
-  const Vec3& at = start.hit->surface.point;
-  const auto arriving = world.illuminate(light, at, u);
-  if (!arriving) return {};
-  const Real away2 = start.parallel ? 1 : start.hit->t * start.hit->t;
-  start.asked = 1 / density;
-  start.power = arriving->intensity() * (kPi * away2 / density);
-  if (const auto ball = ballOf(world.lights()[light])) {
-    // Its radiance to there is what arrives over the solid angle.
-    const Real angle = ball->angleFrom(at);
-    if (!(angle > 0)) return {};
-    const Real cosine = dot(start.ray.origin - ball->middle, start.ray.direction) / ball->radius;
-    start.asked = cosine / (away2 * angle * density);
-    start.power = arriving->intensity() * (kPi * cosine / (angle * density));
-  }
+  if (start.hit && !world.lights(light, start.hit->object)) return {};
   return start;
+}
+
+std::optional<LightStarts::Arrival> LightStarts::arrives(const World& world, const Start& start,
+                                                         const Vec3& at, Real t) const {
+  const Real away2 = start.parallel ? 1 : t * t;
+  if (start.lamp)
+    return Arrival{start.sends, lamps_->density(at, *start.lamp) * start.cosine / (away2 * start.density),
+                   start.cosine / start.density};
+  if (start.light == kNoLight)
+    return Arrival{start.sends, lamps_->density(Ray{at, -start.ray.direction}) / start.density,
+                   1 / start.density};
+  const auto arriving = world.illuminate(start.light, at, start.onLight);
+  if (!arriving) return {};
+  const auto ball = ballOf(world.lights()[start.light]);
+  if (!ball) return Arrival{arriving->intensity() * (kPi * away2 / start.density), 1 / start.density, 0};
+  // Its radiance to there is what arrives over the solid angle.
+  const Real angle = ball->angleFrom(at);
+  if (!(angle > 0)) return {};
+  return Arrival{arriving->intensity() * (kPi * start.cosine / (angle * start.density)),
+                 start.cosine / (away2 * angle * start.density), 0};
 }
 
 std::optional<LightStarts::Start> LightStarts::fromLamp(Tracer& tracer, Real which,
@@ -212,13 +222,11 @@ std::optional<LightStarts::Start> LightStarts::fromLamp(Tracer& tracer, Real whi
   const Real density = lampShare_ * lamps_->startDensity(place);
   if (!(density > 0)) return {};
   const PlaceBsdf bsdf = tracer.world().shade(place);
-  start.power = whitted(*bsdf).emissive * (place.opacity * kPi / density);
+  start.sends = whitted(*bsdf).emissive * (place.opacity * kPi / density);
+  start.cosine = local.z;
+  start.density = density * local.z / kPi;
+  start.lamp = place;
   follow(tracer, start, sampler);
-  if (!start.hit) return start;
-  const Real pdf = density * local.z / kPi;
-  start.asked =
-      lamps_->density(start.hit->surface.point, place) * local.z / (start.hit->t * start.hit->t * pdf);
-  start.met = local.z / pdf;
   return start;
 }
 
@@ -229,12 +237,9 @@ std::optional<LightStarts::Start> LightStarts::fromSky(Tracer& tracer, const Sam
   start.parallel = true;
   start.ray = before(-sky.toLight, sampler.branch(kDirection).next2());
   start.inside = tracer.interfacesAt(start.ray.origin);
-  const Real density = skyShare_ * sky.density * diskDensity();
-  start.power = tracer.world().outside().view({{}, sky.toLight}, RayKind::light).color * (1 / density);
+  start.density = skyShare_ * sky.density * diskDensity();
+  start.sends = tracer.world().outside().view({{}, sky.toLight}, RayKind::light).color * (1 / start.density);
   follow(tracer, start, sampler);
-  if (!start.hit) return start;
-  start.asked = lamps_->density(Ray{start.hit->surface.point, sky.toLight}) / density;
-  start.met = 1 / density;
   return start;
 }
 

@@ -23,20 +23,30 @@ class LightStarts {
 
   static constexpr std::size_t kNoLight = static_cast<std::size_t>(-1);
 
-  /// A path up to the first surface that it meets.
+  /// Of a path, and what it meets first.
   struct Start {
     Ray ray;
     Interfaces inside;
     std::optional<Hit> hit;
     std::size_t light = kNoLight;  ///< of the world, if it is one of them
-    Color power;                   ///< that arrives there, over the density of the place and its cosine
     bool parallel = false;         ///< it comes from beyond all distances
-    /// Densities, over that with which the start was chosen and went that way, the latter per solid angle at
-    /// the start, or per area across parallel light: of the start, as places ask for it from the other end;
-    /// and of meeting it by chance, without what only the place knows. 0 where that cannot be.
-    Real asked = 0, met = 0;
+    /// With which it was chosen and went that way: per solid angle, or per area across parallel light.
+    Real density = 0;
+    Vec2 onLight{};           ///< the place on a light
+    Real cosine = 1;          ///< at a ball or a lamp
+    Color sends;              ///< of a lamp and of the sky
+    std::optional<Hit> lamp;  ///< the place on a lamp
   };
   std::optional<Start> start(Tracer& tracer, const Sampler& sampler) const;
+  /// What arrives straight at a place of that path.
+  struct Arrival {
+    Color power;  ///< over the density of the place and its cosine
+    /// Densities, over the start's: of the start, as places ask for it from the other end; and of meeting it
+    /// by chance, without what only the place knows. 0 where that cannot be.
+    Real asked = 0, met = 0;
+  };
+  /// At the distance t. Nothing where the light does not reach.
+  std::optional<Arrival> arrives(const World& world, const Start& start, const Vec3& at, Real t) const;
 
   /// With which starts go to a place that has asked for light, over the density with which it asked, but for
   /// the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
@@ -67,6 +77,7 @@ class LightStarts {
   Vec3 middle_;  ///< of a ball around the scene
   Real radius_ = 0;
   std::vector<Source> lights_;
+  std::vector<Real> sums_;  ///< of their shares, up to and with each
   Real lampShare_ = 0, skyShare_ = 0;
 };
 

@@ -90,8 +90,8 @@ class Walk {
                                      [](const World::MediumBody* body) { return body->model.uniform(); });
     uniform ? byLaw(from, to) : byChance(from, to);
   }
-  void add(Real t, const Color& weight, Real forward, std::uint32_t object) {
-    if (wantsPlaces_ && !isBlack(weight)) places.push_back({t, weight, forward, object});
+  void add(Real t, const Color& weight, Real forward, std::uint32_t object, const Color& arrives) {
+    if (wantsPlaces_ && !isBlack(weight)) places.push_back({t, weight, forward, object, arrives});
   }
   /// In fog before the bodies.
   bool foggy = false;
@@ -144,7 +144,7 @@ class Walk {
           (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
       const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / chosen);
       if (foggy) glows += arrives * medium.glows;
-      if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_);
+      if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_, arrives);
     }
     passes *= less(loses * length);
   }
@@ -163,7 +163,7 @@ class Walk {
       if (isBlack(loses) && isBlack(medium.glows)) continue;
       const Color arrives = passes * (fogPasses(t) / rate);
       glows += arrives * medium.glows;
-      add(t, arrives * medium.scatters, medium.forward, object_);
+      add(t, arrives * medium.scatters, medium.forward, object_, arrives);
       passes *= Color(1) + loses * (-1 / rate);
       // What hardly anything is left of ends by chance, or goes on for more.
       constexpr Real kLittle = 0.05, kGoesOn = 0.5;
@@ -186,7 +186,13 @@ class Walk {
   std::uint32_t object_ = Filling::kAir;
 };
 
-void follow(Walk& walk, std::vector<Border>& borders, Real t, const Color& ofFog, Real forwardOfFog) {
+/// What of the fog scatters where its border is.
+struct FogPlace {
+  Color weight{};  ///< without what bodies let pass
+  Real forward = 0, arrives = 0;
+};
+
+void follow(Walk& walk, std::vector<Border>& borders, Real t, const FogPlace& fog) {
   std::stable_sort(borders.begin(), borders.end(),
                    [](const Border& a, const Border& b) { return a.t < b.t; });
   Real from = 0;
@@ -194,7 +200,7 @@ void follow(Walk& walk, std::vector<Border>& borders, Real t, const Color& ofFog
     walk.go(from, border.t);
     from = border.t;
     if (!border.body)
-      walk.add(border.t, walk.passes * ofFog, forwardOfFog, Filling::kAir);
+      walk.add(border.t, walk.passes * fog.weight, fog.forward, Filling::kAir, walk.passes * fog.arrives);
     else
       border.begins ? walk.begin(border.body) : walk.end(border.body);
   }
@@ -219,6 +225,7 @@ std::vector<MediumWay::Place> chosen(const std::vector<MediumWay::Place>& places
     if (!(own > 0)) continue;
     few.push_back(places[next]);
     few.back().weight = few.back().weight * (step / own);
+    few.back().arrives = few.back().arrives * (step / own);
   }
   return few;
 }
@@ -226,7 +233,7 @@ std::vector<MediumWay::Place> chosen(const std::vector<MediumWay::Place>& places
 }  // namespace
 
 MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside, int places,
-                       const Color& importance, Sampler numbers) {
+                       const Color& importance, Sampler numbers, bool withFog) {
   MediumWay way;
   const World& world = tracer.world();
   const Settings& settings = tracer.settings();
@@ -238,24 +245,48 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
     addBorders(borders, tracer, body, ray, t, !body.cloud);
   }
   const Fog fog(settings);
-  const bool foggy = open && !fog.none();
+  const bool foggy = withFog && open && !fog.none();
   if (borders.empty() && !foggy) return way;
   Walk walk(tracer, ray, importance, places, numbers);
   walk.foggy = foggy;
-  Color ofFog;
+  FogPlace ofFog;
   if (foggy && places > 0) {
     const Real stays = -std::expm1(-fog.depth(ray, t));
     const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * numbers.next())) : kInfinity;
     if (isFinite(ray.at(at)) && at <= t) {
       borders.push_back({at, nullptr, true});
-      ofFog = settings.fogColor * stays;
+      ofFog = {settings.fogColor * stays, fog.forward(), stays / fog.densityAt(ray.at(at))};
     }
   }
-  follow(walk, borders, t, ofFog, fog.forward());
+  follow(walk, borders, t, ofFog);
   way.passes = foggy ? walk.passes * fog.passes(ray, t) : walk.passes;
   way.glows = walk.glows;
   if (places > 0) way.places = chosen(walk.places, places, importance, numbers);
   return way;
+}
+
+std::optional<MediumWay::Place> placeByChance(MediumWay& way, const Color& weight, Real chance) {
+  if (way.places.empty()) return {};
+  const auto counts = [&](const Color& factor) {
+    const Color c = weight * factor;
+    return c.r + c.g + c.b;
+  };
+  MediumWay::Place place = way.places.front();
+  const Real scatters = counts(place.weight), all = scatters + counts(way.passes);
+  if (!(all > 0)) return {};
+  const Real share = scatters / all;
+  if (chance < share) {
+    place.weight = place.weight / share;
+    return place;
+  }
+  way.passes = way.passes / (1 - share);
+  return {};
+}
+
+PhaseSample samplePhase(const Vec3& along, Real forward, const Vec2& u) {
+  const Real cosine = phaseCosine(forward, u.x);
+  const Basis basis = Frame{along}.basis();
+  return {basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y)), phase(forward, cosine)};
 }
 
 void coverWithMedia(Gather& sum, const MediumWay& way) {
@@ -271,7 +302,7 @@ Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numb
   if (borders.empty()) return Color(1);
   if (first) *first = borders.front().body->object;
   Walk walk(tracer, ray, Color(1), 0, numbers);
-  follow(walk, borders, distance, {}, 0);
+  follow(walk, borders, distance, {});
   return walk.passes;
 }
 
@@ -280,6 +311,21 @@ Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Rea
   std::uint32_t first = 0;
   const Color passes = passedByBodies(tracer, toLight, distance, numbers, &first);
   return passes == Color(1) ? passed : tracer.veiled(passed, passes, first, distance);
+}
+
+void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons) {
+  if (photons.empty()) return;
+  const PhotonMap::Near near = photons.around(place.point);
+  Color light;
+  for (std::size_t i = 0; i < near.count; ++i) {
+    const Photon& photon = *near.photons[i];
+    const Real toEye = phase(place.forward, -dot(place.ray.direction, photon.direction));
+    light += photon.power * (toEye * near.perVolume(i));
+  }
+  PhotonTerm counted{near.count, std::sqrt(near.radius2)};
+  if (sum.tracer().records())
+    for (std::size_t i = 0; i < near.count; ++i) counted.photons.push_back(*near.photons[i]);
+  if (near.count > 0) sum.add(place.share, light, *place.medium, counted);
 }
 
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {

@@ -11,10 +11,12 @@
 // SIGGRAPH 2016 talks), so no weight grows out of bounds.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/gather.h"
 #include "render/lamps.h"
+#include "render/photon_map.h"
 #include "render/sampler.h"
 
 namespace trace {
@@ -34,14 +36,26 @@ struct MediumWay {
     Color weight;  ///< of the light there, from all sides
     Real forward;
     std::uint32_t object;  ///< whose medium it is; Filling::kAir for fog
+    Color arrives;         ///< the length for which it stands, without what the medium scatters of it
   };
   std::vector<Place> places;
 };
 
 /// Of the ray up to t, which may be infinite, in `inside`. So many places are chosen; of light to lamps none
-/// are wanted. `importance` says how much each colour counts.
+/// are wanted. `importance` says how much each colour counts. What is in the air counts only with `fog`.
 MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside, int places,
-                       const Color& importance, Sampler numbers);
+                       const Color& importance, Sampler numbers, bool fog = true);
+
+/// Whether a path that arrives with that weight is scattered at the place of the way, by a number from 0 up
+/// to 1: then the place, which counts the more; else what passes counts the more.
+std::optional<MediumWay::Place> placeByChance(MediumWay& way, const Color& weight, Real chance);
+
+/// A direction in which a medium scatters what ran along `along`, by two numbers from 0 up to 1.
+struct PhaseSample {
+  Vec3 direction;
+  Real density;  ///< per solid angle: the phase function there
+};
+PhaseSample samplePhase(const Vec3& along, Real forward, const Vec2& u);
 
 /// Adds what `way` lets pass and gives off to the sum of what comes from its end.
 void coverWithMedia(Gather& sum, const MediumWay& way);
@@ -62,6 +76,8 @@ struct ScatterPlace {
   const Interfaces& inside;
   std::optional<MediumTerm> medium;  ///< none in fog alone
 };
+/// Adds the light of the photons around.
+void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons);
 /// Adds the light of the scene's lights.
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
 /// Adds the light of one place on objects that shine. `met`: a ray that is scattered there may meet them,

@@ -22,7 +22,7 @@ Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, b
   // Which side of the normal is the eye's depends, where the normal is turned, on where the eye is.
   const Real side = at.transmits || at.hit.twoSided ? dot(toEye, at.normal) : 1;
   const bool inward = dot(toLight, at.normal) * side < 0;
-  if (!inward && dot(toLight, flat) * dot(toEye, flat) < 0) return Color(0);
+  if (!inward && !at.raised() && dot(toLight, flat) * dot(toEye, flat) < 0) return Color(0);
   const Real below = 1 - coatTo(at, toEye);
   if (!lit) return evaluate(at.bsdf(), at.frame, toEye, toLight, Transport::importance) * below;
   const Scatter parts = scatter(at.bsdf(), at.frame, toLight, toEye);

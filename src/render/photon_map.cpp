@@ -42,7 +42,8 @@ struct PhotonMap::Search {
   };
 
   const Vec3& point;
-  const Vec3& normal;
+  const Vec3 normal;
+  Real alike;  ///< the least cosine of normals on one surface
   Real steepness;
   Real most2;  ///< what is farther does not count
   std::size_t nearest;
@@ -52,8 +53,7 @@ struct PhotonMap::Search {
   void take(const Photon& photon) {
     const Vec3 way = photon.point - point;
     const Real height = dot(way, normal), distance2 = dot(way, way) + steepness * (height * height);
-    constexpr Real kAlike = 0.8;  // of normals on one surface
-    if (!(distance2 < most2) || dot(photon.normal, normal) < kAlike) return;
+    if (!(distance2 < most2) || dot(photon.normal, normal) < alike) return;
     if (count == nearest) std::pop_heap(heap.begin(), heap.begin() + count--);
     heap[count++] = {distance2, &photon};
     std::push_heap(heap.begin(), heap.begin() + count);
@@ -73,7 +73,17 @@ void PhotonMap::search(std::size_t first, std::size_t end, Search& s) const {
 }
 
 PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal) const {
-  Search s{point, normal, steepness_, reach2_, nearest_};
+  constexpr Real kAlike = 0.8;
+  Search s{point, normal, kAlike, steepness_, reach2_, nearest_};
+  return found(s);
+}
+
+PhotonMap::Near PhotonMap::around(const Vec3& point) const {
+  Search s{point, {}, 0, 0, reach2_, nearest_};
+  return found(s);
+}
+
+PhotonMap::Near PhotonMap::found(Search& s) const {
   search(0, photons_.size(), s);
   Near result;
   result.count = s.count;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,8 +16,9 @@ namespace trace {
 struct Photon {
   Vec3 point;
   Vec3 direction;  ///< in which it flew, unit
-  Vec3 normal;     ///< of the surface, on the side where it arrived
-  Color power;     ///< what it brings: divided by an area, pi times the colour of a light
+  Vec3 normal;     ///< of the surface, on the side where it arrived; 0 in a medium
+  Color power;  ///< what it brings: divided by an area, pi times the colour of a light. In a medium times the
+                ///< length for which it stands, which is divided by a volume
 };
 
 class PhotonMap {
@@ -43,11 +45,18 @@ class PhotonMap {
     Real perArea(std::size_t i) const {
       return 2 / (kPi * radius2) * std::max(0.0, 1 - distance2[i] / radius2);
     }
+    /// The share of a volume, by the same kernel in a ball.
+    Real perVolume(std::size_t i) const {
+      return 15 / (8 * kPi * radius2 * std::sqrt(radius2)) * std::max(0.0, 1 - distance2[i] / radius2);
+    }
   };
   Near near(const Vec3& point, const Vec3& normal) const;
+  /// The same in a medium: all around.
+  Near around(const Vec3& point) const;
 
  private:
   struct Search;
+  Near found(Search& search) const;
   void build(std::size_t first, std::size_t end);
   void search(std::size_t first, std::size_t end, Search& search) const;
 

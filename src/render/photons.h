@@ -28,9 +28,14 @@ struct GatheredCaustics {
 };
 GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps, Job& job);
 
-/// All light (section 4.3: the global map): Settings::photons photons fly from lights, lamps and what is
-/// around the scene, and are kept by every surface that scatters them.
-PhotonMap globalMap(const World& world, const Settings& settings, const Lamps& lamps, Job& job, int pass = 0);
+/// All light (section 4.3: the global map, and section 4.3.3: the volume map): Settings::photons photons fly
+/// from lights, lamps and what is around the scene. Every surface that scatters keeps those that arrive,
+/// every medium those that came there by way of something else.
+struct GlobalMaps {
+  PhotonMap surfaces, media;
+};
+GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps& lamps, Job& job,
+                      int pass = 0);
 
 /// By how much the area in which photons count is smaller in that pass than in the first: by
 /// (n + alpha) / (n + 1) from pass n = 1 on to the next, alpha = 2/3 (equation 20 of the paper).

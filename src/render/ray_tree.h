@@ -129,6 +129,11 @@ struct PhotonTerm {
   std::vector<Photon> photons{};  ///< that they are, where a tree takes them
 };
 
+/// Light that was worked out at some places before, and blended here.
+struct CacheTerm {
+  std::size_t records = 0;  ///< so many of them
+};
+
 /// A path that was put together of `light` places from the light's end and `camera` places from the camera's,
 /// the camera itself among them. Each of its light + camera + 1 ways to be put together counts by how likely
 /// it was.
@@ -169,11 +174,13 @@ struct Term {
     medium,
     subsurface,
     hole,
-    outline
+    outline,
+    irradiance
   };
-  static constexpr std::array<std::string_view, 16> kNames{
-      "emissive", "ambient", "light",      "caustic", "photons", "reflection", "refraction", "bounce",
-      "lamp",     "joined",  "background", "fog",     "medium",  "subsurface", "hole",       "outline"};
+  static constexpr std::array<std::string_view, 17> kNames{
+      "emissive",   "ambient",    "light", "caustic", "photons",    "reflection",
+      "refraction", "bounce",     "lamp",  "joined",  "background", "fog",
+      "medium",     "subsurface", "hole",  "outline", "irradiance"};
   /// The ray of the term is one on which the path goes on, not one that asks for light.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
@@ -189,6 +196,7 @@ struct Term {
   std::optional<ConnectionTerm> connection{};
   std::optional<MediumTerm> medium{};
   std::optional<BodyTerm> body{};
+  std::optional<CacheTerm> cache{};
 };
 
 /// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of

@@ -16,11 +16,11 @@ Vec3 directionAt(Real across, Real height) {
 
 }  // namespace
 
-SkyTable::SkyTable(const Outside& outside, int threads) {
+SkyTable::SkyTable(const Outside& outside, int threads, bool onlyHere) {
   if (!outside.isSeenBy(RayKind::bounce)) return;
   constexpr int kSide = 2;  // places of a cell that are looked at, along each side
   sums_.resize(std::size_t{kColumns} * kRows);
-  std::vector<Real> most(kRows);
+  std::vector<Real> most(kRows), least(kRows, kInfinity);
   rowSums_.resize(kRows);
   Job job;
   parallelChunks(kRows, threads, job, [&](std::int64_t number, int) {
@@ -35,6 +35,7 @@ SkyTable::SkyTable(const Outside& outside, int threads) {
         if (seen > 0 && seen < kInfinity) light += seen;
       }
       most[number] = std::max(most[number], light);
+      least[number] = std::min(least[number], light);
       sums_[cell(row, column)] = static_cast<float>(sum += light);
     }
     rowSums_[number] = sum;
@@ -42,7 +43,9 @@ SkyTable::SkyTable(const Outside& outside, int threads) {
   const Real brightest = *std::max_element(most.begin(), most.end());
   for (std::size_t row = 1; row < rowSums_.size(); ++row) rowSums_[row] += rowSums_[row - 1];
   constexpr Real kUneven = 3;
-  if (!(brightest * kColumns * kRows > kUneven * rowSums_.back())) *this = {};
+  const bool uneven = onlyHere ? brightest > *std::min_element(least.begin(), least.end())
+                               : brightest * kColumns * kRows > kUneven * rowSums_.back();
+  if (!uneven) *this = {};
 }
 
 Vec3 SkyTable::choose(const Vec2& u) const {

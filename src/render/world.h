@@ -357,6 +357,7 @@ class World {
   std::vector<std::uint32_t> lightSources_;
   std::vector<std::vector<bool>> litObjects_;  ///< by each light; none: all
   std::vector<std::uint32_t> visibleLights_;
+  std::shared_ptr<const Bvh> visibleBoxes_;  ///< over these
   std::shared_ptr<const LightTree> lightTree_;
   std::vector<Portal> portals_;
   bool nestedGlass_ = false;

@@ -23,6 +23,7 @@ std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& obje
 
 void World::addLights(const Scene& scene, const Settings& settings) {
   std::vector<LightReach> reaches;
+  std::vector<Box3> boxes;  // of the visible ones
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const LightSource& source = scene.lights[i];
     match(source.light,
@@ -30,8 +31,10 @@ void World::addLights(const Scene& scene, const Settings& settings) {
                      [&](const Portal& portal) { portals_.push_back(portal); },
                      [&](const auto& light) {
                        if constexpr (requires { light.visible; })
-                         if (light.visible)
+                         if (light.visible) {
                            visibleLights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+                           boxes.push_back(light.reach(rules_).box);
+                         }
                        lights_.push_back(light);
                        lightSources_.push_back(i);
                        litObjects_.push_back(litBy(source.links, scene.objects));
@@ -39,19 +42,25 @@ void World::addLights(const Scene& scene, const Settings& settings) {
                      }});
   }
   lightTree_ = std::make_shared<const LightTree>(reaches);
+  visibleBoxes_ = std::make_shared<const Bvh>(boxes);
 }
 
 std::optional<World::Lamp> World::nearestLamp(const Ray& ray, Real t) const {
   std::optional<Lamp> nearest;
-  for (const std::uint32_t number : visibleLights_) {
+  std::uint32_t first = 0;  // of equals the one listed first
+  NodeCount nodes;
+  visibleBoxes_->query(ray.origin, ray.direction, t, true, nodes, [&](std::uint32_t item) {
+    const std::uint32_t number = visibleLights_[item];
     const auto seen = match(lights_[number], [&](const auto& light) -> std::optional<LightSeen> {
       if constexpr (requires { light.seen(ray, rules_); }) return light.seen(ray, rules_);
       return {};
     });
-    if (!seen || !(seen->t < t)) continue;
+    if (!seen || !(seen->t < t || (nearest && seen->t == t && number < first))) return false;
     t = seen->t;
+    first = number;
     nearest = Lamp{lightSources_[number], *seen};
-  }
+    return false;
+  });
   return nearest;
 }
 

@@ -32,6 +32,7 @@ constexpr std::array kWordRows{
     Row{"ambient-occlusion", "ao corners creases dirt soft sky dome ambient"},
     Row{"occlusion-reach", "ao distance"},
     Row{"smooth-terminator", "shadow facets polygons low poly lowpoly coarse mesh normals artifact"},
+    Row{"irradiance-cache", "photon map interpolation radiance ward noise blotches smooth faster"},
     Row{"caustics", "photon map mapping glass light focus concentrated"},
     Row{"caustic-texels", "illumination map backward ray tracing light texture arvo"},
     Row{"caustic-radius", "photon map gather blur"},

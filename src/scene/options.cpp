@@ -453,7 +453,7 @@ const std::array kOptions{
         {.name = "light-choices",
          .group = "Sampling",
          .help = "lights that every place asks, chosen by their distance, direction and strength: for scenes "
-                 "of many; 0 asks all, but path, direct, mlt and photon one of more than 32",
+                 "of many; 0 asks all, but path, direct, bdpt, mlt and photon one of more than 32",
          .source = "Conty Estevez and Kulla 2018; docs/lights.md",
          .least = 0,
          .most = 1024,
@@ -494,7 +494,7 @@ const std::array kOptions{
                                   .source = "docs/path-tracing.md",
                                   .least = 0,
                                   .most = 1e9,
-                                  .integrators = "path, direct, mlt, photon",
+                                  .integrators = "path, direct, bdpt, mlt, photon",
                                   .extra = true}),
     row<&Settings::lightVertices>(
         {.name = "light-vertices",
@@ -610,13 +610,32 @@ const std::array kOptions{
          .unit = "maps",
          .integrators = "photon",
          .extra = true}),
+    row<&Settings::irradianceCache>(
+        {.name = "irradiance-cache",
+         .group = "Tracing",
+         .help =
+             "light that photons tell is worked out at few places first and blended between them: the error "
+             "that this may have, such as 0.2; 0: every place looks around by itself",
+         .source = "Ward, Rubinstein and Clear 1988; docs/photons.md",
+         .least = 0,
+         .most = 1,
+         .integrators = "photon",
+         .extra = true}),
+    row<&Settings::irradianceRays>({.name = "irradiance-rays",
+                                    .group = "Tracing",
+                                    .help = "rays by which each place of the irradiance cache looks around",
+                                    .source = "docs/photons.md",
+                                    .least = 4,
+                                    .most = 65536,
+                                    .unit = "rays",
+                                    .integrators = "photon"}),
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
          .help = "rays from a mesh to light start on the smooth surface that the normals of its points stand "
                  "for: the line between light and shade shows no facets",
          .source = "Hanika 2021; docs/smooth-terminator.md",
-         .integrators = "whitted, path, direct, mlt, photon, occlusion",
+         .integrators = "whitted, path, direct, bdpt, mlt, photon, occlusion",
          .extra = true}),
     row<&Settings::caustics>(
         {.name = "caustics",
@@ -915,7 +934,7 @@ const std::array kOptions{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "places",
-                                .integrators = "whitted, bdpt"}),
+                                .integrators = "whitted"}),
     row<&Settings::mediumDepth>(
         {.name = "medium-depth",
          .group = "Fog",
@@ -924,7 +943,7 @@ const std::array kOptions{
          .least = 1,
          .most = 10000,
          .unit = "times",
-         .integrators = "path, mlt"}),
+         .integrators = "path, bdpt, mlt, photon"}),
     row<&Settings::subsurfaceSamples>(
         {.name = "subsurface-samples",
          .group = "Fog",

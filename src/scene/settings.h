@@ -117,6 +117,8 @@ struct Settings {
   Real occlusionReach = 0;
   int photons = 200000;
   int photonPasses = 1;
+  Real irradianceCache = 0;
+  int irradianceRays = 400;
   bool smoothTerminator = false;
   int caustics = 0;
   Real causticRadius = 0;

@@ -136,7 +136,7 @@ TEST(Photon, TheMapHoldsThePowerOfItsLights) {
   settings.limitAttenuation = false;
   const World world = build(scene, settings);
   Job job;
-  const PhotonMap map = globalMap(world, settings, Lamps(world, 1), job);
+  const PhotonMap map = globalMaps(world, settings, Lamps(world, 1), job).surfaces;
   Real power = 0;
   for (const Photon& photon : map.photons()) power += photon.power.g;
   EXPECT_NEAR(power / (4 * kPi * kPi * 0.5), 1, 0.01);

@@ -9,28 +9,30 @@
 //   t = 1    a place of the path from the light is seen by the camera: it lands anywhere in the picture
 //   else     a place of one and a place of the other see each other
 //
-// The same path can come about in several ways; w is the power heuristic over their densities. Each path
-// carries two partial sums of density ratios (van Antwerpen, Recursive MIS Computation for Streaming BDPT on
-// the GPU, 2011; Georgiev, Implementing Vertex Connection and Merging, 2012), so that w takes no loop:
+// Places lie on surfaces and in media (render/path_place.h). The same path can come about in several ways; w
+// is the power heuristic over their densities. Each path carries two partial sums of density ratios (van
+// Antwerpen, Recursive MIS Computation for Streaming BDPT on the GPU, 2011; Georgiev, Implementing Vertex
+// Connection and Merging, 2012), so that w takes no loop:
 //
 //   vcm  densities of all ways in which the place was not joined from the other end, over that of this path
 //   vc   those in which the place before it was not reached from this end, likewise
 //
-// Chances of Russian roulette and of the choice between lobe, mirror and glass are left out of the densities:
-// any weights that sum up to 1 give the same picture. Light that glass refracts is found by paths from
-// lights: no shadow ray passes glass. Light is scattered in fog as in the path tracer, along the path from
-// the camera; fog dims all the other ways.
+// Left out of the densities are chances of Russian roulette, of the choice between lobe, mirror and glass, of
+// the choice among lights, and of how far a ray gets in a medium: any weights that sum up to 1 give the same
+// picture. Light that glass refracts is found by paths from lights: no shadow ray passes glass. Parallel
+// light begins no path in a medium; it is asked there.
 #pragma once
 
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/light_starts.h"
+#include "render/media.h"
 #include "shading/cameras/importance.h"
 
 namespace trace {
 
-class Interaction;
+class PathPlace;
 
 class Bidirectional : public Integrator {
  public:
@@ -42,19 +44,14 @@ class Bidirectional : public Integrator {
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
 
  private:
+  // integrators/bdpt_paths.h
+  struct Partial;
+  struct Counts;
   struct Path;
   struct Sample;
-  struct Place;
-  void walkFromLight(Tracer& tracer, const Sampler& sampler, Sample& sample) const;
-  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
-              const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
-  void askLights(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,
-                 const Sample& sample) const;
-  void askLamps(Gather& sum, const Interaction& at, const Path& path, const Sampler& sampler,
-                const Sample& sample) const;
-  void join(Gather& sum, const Interaction& at, const Path& path, const Place& light, int s,
-            const Sample& sample) const;
-  void land(Tracer& tracer, const Place& light, int s, const Sampler& sampler, const Sample& sample) const;
+  struct LightPlace;
+  /// What a whole path's place next to the light is.
+  enum class Last { lobe, mirror, medium };
   /// The ways that a sample shows.
   struct Ways {
     int light = -1, camera = -1;  ///< s and t; -1: any
@@ -63,9 +60,45 @@ class Bidirectional : public Integrator {
   };
   Ways waysOf(const Sampler& sampler) const;
   Real share(int s, int t, Real others, const Sample& sample) const;
+  bool allows(const Counts& whole, Last last) const;
+
+  // The path from the camera: integrators/bdpt.cpp.
+  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+              const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
+  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& where, Path path,
+                  const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
+
+  // The one from a light: integrators/bdpt_light.cpp.
+  struct Flight;
+  void walkFromLight(Tracer& tracer, const Sampler& sampler, Sample& sample) const;
+  Color travels(Tracer& tracer, const Flight& flight, std::optional<MediumWay::Place>& where) const;
+  bool scatters(Flight& flight, const MediumWay::Place& where) const;
+  bool goesOn(Flight& flight, const LightPlace& place, const Sample& sample) const;
+  void land(Tracer& tracer, const LightPlace& light, int s, const Sampler& sampler,
+            const Sample& sample) const;
+
+  // What joins them: integrators/bdpt_joins.cpp. `factor` is what the place counts beside the path's weight.
+  void joinAll(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
+               const Sampler& sampler, const Sample& sample) const;
+  void askLights(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
+                 const Sampler& sampler, const Sample& sample) const;
+  void askLamps(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
+                const Sampler& sampler, const Sample& sample) const;
+  void join(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
+            const LightPlace& light, int s, const Sampler& sampler, const Sample& sample) const;
+
+  /// Branches of a sample's numbers, and of a place's: its lights by their number, and these.
+  static constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u,
+                                 kNext = 0x80000003u, kMedium = 0x80000004u, kHole = 0x80000005u,
+                                 kLightPath = 0x80000006u, kSpectrum = 0x80000007u, kLens = 0x80000008u,
+                                 kWay = 0x80000009u, kToLamp = 0x8000000au, kJoin = 0x8000000bu,
+                                 kLand = 0x8000000cu;
+  /// Paths of fewer bounces are not ended by chance.
+  static constexpr int kSurely = 3;
 
   bool multiplexed_;
-  int depth_ = 0;  ///< the most bounces
+  int depth_ = 0;          ///< the most bounces
+  int mostScattered_ = 0;  ///< the most times that media scatter
   Ways ways_;
   bool weighs_ = true;
   bool lands_ = false;  ///< t = 1 is one of the ways

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "image/srgb.h"
+#include "render/firefly.h"
 #include "render/footprint.h"
+#include "render/integrators/path_state.h"
 #include "render/interaction.h"
 #include "render/media.h"
 #include "render/photons.h"
@@ -13,19 +14,6 @@
 #include "shading/optics.h"
 
 namespace trace {
-
-struct PathTracer::Path {
-  RayKind kind = RayKind::camera;
-  int depth = 0;
-  Color weight{1};   ///< of the ray's radiance in the sample
-  Real density = 0;  ///< of its direction, among lobes; 0 where there was one only
-  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
-  Real ink = 0;                                  ///< how much of it an outline covers
-  bool gathers = false;                          ///< photons tell what is scattered where it arrives
-  const Maps* maps = nullptr;                    ///< of these
-  int scattered = 0;                             ///< so often by media
-  bool within = false;                           ///< it runs in a body, from where light comes out
-};
 
 namespace {
 
@@ -42,17 +30,13 @@ ChanceTerm weighed(Real density, Real other) {
   return {density, other, other > 0 ? density * density / (density * density + other * other) : 1};
 }
 
-/// The part of what a ray adds to the sample that the firefly limit allows.
-Real allowed(Tracer& tracer, RayKind kind, const Color& added) {
-  const Real limit = tracer.settings().fireflyLimit, most = maxComponent(added);
-  if (!(limit > 0) || kind != RayKind::bounce || !(most > limit)) return 1;
-  const Real part = limit / most, removed = luminanceOf(added) * (1 - part);
-  if (removed < 1e9)
-    tracer.statistics().lightRemoved += static_cast<std::uint64_t>(removed * Statistics::kLightParts);
-  return part;
-}
-
 }  // namespace
+
+/// What shines where a path arrives, for which lamps are asked with the density `other`.
+ChanceTerm PathTracer::shines(const Path& path, Real other) {
+  if (path.forCache) return {path.density, other, other > 0 ? 0.0 : 1.0};
+  return weighed(path.density, other);
+}
 
 void PathTracer::prepare(const World& world, const Settings& settings, Job& job) {
   lamps_ = Lamps(world, settings.threads);
@@ -63,8 +47,12 @@ void PathTracer::prepare(const World& world, const Settings& settings, Job& job)
   for (int pass = 0; pass < settings.photonPasses && !job.cancel; ++pass) {
     Maps& maps = maps_[static_cast<std::size_t>(pass)];
     maps.caustics = causticMap(world, settings, &lamps_, job, pass);
-    if (!job.cancel) maps.all = globalMap(world, settings, lamps_, job, pass);
+    if (job.cancel) return;
+    GlobalMaps all = globalMaps(world, settings, lamps_, job, pass);
+    maps.all = std::move(all.surfaces);
+    maps.media = std::move(all.media);
   }
+  if (settings.irradianceCache > 0) fillCache(world, settings, job);
 }
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
@@ -89,20 +77,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
     media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
-    if (!media->places.empty()) {
-      const auto counts = [&](const Color& weight) {
-        const Color c = path.weight * weight;
-        return c.r + c.g + c.b;
-      };
-      MediumWay::Place& place = media->places.front();
-      const Real scatters = counts(place.weight), passes = counts(media->passes);
-      const Real share = scatters / (scatters + passes);
-      if (numbers.next() < share) {
-        place.weight = place.weight / share;
-        return scattered(sum, ray, *media, path, inside, sampler);
-      }
-      media->passes = media->passes / (1 - share);
-    }
+    if (const auto place = placeByChance(*media, path.weight, numbers.next()))
+      return scattered(sum, ray, *media, *place, path, inside, sampler);
   }
   const auto seeMedia = [&] {
     if (media) coverWithMedia(sum, *media);
@@ -117,7 +93,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
-      const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray) : 0);
+      const ChanceTerm chance = shines(path, path.density > 0 || path.forCache ? lamps_.density(ray) : 0);
       sum.add(Term::Kind::background, Color(chance.share), world.outside().view(ray, path.kind).color,
               chance);
     }
@@ -140,7 +116,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   sum.note(at.raised());
   sum.note(at.indices);
 
-  const ChanceTerm chance = weighed(path.density, path.density > 0 ? lamps_.density(ray.origin, *hit) : 0);
+  const ChanceTerm chance =
+      shines(path, path.density > 0 || path.forCache ? lamps_.density(ray.origin, *hit) : 0);
   if (!brought && !path.within)
     sum.add(Term::Kind::emissive, Color(chance.share), at.material.emissive, chance);
   const auto throughMedium = [&] {
@@ -169,14 +146,15 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
       share ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
-  const bool follows = scatters(at.bsdf()) && !path.gathers;
+  const bool cached = !path.gathers && addCached(sum, at);
+  const bool follows = scatters(at.bsdf()) && !path.gathers && !cached;
   const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
   const Real inBody = body ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
   const bool both = body && path.depth == 0;  // what is seen first is followed into the body besides
   const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
   const Real toBody = all > 0 ? inBody / all : 0;
-  if (toLobe > 0) addLamp(sum, at, toLobe, sampler);
+  if (toLobe > 0 || cached) addLamp(sum, at, toLobe, sampler);
 
   /// Whether a ray of that weight goes on, and for how many it then stands.
   const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
@@ -203,7 +181,8 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
-    sum.add(term, factor * allowed(tracer, kind, path.weight * factor * arriving), arriving, {density, 0, 1});
+    const Real part = kind == RayKind::bounce ? allowedPart(tracer, path.weight * factor * arriving) : 1;
+    sum.add(term, factor * part, arriving, {density, 0, 1});
   };
 
   const auto throughBody = [&](std::uint32_t n, Real part) {
@@ -248,38 +227,35 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
 }
 
 /// The radiance along the ray where a medium on its way scatters light to it.
-Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, const Path& path,
-                            const Interfaces& inside, const Sampler& sampler) const {
+Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
+                            const Path& path, const Interfaces& inside, const Sampler& sampler) const {
   Tracer& tracer = sum.tracer();
-  const MediumWay::Place& place = way.places.front();
   const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
   if (!isBlack(way.glows)) sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows});
   const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
   const Sampler numbers = sampler.branch(kMedium).branch(1);
   addLightsAt(sum, tracer, at, numbers);
   addLampAt(sum, tracer, at, lamps_, true, numbers);
+  addPhotonsAt(sum, at, path.maps->media);
 
   Sampler lobe = sampler.branch(kLobe);
   const Real most = maxComponent(path.weight * place.weight);
   const Real goes = path.depth + path.scattered < kSurely ? 1 : std::min(1.0, most);
   if (!(most > 0) || !(lobe.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
-    return sum.radiance();
+    return sum.radiance(inside.passed(place.t));
   }
-  const Vec2 u = lobe.next2();
-  const Real cosine = phaseCosine(place.forward, u.x);
-  const Basis basis = Frame{ray.direction}.basis();
-  const Vec3 direction = basis.toWorld(sphericalDirection(cosine, 2 * kPi * u.y));
+  const auto [direction, density] = samplePhase(ray.direction, place.forward, lobe.next2());
   const Color factor = place.weight / goes;
-  const Path next{RayKind::bounce, path.depth, path.weight * factor, phase(place.forward, cosine), nullptr, 0,
+  const Path next{RayKind::bounce, path.depth, path.weight * factor, density, nullptr, 0,
                   path.gathers,    path.maps,  path.scattered + 1};
   const Ray onward{at.point, direction};
   Interfaces there = inside;
   const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));
   const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
-  sum.add(factor * allowed(tracer, RayKind::bounce, path.weight * factor * arriving), arriving,
+  sum.add(factor * allowedPart(tracer, path.weight * factor * arriving), arriving,
           {MediumTerm::What::follows, place.object, place.t, place.forward}, ChanceTerm{next.density, 0, 1});
-  return sum.radiance();
+  return sum.radiance(inside.passed(place.t));
 }
 
 /// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is

@@ -11,18 +11,20 @@
 // With photons a path ends where its first ray from a scattering surface arrives: there the photons of all
 // light that lie around tell what it would find (the final gathering of Jensen 2001, section 7.4). What
 // mirrors and glass gather on surfaces that are seen is told by photons of their own. With several passes of
-// photons each sample of a pixel takes the next one's.
+// photons each sample of a pixel takes the next one's. With an irradiance cache such a ray is only sent where
+// no place nearby, of those worked out beforehand, tells what it would bring.
 #pragma once
 
 #include "render/gather.h"
 #include "render/integrator.h"
+#include "render/irradiance_cache.h"
 #include "render/lamps.h"
+#include "render/media.h"
 #include "render/photon_map.h"
 
 namespace trace {
 
 class Interaction;
-struct MediumWay;
 
 class PathTracer : public Integrator {
  public:
@@ -36,18 +38,25 @@ class PathTracer : public Integrator {
   struct Path;
   Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
               const Interfaces& inside, const Sampler& sampler) const;
-  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const Path& path,
-                  const Interfaces& inside, const Sampler& sampler) const;
+  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
+                  const Path& path, const Interfaces& inside, const Sampler& sampler) const;
+  static ChanceTerm shines(const Path& path, Real other);
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
+
+  // Light from photons that is worked out at few places: integrators/path_cache.cpp.
+  class CacheFiller;
+  void fillCache(const World& world, const Settings& settings, Job& job);
+  bool addCached(Gather& sum, const Interaction& at) const;
 
   Light light_;
   int depth_ = 0;          ///< the most bounces
   int mostScattered_ = 1;  ///< the most times that media scatter
   Lamps lamps_;
   struct Maps {
-    PhotonMap all, caustics;
+    PhotonMap all, caustics, media;
   };
   std::vector<Maps> maps_;  ///< of each pass; one of empty ones without photons
+  IrradianceCache cache_;
 };
 
 }  // namespace trace

@@ -50,7 +50,7 @@ Real spreadOf(int k) {
 }  // namespace
 
 void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
-  if (settings.lampSamples > 0) lamps_ = Lamps(world, settings.threads);
+  if (settings.lampSamples > 0) lamps_ = Lamps(world, settings.threads, true);
   if (settings.caustics > 0)
     caustics_ = gatheredCaustics(world, settings, lamps_.empty() ? nullptr : &lamps_, job);
 }

@@ -1,0 +1,152 @@
+// The path from a light of Bidirectional, and where it lands in the picture: t = 1.
+#include <algorithm>
+
+#include "render/fog.h"
+#include "render/integrators/bdpt_paths.h"
+
+namespace trace {
+
+/// A path from a light on its way to the next place.
+struct Bidirectional::Flight {
+  Ray ray;
+  Interfaces inside;
+  std::optional<Hit> hit;
+  Sampler numbers;
+  bool parallel = false;  ///< it comes straight from beyond all distances
+  bool fromSky = false;   ///< ... from what is around the scene
+  Color power{1}, response{1};
+  Real kept = 1;  ///< of its power, where it was scattered last
+  Partial partial{};
+  Counts counts{};
+  Last last = Last::lobe;
+};
+
+/// What is left of the light when it gets to its next place: where a medium scatters it, or on the surface.
+Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<MediumWay::Place>& where) const {
+  const Real far = f.hit ? f.hit->t : kInfinity;
+  if (f.parallel) {  // sunlight loses nothing to fog
+    Color passes = f.inside.passed(far) * passedByBodies(tracer, f.ray, far, f.numbers.branch(kMedium));
+    if (const Fog fog(tracer.settings()); f.fromSky && !fog.none() && isInOpenAir(f.inside, tracer.world()))
+      passes *= Color(fog.passes({f.hit->surface.point, -f.ray.direction}, kInfinity));
+    return passes;
+  }
+  if (!isThick(tracer)) return f.inside.passed(far);
+  Sampler numbers = f.numbers.branch(kMedium);
+  const int places = f.counts.scatterings < mostScattered_ ? 1 : 0;
+  MediumWay way = throughMedia(tracer, f.ray, far, f.inside, places, f.power, numbers.branch(0));
+  where = placeByChance(way, f.power, numbers.next());
+  return where ? where->weight * f.inside.passed(where->t) : way.passes * f.inside.passed(far);
+}
+
+/// Keeps the places of a path from a light, and lets those land that the camera sees.
+void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample& sample) const {
+  const Ways& ways = sample.ways;
+  if (ways.light == 0 || ways.light == 1) return;
+  Tracer::Aside aside(tracer);
+  auto start = starts_.start(tracer, sampler);
+  if (!start) return;
+  const bool ofLight = start->light != LightStarts::kNoLight;
+  Flight f{start->ray, std::move(start->inside), std::move(start->hit),
+           sampler,    start->parallel,          start->parallel && !ofLight};
+  for (bool first = true; f.hit || (isThick(tracer) && !f.parallel); first = false) {
+    aside.goOn();
+    std::optional<MediumWay::Place> where;
+    const Color passes = travels(tracer, f, where);
+    if (!where && (!f.hit || f.counts.surfaces > depth_)) return;
+    const Real t = where ? where->t : f.hit->t;
+    if (first) {
+      const auto arrival =
+          starts_.arrives(tracer.world(), *start, where ? f.ray.at(t) : f.hit->surface.point, t);
+      if (!arrival) return;
+      f.power = arrival->power;
+      f.partial = {Partial::power(arrival->asked), Partial::power(arrival->met)};
+      f.last = where ? Last::medium : Last::lobe;
+    }
+    f.kept = maxComponent(f.power * passes) / maxComponent(f.power);
+    f.power *= passes;
+    if (isBlack(f.power)) return;
+    LightPlace& place = where ? sample.lights.emplace_back(f.ray, f.inside, *where)
+                              : sample.lights.emplace_back(tracer, f.ray, f.inside, *f.hit, sample.shift);
+    f.partial.arrive(f.parallel ? 1 : t * t, place.place.cosine(f.ray.direction));
+    f.parallel = false;
+    ++(where ? f.counts.scatterings : f.counts.surfaces);
+    place.power = f.power;
+    place.response = f.response;
+    place.partial = f.partial;
+    place.lit = first && ofLight;
+    place.counts = f.counts;
+    place.last = f.last;
+    const int s = f.counts.all() + 1;
+    land(tracer, place, s, f.numbers, sample);
+    if (ways.light == s || !(where ? scatters(f, *where) : goesOn(f, place, sample))) return;
+    f.numbers = f.numbers.branch(kNext);
+    f.hit = tracer.cast(f.ray, RayKind::light, f.inside, tracer.chance(f.numbers.branch(kHole)));
+  }
+}
+
+/// The flight is scattered by a medium; false if it ends.
+bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
+  Sampler numbers = f.numbers.branch(kChoice);
+  const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, f.kept);
+  if (!(numbers.next() < goes)) return false;
+  f.power *= Color(1 / goes);
+  const PhaseSample to = samplePhase(f.ray.direction, where.forward, f.numbers.branch(kLobe).next2());
+  f.partial.leave(to.density, to.density, 1);
+  f.ray = {f.ray.at(where.t), to.direction};
+  return true;
+}
+
+/// The flight leaves the surface; false if it ends.
+bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sample) const {
+  const Interaction& at = *place.at;
+  if (f.counts.surfaces > depth_ && !isThick(at.tracer)) return false;
+  const Onward onward(at, sample.spectrum);
+  Sampler choice = f.numbers.branch(kChoice);
+  const auto next = onward.choose(choice.next(), f.numbers.branch(kLobe), true, place.lit);
+  if (!next) return false;
+  const Color& weight = next->weight;
+  const Real keeps = maxComponent(f.power * weight) / maxComponent(f.power);
+  const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, keeps);
+  if (!(choice.next() < goes)) return false;
+  f.power *= weight * (1 / goes);
+  if (isBlack(f.power)) return false;
+  const Vec3 from = -f.ray.direction, to = next->direction;
+  const Real cosine = place.place.cosine(to);
+  if (next->density > 0)
+    f.partial.leave(next->density, density(at.bsdf(), at.frame, to, from), cosine);
+  else
+    f.partial.reflect(cosine);
+  if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;
+  if (f.inside.wavelength == 0 && next->there.wavelength != 0) f.response = onward.response();
+  f.ray = next->kind == RayKind::bounce ? at.leaveToLight(to) : place.hit->leave(to);
+  f.inside = next->there;
+  return true;
+}
+
+/// t = 1: the camera sees the place.
+void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const Sampler& sampler,
+                         const Sample& sample) const {
+  const PathPlace& place = light.place;
+  if (!lands_ || !sample.thrown || !sample.ways.shows(s, 1) || !place.joins()) return;
+  if (!allows(light.counts, light.last)) return;
+  const Vec2 lens = camera_.hasLens() ? sampler.branch(kLens).next2() : kCenter;
+  const auto seen = camera_.sees(place.point(), lens);
+  if (!seen || !tracer.world().camera().sees(seen->distance)) return;
+  const Vec3 toEye = -seen->ray.direction, from = place.from();
+  const Real distance2 = camera_.parallel() ? 1 : seen->distance * seen->distance;
+  const Color factor = light.power * light.response * place.scatteredOn(toEye, from, light.lit);
+  if (isBlack(factor)) return;
+  const Real perArea = camera_.density(seen->ray) / distance2;
+  const Real others = light.partial.others(perArea * place.cosine(toEye), place.density(toEye, from));
+  const Real counts = share(s, 1, others, sample);
+  if (!(counts > 0)) return;
+  const Ray ray = place.leave(toEye);
+  const Interfaces there = place.side(toEye);
+  const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(kLand)) *
+                       (there.nested() ? Color(1) : there.passed(seen->distance));
+  const Fog fog(tracer.settings());
+  const Real clear = fog.none() || !isInOpenAir(there, tracer.world()) ? 1 : fog.passes(ray, seen->distance);
+  sample.thrown->push_back({seen->place, factor * passed * (perArea * counts * clear)});
+}
+
+}  // namespace trace

@@ -1,0 +1,22 @@
+// Where a path of PathTracer is.
+#pragma once
+
+#include "render/integrators/path.h"
+
+namespace trace {
+
+struct PathTracer::Path {
+  RayKind kind = RayKind::camera;
+  int depth = 0;
+  Color weight{1};   ///< of the ray's radiance in the sample
+  Real density = 0;  ///< of its direction, among lobes; 0 where there was one only
+  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  Real ink = 0;                                  ///< how much of it an outline covers
+  bool gathers = false;                          ///< photons tell what is scattered where it arrives
+  const Maps* maps = nullptr;                    ///< of these
+  int scattered = 0;                             ///< so often by media
+  bool within = false;                           ///< it runs in a body, from where light comes out
+  bool forCache = false;                         ///< what shines and is asked for does not count
+};
+
+}  // namespace trace

@@ -1,0 +1,104 @@
+// Photons on their way: from where they start, off surfaces, through glass and through media, until they come
+// to rest (Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, chapter 5; in media Jensen and
+// Christensen, Efficient Simulation of Light Transport in Scenes with Participating Media using Photon Maps,
+// 1998).
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "math/low_discrepancy.h"
+#include "render/fog.h"
+#include "render/hashed_numbers.h"
+#include "render/illumination_map.h"
+#include "render/media.h"
+#include "render/photon_targets.h"
+
+namespace trace {
+
+class Interaction;
+
+/// What sends photons: a light of the scene, the objects that shine, or what is around.
+struct PhotonSource {
+  enum class Kind { light, lamps, sky } kind;
+  std::size_t light = 0;
+  Real power = 0;          ///< about what it sends; only how many photons it gets depends on that
+  std::int64_t count = 0;  ///< of them
+};
+
+/// What came to rest on surfaces, what passed places in media, and what lies on maps of surfaces.
+struct LandedPhotons {
+  std::vector<Photon> photons{};
+  std::vector<Photon> inMedia{};
+  std::vector<std::pair<IlluminationMap::Place, Color>> onMaps{};
+};
+
+class PhotonEmitter {
+ public:
+  /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
+  /// sent to the targets. Else every surface that scatters keeps them, and so do media, but for those that
+  /// come there straight: their light is asked for.
+  PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
+                std::vector<PhotonTarget> targets, bool onlyCaustics, int pass);
+
+  /// Photon n of the source.
+  void send(const PhotonSource& source, std::uint32_t n, LandedPhotons& landed);
+
+ private:
+  /// A photon on its way.
+  struct Flight {
+    Ray ray;
+    Interfaces inside;
+    std::optional<Hit> hit;
+    Color power;
+    bool parallel = false, fromSky = false;  ///< it comes straight from beyond all distances
+    /// Of the scene, whose number that is; shadow rays ask for it, which cross panes that bend nothing.
+    const std::size_t* light = nullptr;
+    Vec2 onLight{};               ///< the place on it
+    std::optional<Vec3> start{};  ///< which is that point
+    Real share = 0, count = 1;    ///< what of the light it stands for, and among how many
+    Real law = 0;                 ///< what falls on the pane that it has crossed last
+    int bounces = 0, scatterings = 0;
+    bool straight = true;   ///< it has met nothing but panes that bend nothing
+    bool gathered = false;  ///< it is not what shadow rays bring
+  };
+  struct Chances {
+    std::uint64_t bits = 0;
+    Real next() { return unitFromBits(bits = mixBits(bits)); }
+  };
+
+  Vec2 pair(std::uint64_t dimension) const { return sobolPoint(n_, mixBits(seed_ ^ dimension)); }
+  Real chance() { return chances_.next(); }
+  Real hole() { return tracer_.chance(holes_); }
+
+  std::optional<Flight> fromLight(const PhotonSource& source);
+  std::optional<Flight> fromLamp(const PhotonSource& source);
+  std::optional<Flight> fromSky(const PhotonSource& source);
+  void cast(Flight& flight) { flight.hit = tracer_.cast(flight.ray, RayKind::bounce, flight.inside, hole()); }
+
+  void fly(Flight& flight, LandedPhotons& landed);
+  Color arriving(const Flight& flight, const Vec3& point, Real t) const;
+  Real fallsOn(const Flight& flight, const Vec3& point) const;
+  bool crossMedia(Flight& flight, LandedPhotons& landed);
+  void lightFog(const Flight& flight, LandedPhotons& landed);
+  void scatter(Flight& flight, const Vec3& point, Real forward);
+  bool goOn(Flight& flight, const Interaction& at, bool rests);
+
+  std::uint64_t seedOfPass_;  ///< 0 of the first
+  const World& world_;
+  const Settings& settings_;
+  const Lamps* lamps_;
+  std::vector<PhotonTarget> targets_;
+  bool onlyCaustics_;
+  Fog fog_;
+  Tracer tracer_;
+  IlluminationMap texels_;  // tells where on it a place is
+  SampleRules rules_;       // what samplers want
+  HashedNumbers numbers_;
+  // Of the photon that is sent.
+  std::uint64_t seed_ = 0;
+  std::uint32_t n_ = 0;
+  Chances chances_, holes_;
+};
+
+}  // namespace trace

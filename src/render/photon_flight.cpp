@@ -1,0 +1,187 @@
+// The way of a photon from its start on.
+#include <algorithm>
+
+#include "render/interaction.h"
+#include "render/photon_emitter.h"
+#include "shading/optics.h"
+
+namespace trace {
+namespace {
+
+/// What the scattered light counts because the shading normal is not the true one: paths from lamps see the
+/// surface's true area (Veach 1997, section 5.3.2).
+Real narrowedPhoton(const Interaction& at, const Vec3& direction) {
+  const Vec3& normal = at.hit.surface.normal;
+  const Real seen = dot(at.ray.direction, normal) * dot(direction, at.normal);
+  const Real factor = seen != 0 ? dot(at.ray.direction, at.normal) * dot(direction, normal) / seen : 1;
+  return std::min(std::abs(factor), 4.0);
+}
+
+}  // namespace
+
+/// What of the light over a solid angle falls on a surface there, by the light's own law.
+Real PhotonEmitter::fallsOn(const Flight& flight, const Vec3& point) const {
+  const auto arriving = world_.illuminate(*flight.light, point, flight.onLight);
+  if (!arriving) return 0;
+  const Vec3 way = flight.start ? point - *flight.start : Vec3{};
+  return arriving->attenuation * (flight.start ? dot(way, way) : 1);
+}
+
+/// The power with which the photon gets to a place at the distance t. Behind a pane the light is as strong as
+/// a shadow ray through it finds it: by the light's own law, which need not be the square of the distance.
+Color PhotonEmitter::arriving(const Flight& f, const Vec3& point, Real t) const {
+  if (f.light && f.bounces == 0 && f.scatterings == 0) {
+    // What falls on a surface there that faces the light, over the solid angle or the area.
+    const auto light = world_.illuminate(*f.light, point, f.onLight);
+    if (!light) return Color(0);
+    const Real away2 = f.start ? t * t : 1;
+    return f.power * light->intensity() * (kPi * away2 * f.share / f.count);
+  }
+  return f.law > 0 ? f.power * Color(fallsOn(f, point) / f.law) : f.power;
+}
+
+/// The photon, whose power that is already, goes on from there as a medium scatters it.
+void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
+  f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
+  f.parallel = f.fromSky = f.straight = false;
+  f.gathered = true;
+  f.law = 0;
+  ++f.scatterings;
+  if (!isBlack(f.power)) cast(f);
+}
+
+/// What fog scatters of parallel light, which is as strong in front of fog as behind: a photon of its own,
+/// from a place within the scene. Light of the sky has come through fog.
+void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
+  const Box3& box = world_.bounds();
+  const Ray& ray = parallel.ray;
+  const Vec3 way = box.center() - ray.origin;
+  const Real middle = dot(way, ray.direction), radius = length(box.size()) / 2;
+  const Real half2 = radius * radius - (dot(way, way) - middle * middle);
+  if (!(half2 > 0) || !isInOpenAir(parallel.inside, world_)) return;
+  const Real first = middle - std::sqrt(half2);
+  const Real last = std::min(middle + std::sqrt(half2), parallel.hit ? parallel.hit->t : kInfinity);
+  const Ray within{ray.at(first), ray.direction};
+  const Real depth = last > first ? fog_.depth(within, last - first) : 0;
+  if (!(depth > 0)) return;
+  const Real t = first + fog_.distance(within, chance() * depth);
+  const Vec3 point = ray.at(t);
+  if (!isFinite(point)) return;
+  numbers_.next();
+  Flight own = parallel;
+  own.power = arriving(parallel, point, t) * settings_.fogColor * depth *
+              passedByBodies(tracer_, ray, t, Sampler(rules_, numbers_));
+  if (parallel.fromSky) own.power *= Color(fog_.passes({point, -ray.direction}, kInfinity));
+  scatter(own, point, fog_.forward());
+  fly(own, landed);
+}
+
+/// The way up to the next surface: what passes, and what media keep of it. True if it was scattered there.
+bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
+  if (f.parallel && !onlyCaustics_ && !fog_.none()) lightFog(f, landed);
+  const Real far = f.hit ? f.hit->t : kInfinity;
+  const bool keeps = !onlyCaustics_ && f.scatterings < settings_.mediumDepth;
+  numbers_.next();
+  MediumWay way = throughMedia(tracer_, f.ray, far, f.inside, keeps ? 1 : 0, Color(1),
+                               Sampler(rules_, numbers_), !f.parallel);
+  if (!way.places.empty()) {
+    const MediumWay::Place& place = way.places.front();
+    const Vec3 point = f.ray.at(place.t);
+    const Color power = arriving(f, point, place.t) * f.inside.passed(place.t);
+    const bool asked = f.light ? f.straight : f.bounces == 0 && f.scatterings == 0;
+    const Color fluence = power * place.arrives;
+    if (!asked && isFinite(fluence)) landed.inMedia.push_back({point, f.ray.direction, {}, fluence});
+    if (const auto where = placeByChance(way, power, chance())) {
+      f.power = power * where->weight;
+      const Real goes = std::min(1.0, maxComponent(f.power) / maxComponent(power));
+      f.power = chance() < goes ? f.power / goes : Color(0);
+      scatter(f, point, where->forward);
+      return true;
+    }
+  }
+  f.power *= way.passes;
+  if (f.fromSky && f.hit && isInOpenAir(f.inside, world_))
+    f.power *= Color(fog_.passes({f.hit->surface.point, -f.ray.direction}, kInfinity));
+  return false;
+}
+
+void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
+  const bool thick = isThick(tracer_);
+  while (f.hit || thick) {
+    if (isBlack(f.power)) return;
+    if (thick && crossMedia(f, landed)) continue;
+    if (!f.hit) return;
+    f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
+    if (isBlack(f.power) || (f.straight && f.light && !world_.lights(*f.light, f.hit->object))) return;
+    const Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
+    const Vec3& normal = f.hit->surface.normal;
+    const bool rests = scatters(at.bsdf());
+    if (rests && ((f.bounces > 0 && f.gathered) || !onlyCaustics_)) {
+      if (const auto place = texels_.place(world_, f.ray, *f.hit))
+        landed.onMaps.emplace_back(*place, f.power);
+      else
+        landed.photons.push_back(
+            {f.hit->surface.point, f.ray.direction, at.facing() > 0 ? normal : -normal, f.power});
+    }
+    if (f.bounces >= settings_.depth || !goOn(f, at, rests)) return;
+    f.parallel = f.fromSky = false;
+    ++f.bounces;
+    cast(f);
+  }
+}
+
+/// One ray goes on from the surface, or none: what it brings stays about the same. False if it ends.
+bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests) {
+  const auto shares = at.shares();
+  const SpectralShare* share =
+      shares.empty() ? nullptr
+                     : &shares[static_cast<std::size_t>(chance() * static_cast<Real>(shares.size()))];
+  const bool glossy = !onlyCaustics_ && isGlossy(at.bsdf());
+  const Color mirror = at.mirror(glossy);
+  const Color through =
+      share && !glossy ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
+  const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
+  const Real lobe = rests && !onlyCaustics_ ? std::max(0.2, 1 - mirrors - passes) : 0;
+  const Real all = std::max(1.0, mirrors + passes + lobe), choice = chance() * all;
+  Interfaces there = f.inside;
+  Vec3 direction;
+  if (choice < mirrors) {
+    f.gathered = true;
+    f.straight = false;
+    f.power *= mirror * (all / mirrors);
+    direction = mirrored(f.ray.direction, at.normal);
+  } else if (choice < mirrors + passes) {
+    const auto refracted = at.through(*share);
+    if (!refracted) return false;
+    f.gathered = f.gathered || !at.straight;
+    f.straight = f.straight && at.straight;
+    // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
+    const Real ratio = at.ratio(*share);
+    f.power *= through * (ratio * ratio * all / passes);
+    there = at.behind();
+    there.wavelength = share->nanometres;
+    direction = *refracted;
+  } else if (choice < mirrors + passes + lobe) {
+    f.straight = false;
+    const Real choose = chance();
+    const Vec2 u{chance(), chance()};
+    const auto drawn = sample(at.bsdf(), at.frame, -f.ray.direction, choose, u, Transport::radiance);
+    if (!drawn) return false;
+    direction = drawn->toLight;
+    const bool inward = dot(direction, at.normal) < 0;
+    if (!inward && dot(direction, at.hit.surface.normal) * at.facing() < 0) return false;
+    const Color weight = drawn->weight * ((1 - at.coat) * (all / lobe) * narrowedPhoton(at, direction));
+    const Real goes = std::min(1.0, maxComponent(f.power * weight) / maxComponent(f.power));
+    if (!(chance() < goes)) return false;
+    f.power *= weight / goes;
+    if (inward && at.transmits) there = at.behind();
+  } else {
+    return false;
+  }
+  f.law = f.straight && f.light ? fallsOn(f, f.hit->surface.point) : 0;
+  f.ray = f.hit->leave(direction);
+  f.inside = there;
+  return true;
+}
+
+}  // namespace trace
