@@ -20,7 +20,7 @@ while (($#)); do
   esac
   shift
 done
-((${#scenes[@]})) || scenes=("$root"/scenes/{shapes,glass,shadows,showcase}.ray)
+((${#scenes[@]})) || scenes=("$root"/scenes/{shapes,glass,shadows,window}.ray)
 
 least() { sort -n | head -n 1; }
 printf '%-20s %12s %12s %9s %9s\n' scene 'can record' 'cannot' 'costs' 'noise'
