@@ -600,6 +600,38 @@ TEST(RayFormat, RowsCopyTheirObjects) {
   EXPECT_EQ(warningsOf("rows { count = (2, 1, 1); }"), "2:1: rows without objects are empty");
 }
 
+TEST(RayFormat, RowsMoveAllThatALightHas) {
+  const Scene scene = load(
+                          "rows { count = (2, 1, 1); step = (3, 0, 0); warn_light { position = (-3, 2, 0); direction = "
+                          "(0, -1, 0); color = (1, 1, 1); x_min = -4; x_max = -2; radius = 0.5; } sphere { } }")
+                          .scene;
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const auto& second = std::get<WarnLight>(scene.lights[1].light);
+  EXPECT_EQ(second.position, (Vec3{0, 2, 0}));
+  EXPECT_EQ(second.xMin, -1);
+  EXPECT_EQ(second.xMax, 1);
+  EXPECT_EQ(second.yMax, kNoLimit);
+  // A copy of another size: the light keeps its place in the lamp.
+  const Scene sizes = load(
+                          "rows { count = (1, 1, 2); step = (0, 0, 9); size_spread = 0.5; rectangle_light { position = (0, "
+                          "2, 0); u = (1, 0, 0); v = (0, 0, 1); color = (1, 1, 1); } translate(0, 2, 0, sphere { }) }")
+                          .scene;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& panel = std::get<RectangleLight>(sizes.lights.at(i).light);
+    expectNear(panel.position, sizes.objects.at(i).worldFromObject * Vec3{});
+    expectNear(panel.u, linear(sizes.objects.at(i).worldFromObject, Vec3{1, 0, 0}));
+  }
+  EXPECT_EQ(load("rows { directional_light { direction = (0, -1, 0); color = (1, 1, 1); } sphere { } }")
+                .scene.lights.size(),
+            1u)
+      << "a sun has no place, so there is one";
+}
+
+TEST(RayFormat, RowsOfNothingEnd) {
+  EXPECT_EQ(warningsOf("rows { count = (2000000, 2000000, 2000000); rows { } }"),
+            "2:52: rows without objects are empty");
+}
+
 TEST(RayFormat, ReadsTheSpotLightsOfStudents) {
   const auto spot = [](const std::string& fields) {
     const Loaded loaded =
