@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "render/fog.h"
-#include "render/light_choice.h"
 
 namespace trace {
 namespace {
@@ -76,6 +75,7 @@ class Walk {
         fog_(tracer.settings()),
         importance_(importance),
         wantsPlaces_(places > 0),
+        draws_(std::max(1, places)),
         leastSteps_(kLeastSteps + 3 * places),
         numbers_(numbers) {}
 
@@ -132,19 +132,20 @@ class Walk {
     if (asks || (foggy && !isBlack(medium.glows))) {
       const Color counts = importance_ * passes;
       const Real all = counts.r + counts.g + counts.b;
-      Real which = numbers_.next() * all;
-      const Real u = numbers_.next();
-      const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
-      const Real gone = -std::expm1(-of * length);
-      const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
-      const auto density = [&](Real s) {
-        return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
-      };
-      const Real chosen =
-          (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
-      const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / chosen);
-      if (foggy) glows += arrives * medium.glows;
-      if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_);
+      for (int k = 0; k < draws_; ++k) {  // each in a part of its own of what is scattered
+        const Real which = numbers_.next() * all, u = (k + numbers_.next()) / draws_;
+        const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
+        const Real gone = -std::expm1(-of * length);
+        const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
+        const auto density = [&](Real s) {
+          return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
+        };
+        const Real chosen =
+            (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
+        const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / (chosen * draws_));
+        if (foggy) glows += arrives * medium.glows;
+        if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_);
+      }
     }
     passes *= less(loses * length);
   }
@@ -180,6 +181,7 @@ class Walk {
   Fog fog_;
   Color importance_;
   bool wantsPlaces_;
+  int draws_;        ///< places of a stretch that Beer's law tells, from which some are chosen
   Real leastSteps_;  ///< of a stretch that is cut by chance: more of them are less noise
   Sampler& numbers_;
   std::vector<const World::MediumBody*> active_;
@@ -245,10 +247,11 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
   Color ofFog;
   if (foggy && places > 0) {
     const Real stays = -std::expm1(-fog.depth(ray, t));
-    const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * numbers.next())) : kInfinity;
-    if (isFinite(ray.at(at)) && at <= t) {
-      borders.push_back({at, nullptr, true});
-      ofFog = settings.fogColor * stays;
+    ofFog = settings.fogColor * (stays / places);
+    for (int k = 0; k < places; ++k) {
+      const Real u = (k + numbers.next()) / places;
+      const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * u)) : kInfinity;
+      if (isFinite(ray.at(at)) && at <= t) borders.push_back({at, nullptr, true});
     }
   }
   follow(walk, borders, t, ofFog, fog.forward());
@@ -280,66 +283,6 @@ Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Rea
   std::uint32_t first = 0;
   const Color passes = passedByBodies(tracer, toLight, distance, numbers, &first);
   return passes == Color(1) ? passed : tracer.veiled(passed, passes, first, distance);
-}
-
-void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {
-  constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
-  const World& world = tracer.world();
-  const Fog fog(tracer.settings());
-  askLights(tracer, place.point, nullptr, numbers, [&](const AskedLight& asked) {
-    const Vec2 where = world.lightHasSize(asked.light) ? asked.numbers().next2() : kCenter;
-    const auto arriving = world.illuminate(asked.light, place.point, where);
-    // From beyond all numbers nothing comes.
-    if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
-    const Ray toLight{place.point, arriving->toLight};
-    const Real left = fog.left(toLight, arriving->distance);
-    // A light of colour 1 is one of irradiance pi.
-    const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
-    const Color factor = place.share * arriving->intensity() * (kPi * scattered * left * asked.share);
-    if (isBlack(factor)) return;
-    const Color passed = throughBodies(
-        tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
-        arriving->distance, numbers.branch(kBodies + asked.branch));
-    if (place.medium)
-      sum.add(factor, passed, *place.medium);
-    else
-      sum.add(Term::Kind::fog, factor, passed);
-  });
-}
-
-void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
-               const Sampler& numbers) {
-  constexpr std::uint32_t kLamp = 0x80000000u, kBodies = 0x80000001u;  // branches beside those of lights
-  if (lamps.empty()) return;
-  Sampler chances = numbers.branch(kLamp);
-  const Real which = chances.next();
-  const auto lamp = lamps.choose(place.point, which, chances.next2());
-  if (!lamp) return;
-  const Ray toLamp{place.point, lamp->toLight};
-  const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));
-  const Real scattered = phase(place.forward, dot(place.ray.direction, lamp->toLight));
-  Color factor = place.share * (scattered / lamp->density);
-  if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
-  if (!tracer.world().media().empty() && !isBlack(seen))
-    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(kBodies));
-  const Real other = met ? scattered : 0, square = lamp->density * lamp->density;
-  const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
-  sum.add(factor * chance.share, seen, *place.medium, chance);
-}
-
-void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
-              const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
-  const MediumWay way = throughMedia(tracer, ray, t, inside, tracer.settings().fogSamples, Color(1), sampler);
-  coverWithMedia(sum, way);
-  std::uint32_t number = 0;
-  for (const MediumWay::Place& place : way.places) {
-    const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
-    if (!isBlack(ambient)) sum.add(place.weight, ambient, term);
-    const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
-    const Sampler numbers = sampler.branch(number++);
-    addLightsAt(sum, tracer, at, numbers);
-    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
-  }
 }
 
 }  // namespace trace

@@ -68,8 +68,10 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
             if constexpr (requires { light.position; }) light.position = place + light.position;
           });
         }
-        for (const Object& o : copied)
-          add(call, o.name, o.shape, worldFromObject * moved * o.worldFromObject, o.material);
+        for (Object o : copied) {
+          o.worldFromObject = worldFromObject * moved * o.worldFromObject;
+          add(call, std::move(o));
+        }
       }
 }
 
