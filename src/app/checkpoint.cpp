@@ -109,7 +109,7 @@ std::string difference(const std::string& a, const std::string& b) {
       if (one[name] != other[name]) names.insert(name);
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list + (names.size() == 1 ? " is" : " are") + " another";
+  return list + (names.size() == 1 ? " differs" : " differ");
 }
 
 /// Throws std::runtime_error if the file does not fit.

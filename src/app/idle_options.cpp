@@ -33,6 +33,7 @@ constexpr std::array kServes{
     Serves{"subdivide-threshold", "subdivide", "3"},
     Serves{"caustic-radius", "caustics", "200000"},
     Serves{"focus", "aperture", "0.1"},
+    Serves{"focus-on", "aperture", "0.1"},
     Serves{"blades", "aperture", "0.1"},
     Serves{"blade-angle", "aperture", "0.1"},
     Serves{"eye-separation", "stereo", "side-by-side"},
@@ -74,8 +75,13 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   if (s.subdivide > 0 && throws && !chains)
     warn("--subdivide changes nothing: paths from lights fall anywhere in the picture");
   if (subdivides(s)) {
+    const auto scenes = [&](std::string_view option) {  // which would have it without --subdivide
+      return std::any_of(scene.choices.begin(), scene.choices.end(), [&](const Choice& choice) {
+        return choice.option == option && choice.value == findOption(option).get(s);
+      });
+    };
     for (const std::string_view option : {"spp", "noise-target", "filter", "denoise"})
-      if (findOption(option).get(s) != findOption(option).get({}))
+      if (findOption(option).get(s) != findOption(option).get({}) && !scenes(option))
         warn("--" + std::string(option) +
              " changes nothing with --subdivide: a pixel is the mean of its squares");
   } else if (s.denoise && chains) {
@@ -101,6 +107,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
 
   if (!s.aperturePicture.path.empty() && !(s.aperture > 0))
     warn("--aperture-picture changes nothing: --aperture 0 is a pinhole", "--aperture 0.1 opens the lens");
+  if (!s.aperturePicture.path.empty() && s.blades > 0)
+    warn("--blades changes nothing: --aperture-picture is the shape of the lens opening");
+  if (!s.focusOn.none() && s.focus > 0) warn("--focus changes nothing: --focus-on says what is in focus");
   if (s.lightChoices > 0 && world.lights().size() < 2)
     warn("--light-choices changes nothing: the scene has fewer than two lights");
 
@@ -181,6 +190,21 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              " finds no light in the scene: ambient light stands for light that bounces, "
              "and is left out",
          "add a light, an object with emissive, or a background with a gradient");
+}
+
+void warnOfEmptyMedia(const Scene& scene, Messages& messages) {
+  const Material usual;
+  for (const Object& object : scene.objects) {
+    const Material& material = scene.materials[object.material];
+    const bool says = material.mediumScatters != usual.mediumScatters ||
+                      material.mediumAbsorbs != usual.mediumAbsorbs ||
+                      material.mediumGlows != usual.mediumGlows;
+    if (!says || material.mediumDensity > 0) continue;
+    messages.warn(object.place,
+                  "its material says what a medium does, and medium_density is 0: nothing fills the body",
+                  "medium_density = 1 takes the other fields as they are");
+    return;
+  }
 }
 
 }  // namespace trace

@@ -10,4 +10,7 @@ namespace trace {
 
 void warnOfIdleOptions(const Scene& scene, const Settings& settings, const World& world, Messages& messages);
 
+/// The same of the first material that says what a medium does where it is nowhere dense.
+void warnOfEmptyMedia(const Scene& scene, Messages& messages);
+
 }  // namespace trace

@@ -285,7 +285,7 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"light-too-weak", "a light that is too weak to see", lightTooWeak},
       LintCheck{"light-blocked", "a light that one object shuts out, such as the sun a sky", lightBlocked},
       LintCheck{"light-cut", "a light whose flaps or photometric file leave nothing of it", lightCut},
-      LintCheck{"light-link", "a light that names objects which are not there", lightLink},
+      LintCheck{"light-link", "a light or an object that names what is not there", lightLink},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
       LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},

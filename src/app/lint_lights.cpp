@@ -223,19 +223,31 @@ void lightCut(const LintScene& s, Findings& findings) {
   }
 }
 
-void lightLink(const LintScene& s, Findings& findings) {
-  std::vector<std::string_view> names;
-  for (const Object& object : s.scene.objects)
-    if (!object.name.empty()) names.push_back(object.name);
-  for (const LightSource& source : s.scene.lights)
-    for (const auto* list : {&source.links.lights, &source.links.excludes})
-      for (const std::string& name : *list)
+/// Names in the links of a light or an object that none of the others has, of which `kind` they are.
+template <class Links>
+void linksToNothing(const Links& links, const Place& place, const std::vector<std::string_view>& names,
+                    const std::string& kind, const std::string& example, Findings& findings) {
+  forEachField<Links>([&](const auto& f) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(links.*f.member)>, std::vector<std::string>>)
+      for (const std::string& name : links.*f.member)
         if (std::find(names.begin(), names.end(), name) == names.end())
-          warn(findings, "light-link", source.place,
-               std::string(list == &source.links.lights ? "lights" : "excludes") + " names \"" + name +
-                   "\", and no object is called so",
-               names.empty() ? "give objects names, as in sphere { name = \"ball\"; }"
-                             : didYouMean(name, names));
+          warn(findings, "light-link", place,
+               std::string(f.keyword) + " names \"" + name + "\", and no " + kind + " is called so",
+               names.empty() ? "give " + kind + "s names, as in " + example : didYouMean(name, names));
+  });
+}
+
+void lightLink(const LintScene& s, Findings& findings) {
+  std::vector<std::string_view> objects, lights;
+  for (const Object& object : s.scene.objects)
+    if (!object.name.empty()) objects.push_back(object.name);
+  for (const LightSource& source : s.scene.lights)
+    if (!source.links.name.empty()) lights.push_back(source.links.name);
+  for (const LightSource& source : s.scene.lights)
+    linksToNothing(source.links, source.place, objects, "object", "sphere { name = \"ball\"; }", findings);
+  for (const Object& object : s.scene.objects)
+    linksToNothing(object.links, object.place, lights, "light", "point_light { name = \"key\"; ... }",
+                   findings);
 }
 
 /// Spot lights that no object is in the cone of. True if there is one.
@@ -294,6 +306,16 @@ void cameraInside(const LintScene& s, Findings& findings) {
   };
   for (std::uint32_t object : s.aroundCamera) {
     const bool glass = !s.world.opaque(object);
+    const Survey::Seen& seen = s.survey.objects[object];
+    if (!glass && seen.lit > 0 && seen.direct == 0 && seen.facesAway >= seen.places && seen.couldBeLit > 0 &&
+        isBlack(s.world.termsOf(object).emissive))
+      warn(findings, "unlit", placeOf(s, object),
+           "the camera is inside " + quoted(s, object) +
+               ", whose faces look outward: lights in it do not light its walls, which have ambient light "
+               "alone",
+           "build a room of squares, or of a mesh whose faces look inward, or cut it out of a larger solid "
+           "by a "
+           "difference");
     if (!glass && (s.survey.objects[object].lit > 0 || others(object) > 0)) continue;  // a room
     warn(findings, "camera-inside", placeOf(s, object),
          "the camera is inside " + quoted(s, object) +

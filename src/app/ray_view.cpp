@@ -32,8 +32,7 @@ std::vector<std::vector<int>> childrenOf(const RayTree& tree) {
 
 /// What a ray is for, seen from its parent: rays of two trees with the same name correspond.
 std::pair<RayKind, std::uint32_t> nameOf(const RayTree& tree, int node) {
-  const Term* term = termOf(tree, node);
-  return {at(tree, node).kind, term && term->light ? term->light->light : 0};
+  return {at(tree, node).kind, lightOf(tree, node).value_or(0)};
 }
 
 class Differ {
@@ -114,8 +113,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
   row("kind", std::string(name(node.kind)) + ", depth " + std::to_string(node.depth));
   row("origin", text(node.ray.origin));
   row("direction", text(node.ray.direction));
-  if (const Term* term = termOf(tree, index); term && term->light)
-    row("toward", lightName(scene, term->light->light));
+  if (const auto light = lightOf(tree, index)) row("toward", lightName(scene, *light));
   if (node.tMost < kInfinity) row("light at distance", text(node.tMost));
   if (node.wavelength != 0) row("wavelength", text(node.wavelength) + " nm");
   for (const Ignored& ignored : node.ignored) row("no surface for light", sentence(ignored, scene));
@@ -147,6 +145,10 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
   if (!node.terms.empty()) row("Shading", "");
   for (const Term& term : node.terms) {
     const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
+    if (term.dark) {
+      row(lightName(scene, term.dark->light), "0: " + std::string(sentence(*term.dark)));
+      continue;
+    }
     if (!term.light) {
       row(kind, text(term.factor) + "  x  " + text(term.value));
       if (term.connection)

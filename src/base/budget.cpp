@@ -32,7 +32,7 @@ const Budget* Budget::lateOne() const {
 }
 
 void Budget::look() const {
-  if (look_) return look_();
+  if (look_) look_();
   const Budget* late = lateOne();
   if (!late) return;
   const std::string doing = doingNow();

@@ -28,7 +28,7 @@ class Budget {
 
   /// Begins now, without a limit. Inside another one that one holds as well.
   explicit Budget(Budget* outer = nullptr) : outer_(outer) {}
-  /// Asks `look` instead of the clock. It may throw, which ends the work.
+  /// Asks `look` as well as the clock. It may throw, which ends the work.
   explicit Budget(std::function<void()> look) : look_(std::move(look)) {}
   Budget(const Budget&) = delete;
   Budget& operator=(const Budget&) = delete;

@@ -62,7 +62,6 @@ struct Arguments {
   std::vector<int> frames;  ///< --frames, in order; empty for one picture
   double framesPerSecond = 24;
   Resume resume = Resume::goOn;
-  double checkpointEvery = 30;  ///< seconds; 0 writes none
   Conversion conversion;
   bool strict = false;
   bool quick = false;

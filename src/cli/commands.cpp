@@ -14,6 +14,7 @@
 #include "cli/help.h"
 #include "cli/memory_limit.h"
 #include "cli/overseer.h"
+#include "cli/terminal.h"
 
 namespace trace::cli {
 namespace {
@@ -82,7 +83,7 @@ int runLimited(const Command& command, const Arguments& arguments, const Console
 /// was typed.
 int runCommand(const Command& command, const std::vector<std::string>& words, bool named) {
   endWithMessage();
-  Budget budget;
+  Budget budget(Signals::look);
   Console console;
   Arguments arguments;
   std::string why;

@@ -173,6 +173,12 @@ class Writer {
                         {"distance", t.medium->t},
                         {"forward", t.medium->forward}};
     }
+    if (t.dark)
+      json["dark"] = {{"index", t.dark->light},
+                      {"place", toJson(scene_.lights[t.dark->light].place)},
+                      {"why", sentence(*t.dark)}};
+    if (t.scattered)
+      json["scattered"] = {{"index", *t.scattered}, {"place", toJson(scene_.lights[*t.scattered].place)}};
     if (t.body) json["body"] = {{"distance", t.body->distance}, {"steps", t.body->steps}};
     if (t.light) {
       const LightTerm& l = *t.light;

@@ -66,8 +66,7 @@ class TreeText {
     const std::string name = "#" + std::to_string(index) + " " + kind + " ray";
     std::string title = name;
     if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
-    if (const Term* term = termOf(tree_, index); term && term->light)
-      title += " to " + printable(lightName(scene_, term->light->light));
+    if (const auto light = lightOf(tree_, index)) title += " to " + printable(lightName(scene_, *light));
     if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
@@ -131,6 +130,11 @@ class TreeText {
         light(term, node);
         continue;
       }
+      if (term.dark) {
+        line("+ " + printable(lightName(scene_, term.dark->light)) + " 0; " +
+             std::string(sentence(*term.dark)));
+        continue;
+      }
       const Color value = term.factor * term.value;
       const bool isHole = term.kind == Term::Kind::hole;
       const bool covers = (term.kind == Term::Kind::fog || isHole) && term.ray < 0 && term.value.g <= 0 &&
@@ -156,6 +160,8 @@ class TreeText {
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
                  " from the light, t = " + std::to_string(term.connection->camera) +
                  " from the camera: counts " + text(term.connection->share);
+      if (term.scattered)
+        words += "\n" + margin_ + "    light of " + printable(lightName(scene_, *term.scattered));
       if (term.medium) words += "\n" + margin_ + "    " + medium(term);
       if (term.body)
         words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
@@ -242,6 +248,9 @@ std::string shownText(const PixelFacts& facts) {
       std::string& list = wantsPicture ? before : steps;
       list += (list.empty() ? "" : ", ") + std::string(option.name) + " " + value;
     }
+  if (facts.settings.denoise) before += (before.empty() ? "" : ", ") + std::string("denoise");
+  if (isAnaglyph(facts.settings.stereo))
+    before += (before.empty() ? "" : ", ") + std::string("the other eye");
   const Color shown = developed(facts.rendered, development);
   std::string text = "the file    ";
   for (const double channel : {shown.r, shown.g, shown.b})

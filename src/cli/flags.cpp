@@ -199,12 +199,6 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 3> kNames{"auto", "keep", "never"};
              a.resume = static_cast<Resume>(pick("resume", value, kNames));
            }},
-      Flag{"checkpoint-every", 0, Takes::value, "SECONDS", "", kRender, false,
-           "write what is done of a render beside its picture as often, to go on from if the machine fails; "
-           "default 30; 0 writes none",
-           [](Arguments& a, std::string_view value) {
-             a.checkpointEvery = numberOf("checkpoint-every", value, 0);
-           }},
       Flag{"quick", 0, Takes::nothing, "", "", kOfScenes, true,
            "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
            [](Arguments& a, std::string_view) { a.quick = true; }},

@@ -118,7 +118,14 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       if (done == 0) checkOutputs(session, picture);
       if (done == 0) checkAllPlaces(session, pattern, missing);
       checkPlaces(session, picture);
+      signals.preparingBegins();
       session.build();
+    } catch (const StoppedByUser&) {
+      RenderResult cancelled;
+      cancelled.end = End::cancelled;
+      code = exitCode(cancelled);
+      stopped = whyStopped(cancelled);
+      break;
     } catch (const Error& error) {
       if (done == 0) throw;  // then nothing is written, which is what the last line says
       const Budget* budget = budgetOfThread.budget;

@@ -63,6 +63,7 @@ std::string placeholder(const Option& option) {
     case Option::Kind::color: return "R,G,B";
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::file: return "FILE";
+    case Option::Kind::place: return "NAME|x,y,z";
   }
   return "";
 }
@@ -76,6 +77,7 @@ std::string rangeText(const Option& option) {
       return "a grey, or red,green,blue, from " + toText(option.least) + " to " + toText(option.most);
     case Option::Kind::region: return "x0,y0,x1,y1";
     case Option::Kind::file: return "the name of a file, or none";
+    case Option::Kind::place: return "the name of an object, a point x,y,z, or none";
     case Option::Kind::integer:
     case Option::Kind::real: break;
   }
@@ -154,8 +156,9 @@ constexpr std::string_view kExitCodes =
     "not every "
     "picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
-    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; twice: end "
-    "at once. SIGUSR1 or SIGHUP: write what is finished and go on";
+    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; before the "
+    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write what is finished and "
+    "go on";
 
 /// A table's cell: | would end it.
 std::string cell(std::string_view text) {

@@ -80,7 +80,13 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   const std::string output = outputFor(session.scene(), named);
   checkPlaces(session, output);
-  session.build();  // a lack of memory is the better reason to refuse a huge picture
+  signals.preparingBegins();
+  try {
+    session.build();  // a lack of memory is the better reason to refuse a huge picture
+  } catch (const StoppedByUser&) {
+    console.last(false, "stopped by the user: nothing written, for nothing was finished");
+    return kStopped;
+  }
   checkOutputs(session, output);
   console.warnings(session.messages().all());
   for (const OptionFact& fact : changedOptions(session.scene(), session.settings(), arguments.choices))

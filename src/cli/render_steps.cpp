@@ -60,15 +60,15 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
                                   const Part& part) {
   Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
   if (arguments.resume != Resume::never) goOnFrom(checkpoint, session, arguments, console, progress, part);
+  const double every = session.settings().checkpointEvery;
   RenderResult result;
   {
-    const CheckpointPlan plan{arguments.checkpointEvery > 0 ? &checkpoint : nullptr,
-                              arguments.checkpointEvery};
+    const CheckpointPlan plan{every > 0 ? &checkpoint : nullptr, every};
     const Watch watch(session, signals, console, progress, files, plan, part);
     result = session.renderPicture();
   }
   const bool keeps = result.end != End::finished || arguments.resume == Resume::keep;
-  if (keeps && arguments.checkpointEvery > 0 && session.job().done > 0) {
+  if (keeps && every > 0 && session.job().done > 0) {
     liftMemoryLimit();
     saveCheckpoint(checkpoint, session.film(), progress, console);
   }

@@ -23,8 +23,10 @@ namespace {
 // What a signal handler may touch: lock-free atomics and write().
 std::atomic<int> gPipe[2]{-1, -1};
 std::atomic<int> gStops{0};
-std::atomic<bool> gRendering{false};
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+enum class Phase { starting, preparing, rendering };
+std::atomic<Phase> gPhase{Phase::starting};
+std::atomic<bool> gAsked{false};  // to stop, while preparing
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Phase>::is_always_lock_free);
 
 constexpr int kCaught[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
 constexpr int kStoppedAtOnce = 130;  // 128 + SIGINT, as shells report it
@@ -46,8 +48,9 @@ void post(char byte) {
 void onSignal(int signal) {
   const int error = errno;
   if (signal == SIGINT || signal == SIGTERM) {
-    if (!gRendering || gStops.fetch_add(1) > 0) stopAtOnce();
-    post('s');
+    if (gPhase == Phase::starting || gStops.fetch_add(1) > 0) stopAtOnce();
+    gAsked = gPhase == Phase::preparing;
+    post('s');  // also for a render that begins right now
   } else {
     post('w');
   }
@@ -118,7 +121,7 @@ Signals::Signals() {
     gPipe[i] = ends[i];
   }
   gStops = 0;
-  gRendering = false;
+  gPhase = Phase::starting;
   struct sigaction action {};
   action.sa_handler = onSignal;
   action.sa_flags = SA_RESTART;
@@ -132,9 +135,19 @@ Signals::Signals() {
 Signals::~Signals() {
   for (size_t i = 0; i < std::size(kCaught); ++i) ::sigaction(kCaught[i], &gBefore[i], nullptr);
   for (auto& end : gPipe) ::close(end.exchange(-1));
+  gAsked = false;
 }
 
-void Signals::renderingBegins() { gRendering = true; }
+void Signals::preparingBegins() { gPhase = Phase::preparing; }
+
+void Signals::renderingBegins() {
+  gPhase = Phase::rendering;
+  gAsked = false;
+}
+
+void Signals::look() {
+  if (gAsked) throw StoppedByUser{};
+}
 
 void Signals::receive(bool here) {
   sigset_t set;

@@ -24,10 +24,14 @@ std::string ownFolder();
 /// The most memory this process ever held, in bytes.
 std::uint64_t peakMemory();
 
+/// Thrown by Signals::look().
+struct StoppedByUser {};
+
 /// Turns signals into events for one thread that waits. Make one at a time.
 ///
-/// Ctrl-C and SIGTERM: before renderingBegins() the process ends at once, with code 130 and a last line.
-/// After it, the first gives Event::stop, the second ends the process. SIGUSR1 and SIGHUP give Event::save.
+/// Ctrl-C and SIGTERM: at first the process ends at once, with code 130 and a last line. After
+/// preparingBegins() the first makes look() throw, after renderingBegins() it gives Event::stop; the second
+/// ends the process. SIGUSR1 and SIGHUP give Event::save.
 class Signals {
  public:
   enum class Event { none, stop, save };
@@ -37,7 +41,11 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
+  void preparingBegins();
   void renderingBegins();
+  /// For the budget of a command, whose work then ends by itself: throws StoppedByUser if that is asked for
+  /// while it prepares. From any thread.
+  static void look();
   /// Whether signals may interrupt the calling thread and those it starts from now on. Threads that trace
   /// should not be, so that a signal is answered at once.
   static void receive(bool here);

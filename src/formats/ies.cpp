@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -54,8 +55,9 @@ class IesReader {
     for (const char* what : {"the width of the opening", "its length", "its height"}) words_.number(what);
     const Real ballast = number("the ballast factor", 0), photometric = number("the ballast-lamp factor", 0);
     words_.number("the watts");
-    if (!(lamps > 0))
-      messages_.warn({file_, 0, 0, {}}, "a file of " + toText(lamps) + " lamps: read as of one");
+    if (!(lamps > 0)) warn("a file of " + toText(lamps) + " lamps: read as of one");
+    if (multiplier * ballast * photometric == 0)
+      warn("the photometric file has no light: its multiplier or one of its ballast factors is 0");
 
     if (columns > words_.left() / rows)
       words_.fail("expected " + std::to_string(rows) + " x " + std::to_string(columns) +
@@ -66,16 +68,21 @@ class IesReader {
                       horizontal =
                           angles("a horizontal angle", columns, type == Photometry::Type::c ? 0 : -90,
                                  type == Photometry::Type::c ? 360 : 90);
+    if (type == Photometry::Type::c) checkCoverage(vertical, horizontal);
     std::vector<Real> candelas;
     candelas.reserve(rows * columns);
     for (std::size_t i = 0; i < rows * columns; ++i) {
       checkBudget();
       candelas.push_back(number("candelas", 0) * (multiplier * ballast * photometric));
     }
-    if (!words_.atEnd()) messages_.warn({file_, 0, 0, {}}, "what follows the last candelas is ignored");
+    const bool dark = std::all_of(candelas.begin(), candelas.end(), [](Real c) { return c == 0; });
+    if (dark && multiplier * ballast * photometric > 0)
+      warn("the photometric file has no light: all candelas are 0");
+    if (!words_.atEnd()) {
+      words_.next();
+      warn("what follows the last candelas is ignored");
+    }
     closeRound(type, horizontal, candelas, rows);
-    if (std::all_of(candelas.begin(), candelas.end(), [](Real c) { return c == 0; }))
-      messages_.warn({file_, 0, 0, {}}, "the photometric file has no light: all candelas are 0");
     return {type, std::move(vertical), std::move(horizontal), std::move(candelas)};
   }
 
@@ -89,8 +96,28 @@ class IesReader {
       const std::size_t pairs = count("the number of pairs of angles and factors");
       for (std::size_t i = 0; i < 2 * pairs; ++i) words_.number("an angle or a factor of the tilt");
     }
-    messages_.warn({file_, 0, 0, {}},
-                   "TILT: what a lamp loses when the luminaire is tilted is left out of the photometry");
+    warn(
+        "TILT: what a lamp loses when the luminaire is tilted is not counted: it shines as if it hung "
+        "straight");
+  }
+
+  /// At the word read last.
+  void warn(std::string what) { messages_.warn(words_.place(), std::move(what)); }
+
+  /// The standard has the angles of type C begin and end where the rest follows by symmetry.
+  void checkCoverage(const std::vector<Real>& vertical, const std::vector<Real>& horizontal) {
+    const auto isOneOf = [](Real angle, std::initializer_list<Real> some) {
+      return std::find(some.begin(), some.end(), angle) != some.end();
+    };
+    if (!isOneOf(vertical.front(), {0, 90}) || !isOneOf(vertical.back(), {90, 180}))
+      warn("expected vertical angles from 0 or 90 to 90 or 180 degrees, found " + toText(vertical.front()) +
+           " to " + toText(vertical.back()) + ": beyond these it gives no light");
+    const Real first = horizontal.front(), last = horizontal.back();
+    const bool open = first == 0 && last > 180;  // 360 is left out
+    if (!open && !(first == 0 && isOneOf(last, {0, 90, 180})) && !(first == 90 && last == 270) &&
+        horizontal.size() > 1)
+      warn("expected horizontal angles from 0 to 90, 180 or 360 degrees, or from 90 to 270, found " +
+           toText(first) + " to " + toText(last) + ": the nearest of these stands for the others");
   }
 
   Real number(const char* what, Real least) {

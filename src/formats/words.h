@@ -51,6 +51,9 @@ class Words {
   /// Goes on at that byte.
   void skipTo(std::size_t at) { at_ = at; }
 
+  /// Where the last word begins.
+  Place place() const { return placeAt(file_, text_, start_); }
+
   /// Bytes not read yet: no count in a file can be larger.
   std::size_t left() const { return text_.size() - at_; }
 

@@ -188,9 +188,9 @@ class Film {
   /// All that is there, for restore(). From any thread while others add: a tile is there with its last whole
   /// wave.
   std::string saved() const;
-  /// Takes what saved() gave of a film of the same size and layers and of as many samples or fewer, which
-  /// then count as taken. Throws std::runtime_error with the reason if it does not fit; the film is then
-  /// blank.
+  /// Takes what saved() gave of a film of the same size and layers whose tiles have no more samples than
+  /// this one asks for; these then count as taken. Throws std::runtime_error with the reason if it does not
+  /// fit; the film is then blank.
   void restore(std::string_view bytes);
 
   /// All waves of all tiles are there.

@@ -166,18 +166,20 @@ class FilmState {
       waves.push_back({first, end});
     }
     if (waves.empty()) throw std::runtime_error("it has no samples");
-    const int asked = film.waves_.back().end, there = waves.back().end;
-    if (there > asked)
-      throw std::runtime_error("it is of " + std::to_string(there) + " samples a pixel, more than the " +
-                               std::to_string(asked) + " that are asked for");
-    for (const Wave& wave : wavesOf(asked, there)) waves.push_back(wave);
+    const int asked = film.waves_.back().end, planned = waves.back().end;
+    while (waves.back().end > asked && waves.size() > 1) waves.pop_back();
+    const std::size_t known = waves.size();
+    for (const Wave& wave : wavesOf(asked, waves.back().end)) waves.push_back(wave);
     film.waves_ = std::move(waves);
     from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
     if (film.takesSplats()) take(from, *film.splats_);
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       state.waves = from.take<std::uint32_t>();
-      if (state.waves > film.waves_.size()) throw std::runtime_error("a tile has more waves than there are");
+      if (state.waves > known && planned > asked)
+        throw std::runtime_error("it has more samples a pixel than the " + std::to_string(asked) +
+                                 " that are asked for");
+      if (state.waves > known) throw std::runtime_error("a tile has more waves than there are");
       if (film.corners_)
         for (std::size_t level = 0; level < state.waves; ++level) {
           CornerSamples::Level taken;

@@ -43,6 +43,23 @@ class Gather {
                       LightTerm{tracer_.world().lightSource(light), arriving, scatter, share, probability}});
   }
 
+  /// Notes that the world's light of that number gives nothing here.
+  void noteDark(std::size_t light, DarkTerm::Why why) {
+    if (!Tracer::recorded(node_)) return;
+    Term term{Term::Kind::light, Color(0), Color(0)};
+    term.dark = DarkTerm{why, tracer_.world().lightSource(light)};
+    tracer_.record(node_, term);
+  }
+
+  /// The same of what air or a medium scatters along the ray.
+  void addScattered(std::size_t light, const Color& factor, const Color& passed,
+                    const std::optional<MediumTerm>& medium) {
+    Term term{medium ? Term::Kind::medium : Term::Kind::fog, factor, passed};
+    term.medium = medium;
+    term.scattered = tracer_.world().lightSource(light);
+    add(term);
+  }
+
   /// Adds the radiance of a light that the ray meets.
   void add(const World::Lamp& lamp) {
     add(Term::Kind::emissive, lamp.seen.color);

@@ -82,10 +82,10 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   askLights(tracer, from, &normal, sampler, [&](const AskedLight& asked) {
     const std::uint32_t i = asked.light;
-    if (!world.lights(i, hit.object)) return;
+    if (!world.lights(i, hit.object)) return sum.noteDark(i, DarkTerm::Why::unlinked);
     const auto light = [&](const Vec2& place, Real share, int n) __attribute__((always_inline)) {
       auto arriving = world.illuminate(i, from, place);
-      if (!arriving) return;
+      if (!arriving) return n == 0 ? sum.noteDark(i, DarkTerm::Why::shinesElsewhere) : void();
       if (foggy)
         arriving->attenuation *= Fog(tracer.settings()).left({from, arriving->toLight}, arriving->distance);
       Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);

@@ -15,6 +15,7 @@ struct Border {
   Real t;
   const World::MediumBody* body;  ///< null where the fog scatters
   bool begins;
+  Real arrives = 0;  ///< of the fog, per what scatters there
 };
 
 /// The stretch of the ray's line that may lie in the box: from first to second, if that is not less.
@@ -76,6 +77,7 @@ class Walk {
         fog_(tracer.settings()),
         importance_(importance),
         wantsPlaces_(places > 0),
+        draws_(std::max(1, places)),
         leastSteps_(kLeastSteps + 3 * places),
         numbers_(numbers) {}
 
@@ -132,19 +134,20 @@ class Walk {
     if (asks || (foggy && !isBlack(medium.glows))) {
       const Color counts = importance_ * passes;
       const Real all = counts.r + counts.g + counts.b;
-      Real which = numbers_.next() * all;
-      const Real u = numbers_.next();
-      const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
-      const Real gone = -std::expm1(-of * length);
-      const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
-      const auto density = [&](Real s) {
-        return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
-      };
-      const Real chosen =
-          (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
-      const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / chosen);
-      if (foggy) glows += arrives * medium.glows;
-      if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_, arrives);
+      for (int k = 0; k < draws_; ++k) {  // each in a part of its own of what is scattered
+        const Real which = numbers_.next() * all, u = (k + numbers_.next()) / draws_;
+        const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
+        const Real gone = -std::expm1(-of * length);
+        const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
+        const auto density = [&](Real s) {
+          return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
+        };
+        const Real chosen =
+            (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
+        const Color arrives = passes * less(loses * x) * (fogPasses(from + x) / (chosen * draws_));
+        if (foggy) glows += arrives * medium.glows;
+        if (asks) add(from + x, arrives * medium.scatters, medium.forward, object_, arrives);
+      }
     }
     passes *= less(loses * length);
   }
@@ -180,6 +183,7 @@ class Walk {
   Fog fog_;
   Color importance_;
   bool wantsPlaces_;
+  int draws_;        ///< places of a stretch that Beer's law tells, from which some are chosen
   Real leastSteps_;  ///< of a stretch that is cut by chance: more of them are less noise
   Sampler& numbers_;
   std::vector<const World::MediumBody*> active_;
@@ -189,7 +193,7 @@ class Walk {
 /// What of the fog scatters where its border is.
 struct FogPlace {
   Color weight{};  ///< without what bodies let pass
-  Real forward = 0, arrives = 0;
+  Real forward = 0;
 };
 
 void follow(Walk& walk, std::vector<Border>& borders, Real t, const FogPlace& fog) {
@@ -200,7 +204,7 @@ void follow(Walk& walk, std::vector<Border>& borders, Real t, const FogPlace& fo
     walk.go(from, border.t);
     from = border.t;
     if (!border.body)
-      walk.add(border.t, walk.passes * fog.weight, fog.forward, Filling::kAir, walk.passes * fog.arrives);
+      walk.add(border.t, walk.passes * fog.weight, fog.forward, Filling::kAir, walk.passes * border.arrives);
     else
       border.begins ? walk.begin(border.body) : walk.end(border.body);
   }
@@ -252,10 +256,12 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
   FogPlace ofFog;
   if (foggy && places > 0) {
     const Real stays = -std::expm1(-fog.depth(ray, t));
-    const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * numbers.next())) : kInfinity;
-    if (isFinite(ray.at(at)) && at <= t) {
-      borders.push_back({at, nullptr, true});
-      ofFog = {settings.fogColor * stays, fog.forward(), stays / fog.densityAt(ray.at(at))};
+    ofFog = {settings.fogColor * (stays / places), fog.forward()};
+    for (int k = 0; k < places; ++k) {
+      const Real u = (k + numbers.next()) / places;
+      const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * u)) : kInfinity;
+      if (isFinite(ray.at(at)) && at <= t)
+        borders.push_back({at, nullptr, true, stays / (fog.densityAt(ray.at(at)) * places)});
     }
   }
   follow(walk, borders, t, ofFog);
@@ -346,10 +352,7 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
     const Color passed = throughBodies(
         tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
         arriving->distance, numbers.branch(kBodies + asked.branch));
-    if (place.medium)
-      sum.add(factor, passed, *place.medium);
-    else
-      sum.add(Term::Kind::fog, factor, passed);
+    sum.addScattered(asked.light, factor, passed, place.medium);
   });
 }
 

@@ -142,6 +142,12 @@ const Term* termOf(const RayTree& tree, int index) {
   return nullptr;
 }
 
+std::optional<std::uint32_t> lightOf(const RayTree& tree, int node) {
+  const Term* term = termOf(tree, node);
+  if (!term) return {};
+  return term->light ? term->light->light : term->scattered;
+}
+
 std::string shortPlace(const Place& place) {
   std::string text = place.file.substr(place.file.find_last_of('/') + 1);
   if (place.line > 0) text += ":" + std::to_string(place.line);
@@ -194,6 +200,11 @@ std::string lightName(const Scene& scene, std::uint32_t index) {
   const LightSource& source = scene.lights[index];
   if (!source.links.name.empty()) return source.links.name;
   return named(match(source.light, [](const auto& light) { return light.kKeyword; }), source.place);
+}
+
+std::string_view sentence(const DarkTerm& dark) {
+  return dark.why == DarkTerm::Why::unlinked ? "its links, or the object's, keep it off this object"
+                                             : "it shines elsewhere (its cone, flaps, picture or back)";
 }
 
 std::string sentence(const RayNode& node, const Scene& scene) {

@@ -113,6 +113,12 @@ struct LightTerm {
   Real probability = 1;  ///< with which the light was chosen among all, if they are many: share holds it, too
 };
 
+/// A light that was asked and gives the place nothing, whatever stands between; no ray was sent.
+struct DarkTerm {
+  enum class Why { unlinked, shinesElsewhere } why = Why::unlinked;
+  std::uint32_t light = 0;  ///< index into Scene::lights
+};
+
 /// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
 /// light.
 struct ChanceTerm {
@@ -197,6 +203,8 @@ struct Term {
   std::optional<MediumTerm> medium{};
   std::optional<BodyTerm> body{};
   std::optional<CacheTerm> cache{};
+  std::optional<DarkTerm> dark{};
+  std::optional<std::uint32_t> scattered{};  ///< by air or a medium: the light's index into Scene::lights
 };
 
 /// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of
@@ -266,6 +274,8 @@ void weigh(RayTree& tree, Real cameraWeight);
 
 /// The term of the ray's parent that its radiance went into; null for the camera ray.
 const Term* termOf(const RayTree& tree, int node);
+/// Of a ray that asks a light of the scene, that light: its index into Scene::lights.
+std::optional<std::uint32_t> lightOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
 std::string objectName(const Scene& scene, std::uint32_t object);
@@ -281,6 +291,8 @@ std::string materialName(const Scene& scene, std::uint32_t material);
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
 /// Its name, or "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);
+/// "it shines elsewhere (its cone, flaps, picture or back)".
+std::string_view sentence(const DarkTerm& dark);
 /// "scene.ray:12", without folders; "" for a place in no file.
 std::string shortPlace(const Place& place);
 

@@ -173,7 +173,11 @@ Color Tracer::visible(const Hit& from, const Ray& ray, Real distance, const Inte
 
 Color Tracer::visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside) {
   Interfaces start = inside;
-  return visibleAlong({from, toLight}, distance, inside.nested() ? &start : nullptr, inside.wavelength);
+  midair_ = true;
+  const Color seen =
+      visibleAlong({from, toLight}, distance, inside.nested() ? &start : nullptr, inside.wavelength);
+  midair_ = false;
+  return seen;
 }
 
 /// What a ray from a surface starts in, on whose side that a ray came from it is `inside`.

@@ -135,9 +135,11 @@ class Tracer {
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
-  /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere.
+  /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere. Photons
+  /// bring it to surfaces only.
   bool gathers(const WhittedTerms& terms) const {
     if (isBidirectional(settings_)) return true;
+    if (midair_) return false;
     const bool bring = settings_.integrator == IntegratorKind::photon ||
                        (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
     return bring && terms.passage != Passage::straight;
@@ -152,6 +154,7 @@ class Tracer {
   int current_ = kNoNode;  ///< the ray being followed
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
+  bool midair_ = false;                               // the shadow ray starts where no surface is
   std::vector<Found> crossed_;                        // of one ray; kept to save allocations
   std::optional<std::pair<Vec3, Interfaces>> start_;  // of the last point that was asked for
 };

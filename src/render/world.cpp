@@ -314,12 +314,6 @@ void warnOfUndisplaced(const std::vector<const Object*>& objects, Messages& mess
                 "`bump` bends the normals of every shape; `ray convert` makes a mesh of one");
 }
 
-void World::measureMiddle() {
-  Statistics uncounted;
-  const std::optional<Found> found = closest({camera_.eye, camera_.ahead}, Faces::both, uncounted);
-  camera_.setMiddle(found ? found->t : kInfinity);
-}
-
 World compile(const Scene& scene, const Settings& settings, Messages& messages, const Compiled* before) {
   World world;
   const World::Earlier earlier(before, scene, settings);
@@ -460,7 +454,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
-  if (world.camera_.wantsMiddle()) world.measureMiddle();
+  world.focus(scene, settings);
   return world;
 }
 

@@ -297,8 +297,11 @@ class World {
   void crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost, QueryCounts<Nodes>& counts,
                         const Visit& visit) const;
 
-  /// The lens is focused on what the middle of the picture shows; on infinity if that is nothing.
-  void measureMiddle();
+  /// The lens is focused on the place that the settings name, or what the middle of the picture shows; on
+  /// infinity if that is nothing.
+  void focus(const Scene& scene, const Settings& settings);
+  /// Where the camera sees the objects of that name. Throws Error(Fault::usage) if there are none.
+  Vec3 seenPlaceOf(const std::string& name, const Scene& scene) const;
 
   struct Forms;  ///< complete in world_queries.cpp
   std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;

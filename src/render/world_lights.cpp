@@ -8,14 +8,31 @@
 namespace trace {
 namespace {
 
-/// Of each object whether the links name it; none where they name nothing.
+/// Whether one that is called so is among all, or `only` names it, and `none` does not.
+class Chosen {
+ public:
+  Chosen(const std::vector<std::string>& only, const std::vector<std::string>& none)
+      : only_(only.begin(), only.end()), none_(none.begin(), none.end()) {}
+  bool all() const { return only_.empty() && none_.empty(); }
+  bool operator()(std::string_view name) const {
+    return (only_.empty() || only_.contains(name)) && !none_.contains(name);
+  }
+
+ private:
+  std::set<std::string_view> only_, none_;
+};
+
+/// Of each object whether the light lights it; none where all are lit.
 std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& objects) {
-  if (links.lights.empty() && links.excludes.empty()) return {};
-  const std::set<std::string_view> lights(links.lights.begin(), links.lights.end()),
-      excludes(links.excludes.begin(), links.excludes.end());
+  const Chosen byLight(links.lights, links.excludes);
+  const auto isLit = [&](const Object& o) {
+    return byLight(o.name) && Chosen(o.links.litBy, o.links.notLitBy)(links.name);
+  };
+  const bool noneSays =
+      std::all_of(objects.begin(), objects.end(), [](const Object& o) { return o.links == ObjectLinks{}; });
+  if (byLight.all() && noneSays) return {};
   std::vector<bool> lit(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    lit[i] = (lights.empty() || lights.contains(objects[i].name)) && !excludes.contains(objects[i].name);
+  std::transform(objects.begin(), objects.end(), lit.begin(), isLit);
   return lit;
 }
 

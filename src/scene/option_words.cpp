@@ -50,6 +50,7 @@ constexpr std::array kWordRows{
     Row{"light-choices", "many lights tree noise speed importance"},
     Row{"aperture", "lens dof bokeh blur fstop pinhole"},
     Row{"focus", "lens dof focal sharp distance"},
+    Row{"focus-on", "lens dof focal sharp object target point name"},
     Row{"blades", "lens bokeh"},
     Row{"blade-angle", "lens bokeh"},
     Row{"aperture-picture", "lens bokeh shape image heart star"},

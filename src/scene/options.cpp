@@ -179,6 +179,17 @@ void parse(const Option& option, std::string_view text, Color& value) {
   value = *color;
 }
 
+/// Three numbers are a point, and all else is the name of an object.
+void parse(const Option& option, std::string_view text, ScenePlace& value) {
+  if (text.empty()) refuse(option, "the name of an object, a point x,y,z, or none", text);
+  value = {};
+  if (text == kNone) return;
+  if (const auto point = text.find(',') == text.npos ? std::nullopt : colorOf(text))
+    value.point = Vec3{point->r, point->g, point->b};
+  else
+    value.object = text;
+}
+
 void parse(const Option& option, std::string_view text, FilePath& value) {
   if (text.empty()) refuse(option, "the name of a file, or none", text);
   value.path = text == kNone ? "" : text;
@@ -228,6 +239,11 @@ std::string format(int value) { return std::to_string(value); }
 std::string format(bool value) { return value ? "on" : "off"; }
 std::string format(const Color& value) { return colorText(value); }
 std::string format(const FilePath& value) { return value.path.empty() ? std::string(kNone) : value.path; }
+std::string format(const ScenePlace& place) {
+  if (place.none()) return std::string(kNone);
+  const auto& p = place.point;
+  return p ? toText(p->x) + "," + toText(p->y) + "," + toText(p->z) : place.object;
+}
 std::string format(const Region& r) {
   return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
          std::to_string(r.y1);
@@ -279,6 +295,8 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::region;
   else if constexpr (std::is_same_v<T, FilePath>)
     return Option::Kind::file;
+  else if constexpr (std::is_same_v<T, ScenePlace>)
+    return Option::Kind::place;
   else if constexpr (kIsSet<T>)
     return Option::Kind::choices;
   else
@@ -377,8 +395,9 @@ const std::array kOptions{
     row<&Settings::subdivideThreshold>(
         {.name = "subdivide-threshold",
          .group = "Picture",
-         .help = "corners of a square differ where red, green or blue do by more, as a part of white; 0 "
-                 "divides all that is not the same",
+         .help =
+             "corners of a square differ where red, green or blue do by more, as a part of white (0.004 is a "
+             "level of 255); 0 divides all that is not the same",
          .source = "Austin: supersample threshold",
          .least = 0,
          .most = 1}),
@@ -816,6 +835,12 @@ const std::array kOptions{
                            .least = 0,
                            .most = 1e30,
                            .unit = "units"}),
+    row<&Settings::focusOn>(
+        {.name = "focus-on",
+         .group = "Lens",
+         .help = "what is sharp, in place of a distance: an object by its name, or a point x,y,z",
+         .source = "docs/lens.md",
+         .repeats = Repeats::world}),
     row<&Settings::blades>(
         {.name = "blades",
          .group = "Lens",
@@ -1167,6 +1192,16 @@ const std::array kOptions{
          .group = "Resources",
          .help = "stop this long after the start, at most a few seconds later; a render keeps what is done; "
                  "0 never stops",
+         .source = "",
+         .repeats = Repeats::nothing,
+         .least = 0,
+         .most = 1e9,
+         .unit = "seconds"}),
+    row<&Settings::checkpointEvery>(
+        {.name = "checkpoint-every",
+         .group = "Resources",
+         .help = "how often the command writes what is done of a render beside its picture, to go on from if "
+                 "the machine fails; 0 writes none",
          .source = "",
          .repeats = Repeats::nothing,
          .least = 0,

@@ -16,7 +16,7 @@ namespace trace {
 enum class Repeats { nothing, tone, picture, world, scene };
 
 struct Option {
-  enum class Kind { boolean, integer, real, color, choice, choices, region, file };
+  enum class Kind { boolean, integer, real, color, choice, choices, region, file, place };
 
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;

@@ -28,6 +28,7 @@ struct Object {
   Affine worldFromObject;
   std::uint32_t material = 0;  ///< index into Scene::materials
   Place place;                 ///< where the file defines it
+  ObjectLinks links{};
   bool operator==(const Object&) const = default;
 };
 

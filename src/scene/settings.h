@@ -3,6 +3,7 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/enum_set.h"
@@ -65,6 +66,14 @@ struct FilePath {
   bool operator==(const FilePath&) const = default;
 };
 
+/// A place of the scene: a point, or an object by its name; none if it is neither.
+struct ScenePlace {
+  std::string object;
+  std::optional<Vec3> point{};
+  bool none() const { return object.empty() && !point; }
+  bool operator==(const ScenePlace&) const = default;
+};
+
 struct Settings {
   // Picture
   int width = 400;
@@ -73,7 +82,7 @@ struct Settings {
   int spp = 1;
   Real noiseTarget = 0;
   int subdivide = 0;
-  Real subdivideThreshold = 0.05;
+  Real subdivideThreshold = 0.003;
   bool denoise = false;
   Real time = 0;
   Real shutter = 0;
@@ -97,6 +106,7 @@ struct Settings {
   // Lens
   Real aperture = 0;
   Real focus = 0;
+  ScenePlace focusOn{};
   int blades = 0;
   Real bladeAngle = 0;
   FilePath aperturePicture{};
@@ -184,6 +194,7 @@ struct Settings {
   int threads = 0;
   Accel accel = Accel::bvh;
   Real timeLimit = 0;
+  Real checkpointEvery = 30;
   int maxMemory = 0;
 
   bool operator==(const Settings&) const = default;

@@ -161,7 +161,16 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
     if (const std::string& file = settings.aperturePicture.path; !file.empty()) {
       const Work work("reading the lens opening");
       now.aperture = std::make_shared<const Aperture>(madeOr(
-          scene, findOption("aperture-picture"), settings, messages, [&] { return reader.picture(file); },
+          scene, findOption("aperture-picture"), settings, messages,
+          [&] {
+            Picture picture = reader.picture(file);
+            if (std::all_of(picture.pixels.begin(), picture.pixels.end(), isBlack))
+              messages.warn(
+                  Place{.file = file},
+                  "aperture-picture: the picture is black everywhere: all of it is taken to be open",
+                  "white lets light through, and black does not");
+            return picture;
+          },
           [] { return missingPicture(8, 8); }));
     }
   }

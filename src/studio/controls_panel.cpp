@@ -29,6 +29,7 @@ std::string rangeText(const Option& option) {
     case Option::Kind::region:
       return "x0,y0,x1,y1 in pixels from the top left; nothing for the whole picture";
     case Option::Kind::file: return "a file, typed or chosen; nothing for none";
+    case Option::Kind::place: return "the name of an object, or a point x,y,z; nothing for none";
     case Option::Kind::choice:
     case Option::Kind::choices: {
       std::string text = option.kind == Option::Kind::choices ? "none or any of: " : "";
@@ -141,6 +142,12 @@ std::optional<std::string> editColor(const Option& option, const std::string& va
   return colorText({within(color->r), within(color->g), within(color->b)});
 }
 
+std::optional<std::string> editPlace(const std::string& value) {
+  std::string text = value == "none" ? "" : value;
+  if (!editText("##value", text, "an object, or x,y,z")) return {};
+  return text.empty() ? "none" : text;
+}
+
 /// The name, to be typed, and a button that opens the dialog.
 std::optional<std::string> editFile(Studio& studio, const Option& option, const std::string& value) {
   const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -169,6 +176,7 @@ std::optional<std::string> edit(Studio& studio, const Option& option, const std:
     case Option::Kind::color: return editColor(option, value);
     case Option::Kind::region: return editRegion(value);
     case Option::Kind::file: return editFile(studio, option, value);
+    case Option::Kind::place: return editPlace(value);
   }
   return {};
 }

@@ -35,8 +35,8 @@ std::string metBy(const TracedPixel& pixel, int index) {
   if (node.hit) return objectName(pixel.scene(), node.hit->object);
   for (const RayEnd& end : node.ends)
     if (const auto* stop = std::get_if<Blocked>(&end)) return objectName(pixel.scene(), stop->object);
-  const Term* term = termOf(pixel.tree(), index);
-  return term && term->light ? lightName(pixel.scene(), term->light->light) : "";
+  const auto light = lightOf(pixel.tree(), index);
+  return light ? lightName(pixel.scene(), *light) : "";
 }
 
 void drawHead(Studio& studio, const TracedPixel& pixel) {

@@ -94,6 +94,7 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::color: return {"0.5,0.25,1"};
     case Option::Kind::region: return {};
     case Option::Kind::file: return {test::sourceFolder() + "/scenes/pictures/dusk.png"};
+    case Option::Kind::place: return {"0,0,0"};
   }
   return {};
 }

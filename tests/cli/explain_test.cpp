@@ -256,6 +256,47 @@ TEST_F(Explain, NamesWhatBackFacesHides) {
   EXPECT_EQ(end["object"]["name"], "sail");
 }
 
+TEST_F(Explain, NamesLightsThatGiveNothingAndThoseThatFogScatters) {
+  const std::string scene = folder / "lights.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+settings { fog = 0.1; fog-samples = 2; }
+camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+spot_light { name = "aside"; position = (0, 9, 0); direction = (1, 0, 0); angle = 20; color = (1, 1, 1); }
+directional_light { name = "others"; direction = (0, 0, -1); color = (1, 1, 1); lights = ("wall"); }
+directional_light { name = "sun"; direction = (0, 0, -1); color = (1, 1, 1); }
+sphere { name = "ball"; material = { diffuse = (1, 1, 1); }; }
+square { name = "wall"; }
+)");
+  const std::vector<std::string> words{"explain", scene, "-w", "20", "--pixel", "10,10"};
+  const std::string text = out(words);
+  EXPECT_TRUE(contains(text, "+ aside 0; it shines elsewhere (its cone, flaps, picture or back)"));
+  EXPECT_TRUE(contains(text, "+ others 0; its links, or the object's, keep it off this object"));
+  EXPECT_TRUE(contains(text, "light of sun"));
+  EXPECT_TRUE(contains(text, "shadow ray to sun"));
+  EXPECT_TRUE(contains(text, "sum to the picture's pixel, bit for bit"));
+  std::vector<std::string> asJson = words;
+  asJson.insert(asJson.end(), {"--format", "json"});
+  const json all = json::parse(out(asJson));
+  std::size_t dark = 0, scattered = 0;
+  for (const json& term : all["rays"][0]["terms"]) {
+    dark += term.contains("dark");
+    scattered += term.contains("scattered");
+  }
+  EXPECT_EQ(dark, 2u);
+  EXPECT_EQ(scattered, 4u) << "two places ask those two lights that shine there: fog is lit by all";
+}
+
+TEST_F(Explain, TellsThatTheFileIsDenoisedOrOfTwoEyes) {
+  const std::vector<std::string> words{"explain", kScenes + "glass.ray", "-w",   "40",    "--pixel",
+                                       "20,12",   "--transfer",          "srgb", "--spp", "8"};
+  std::vector<std::string> clean = words, eyes = words;
+  clean.emplace_back("--denoise");
+  eyes.insert(eyes.end(), {"--stereo", "dubois"});
+  EXPECT_FALSE(contains(out(words), "; without "));
+  EXPECT_TRUE(contains(out(clean), "; without denoise"));
+  EXPECT_TRUE(contains(out(eyes), "; without the other eye"));
+}
+
 TEST_F(Explain, APixelOutsideOfTheRegionIsRefused) {
   const std::string scene = kScenes + "shapes.ray";
   EXPECT_NE(error({"explain", scene, "--pixel", "9,9", "-w", "20", "--region", "0,0,9,9"}, 2)

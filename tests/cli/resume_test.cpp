@@ -73,6 +73,28 @@ TEST_F(ResumeTest, SamplesAreAddedToAFinishedPicture) {
   EXPECT_TRUE(contains(grid.err, "none can be added later")) << grid.err;
 }
 
+TEST_F(ResumeTest, AStartOfManySamplesServesFewer) {
+  ASSERT_EQ(run(words("whole.png", {"-w", "300", "--spp", "200"})).code, 0);
+  const Run first = run(words("out.png", {"-w", "300", "--spp", "9999", "-t", "1", "--time-limit", "0.5"}));
+  ASSERT_EQ(first.code, 5) << first.err;
+  const Run second = run(words("out.png", {"-w", "300", "--spp", "200"}));
+  EXPECT_EQ(second.code, 0);
+  EXPECT_TRUE(contains(second.err, "going on from out.png.checkpoint, ")) << second.err;
+  EXPECT_EQ(bytes("out.png"), bytes("whole.png"));
+}
+
+TEST_F(ResumeTest, ASceneSaysHowOftenToWrite) {
+  write("never.ray", std::string(kScene) + "settings { checkpoint-every = 0; }\n");
+  const std::vector<std::string> all{"never.ray", "out.png", "-w", "300",          "--spp",
+                                     "64",        "-t",      "1",  "--time-limit", "0.3"};
+  ASSERT_EQ(run(all).code, 5);
+  EXPECT_FALSE(exists("out.png.checkpoint"));
+  std::vector<std::string> asked = all;
+  asked.insert(asked.end(), {"--checkpoint-every", "9"});
+  ASSERT_EQ(run(asked).code, 5);
+  EXPECT_TRUE(exists("out.png.checkpoint"));
+}
+
 TEST_F(ResumeTest, OfAnotherPictureIsTold) {
   run(words("out.png", {"-w", "300", "-t", "1", "--time-limit", "0.3"}));
   const Run r = run(words("out.png", {"-w", "40"}));

@@ -88,6 +88,32 @@ TEST_F(Stop, CtrlCTwiceEndsAtOnce) {
   EXPECT_FALSE(exists("out.png"));
 }
 
+/// A bar that is drawn is wiped out behind it.
+constexpr const char* kNothing = "stopped by the user: nothing written, for nothing was finished\n";
+
+TEST_F(Stop, CtrlCWhilePhotonsFlyEndsWithALastLine) {
+  write("photons.ray", std::string(kWhite) + "sphere { material = { reflective = (1,1,1); } }\n");
+  for (int signal : {SIGINT, SIGTERM}) {
+    Program program(folder(), {"photons.ray", "out.png", "-w", "8", "--caustics", "50000000", "-t", "2",
+                               "--progress=bar"});
+    ASSERT_TRUE(program.says("sending photons")) << program.err();
+    program.kill(signal);
+    EXPECT_EQ(program.wait(), 4);
+    EXPECT_TRUE(contains(program.err(), kNothing));
+    EXPECT_FALSE(exists("out.png"));
+  }
+}
+
+TEST_F(Stop, CtrlCWhileMomentsAreBuiltEndsWithALastLine) {
+  write("rise.ray", std::string(kWhite) + "terrain { points = 513; height = key((0, 0.1), (1, 0.9)); }\n");
+  Program program(
+      folder(), {"rise.ray", "out.png", "-w", "8", "--shutter", "1", "--moments", "4096", "--progress=bar"});
+  ASSERT_TRUE(program.says("building the moments")) << program.err();
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 4);
+  EXPECT_TRUE(contains(program.err(), kNothing));
+}
+
 TEST_F(Stop, SnapshotOnRequest) {
   for (int signal : {SIGUSR1, SIGHUP}) {
     Program program(folder(), longRender());

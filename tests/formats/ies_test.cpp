@@ -52,7 +52,40 @@ TEST(Ies, ReadsItsCandelas) {
 
   std::string warnings;
   EXPECT_NEAR(fromFile("tilt.ies", &warnings).lumens(), downlight.lumens(), 1e-9);
-  EXPECT_EQ(warnings, "TILT: what a lamp loses when the luminaire is tilted is left out of the photometry\n");
+  EXPECT_EQ(warnings,
+            "TILT: what a lamp loses when the luminaire is tilted is not counted: it shines as if it hung "
+            "straight\n");
+}
+
+/// A lamp of 100 candelas everywhere in these angles, with a multiplier; its warnings, "line: what".
+std::string warningsOf(const std::string& vertical, const std::string& horizontal, int rows, int columns,
+                       const std::string& multiplier = "1", const std::string& after = "") {
+  std::string bytes = "IESNA91\nTILT=NONE\n1 -1 " + multiplier + " " + std::to_string(rows) + " " +
+                      std::to_string(columns) + " 1 2 0 0 0\n1 1 60\n" + vertical + "\n" + horizontal + "\n";
+  for (int i = 0; i < rows * columns; ++i) bytes += "100 ";
+  Messages messages;
+  readIes("lamp.ies", bytes + after, messages);
+  std::string text;
+  for (const Message& m : messages.all()) text += std::to_string(m.place.line) + ": " + m.what + "\n";
+  return text;
+}
+
+TEST(Ies, WarnsOfAnglesThatTheStandardDoesNotHave) {
+  EXPECT_EQ(warningsOf("0 45 90", "0", 3, 1), "");
+  EXPECT_EQ(warningsOf("0 90", "0 90", 2, 2), "");
+  EXPECT_EQ(warningsOf("90 180", "0 180", 2, 2), "");
+  EXPECT_EQ(warningsOf("0 180", "90 180 270", 2, 3), "");
+  EXPECT_EQ(warningsOf("0 90", "0 120 240", 2, 3), "") << "360 is left out";
+  EXPECT_EQ(warningsOf("20 30", "0", 2, 1),
+            "6: expected vertical angles from 0 or 90 to 90 or 180 degrees, found 20 to 30: beyond these it "
+            "gives no light\n");
+  EXPECT_EQ(
+      warningsOf("0 90", "0 70", 2, 2),
+      "6: expected horizontal angles from 0 to 90, 180 or 360 degrees, or from 90 to 270, found 0 to 70: "
+      "the nearest of these stands for the others\n");
+  EXPECT_EQ(warningsOf("0 90", "0", 2, 1, "0"),
+            "4: the photometric file has no light: its multiplier or one of its ballast factors is 0\n");
+  EXPECT_EQ(warningsOf("0 90", "0", 2, 1, "1", "\n5\n"), "8: what follows the last candelas is ignored\n");
 }
 
 TEST(Ies, MultipliesByItsFactorsAndClosesTheRound) {

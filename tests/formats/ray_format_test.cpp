@@ -676,6 +676,52 @@ TEST(RayFormat, ReadsAndWritesLinksAndFlaps) {
   EXPECT_EQ(back.lights.at(0).links, source.links);
 }
 
+TEST(RayFormat, ReadsAndWritesTheLightsThatObjectsName) {
+  const Loaded loaded = load(
+      "directional_light { name = \"key\"; direction = (0, -1, 0); color = (1, 1, 1); }\n"
+      "sphere { name = \"ball\"; lit_by = (\"key\", \"fill\"); }\n"
+      "polymesh { not_lit_by = (\"key\"); points = ((0, 0, 0), (1, 0, 0), (0, 1, 0)); faces = ((0, 1, 2)); "
+      "}\n"
+      "rows { count = (2, 1, 1); box { lit_by = (\"rim\"); } }");
+  EXPECT_EQ(loaded.warnings.size(), 0u);
+  const std::vector<Object>& objects = loaded.scene.objects;
+  EXPECT_EQ(objects.at(0).links, (ObjectLinks{.litBy = {"key", "fill"}, .notLitBy = {}}));
+  EXPECT_EQ(objects.at(1).links, (ObjectLinks{.litBy = {}, .notLitBy = {"key"}}));
+  EXPECT_EQ(objects.at(3).links, (ObjectLinks{.litBy = {"rim"}, .notLitBy = {}}))
+      << "copies as what they copy";
+  Messages messages;
+  const Scene back =
+      readScene("back.ray", writeRay(loaded.scene, "back.ray", {}, messages).front().bytes, messages);
+  for (std::size_t i = 0; i < objects.size(); ++i) EXPECT_EQ(back.objects.at(i).links, objects[i].links) << i;
+  const Loaded part = load(
+      "directional_light { name = \"key\"; direction = (0, -1, 0); color = (1, 1, 1); }\n"
+      "union { sphere { lit_by = (\"key\"); } box { } }");
+  ASSERT_EQ(part.warnings.size(), 1u);
+  EXPECT_NE(part.warnings[0].what.find("the whole says them"), std::string::npos);
+}
+
+TEST(RayFormat, RefusesProjectorsWithoutAView) {
+  const std::string light =
+      "projector_light { position = (0, 4, 0); direction = (0, -1, 0); color = (1, 1, 1); ";
+  EXPECT_THROW(load(light + "fov = 180; }"), Error);
+  EXPECT_THROW(load(light + "fov = 0; }"), Error);
+  EXPECT_EQ(load(light + "} sphere { }").warnings.size(), 0u);
+  const Loaded along = load(light + "up = (0, 2, 0); } sphere { }");
+  ASSERT_EQ(along.warnings.size(), 1u);
+  EXPECT_NE(along.warnings[0].what.find("not along the direction"), std::string::npos);
+}
+
+TEST(RayFormat, NamesTheMisspeltFieldThatALightCannotDoWithout) {
+  try {
+    load("point_light { position = (0, 1, 0); colr = (1, 1, 1); }");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("\"colr\" is not known: did you mean \"color\"?"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // --- what is not rendered, and what is unknown --------------------------------------------------------
 
 TEST(RayFormat, KeepsWhatItDoesNotRender) {
@@ -714,12 +760,13 @@ TEST(RayFormat, WarnsOfUnknownWords) {
   EXPECT_EQ(warningsOf("camera { viewdri = 4; viewdri = 5 }"),
             "2:10: unknown field \"viewdri\" of camera is ignored (2 times, first here) [did you mean "
             "\"viewdir\"?]");
-  EXPECT_EQ(warningsOf("sphere { material = { difuse = 4 } capped = true }"),
-            "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
-            "2:36: unknown field \"capped\" of sphere is ignored [it has material, name]");
   EXPECT_EQ(
-      warningsOf("torus { tube = 1 }"),
-      "2:9: unknown field \"tube\" of torus is ignored [it has material, name, major_radius, minor_radius]");
+      warningsOf("sphere { material = { difuse = 4 } capped = true }"),
+      "2:23: unknown field \"difuse\" of material is ignored [did you mean \"diffuse\"?]\n"
+      "2:36: unknown field \"capped\" of sphere is ignored [it has material, name, lit_by, not_lit_by]");
+  EXPECT_EQ(warningsOf("torus { tube = 1 }"),
+            "2:9: unknown field \"tube\" of torus is ignored [it has material, name, lit_by, not_lit_by, "
+            "major_radius, minor_radius]");
   EXPECT_EQ(warningsOf("polymesh { point = () }"),
             "2:12: unknown field \"point\" of polymesh is ignored [did you mean \"points\"?]\n"
             "2:10: polymesh: nothing of it can be seen, for it has no faces");

@@ -152,11 +152,20 @@ TEST(Film, GoesOnWithTheSameBitsFromWhatWasSaved) {
   EXPECT_EQ(more.waves().back().end, 50);
   takeAll(more);
   EXPECT_TRUE(more.complete());
+
+  Film fewer = filmOf(7), few = filmOf(7);  // of 20 that were planned two are there
+  fewer.restore(part.saved());
+  EXPECT_EQ(fewer.samplesDone(), 3);
+  takeAll(fewer);
+  takeAll(few);
+  EXPECT_TRUE(fewer.complete());
+  EXPECT_EQ(fewer.picture(), few.picture());
 }
 
 TEST(Film, TakesNothingThatDoesNotFit) {
   Film film(40, 3, 4);
-  film.add(0, 0, uniform(film, 0, 0, Color(2)));
+  for (std::size_t wave = 0; wave < film.waves().size(); ++wave)
+    film.add(0, wave, uniform(film, 0, wave, Color(2)));
   const std::string bytes = film.saved();
   const auto refuses = [](Film other, std::string_view state) {
     EXPECT_THROW(other.restore(state), std::runtime_error);

@@ -68,6 +68,25 @@ TEST(LightLinks, ALightLightsWhatItNames) {
   }
 }
 
+TEST(LightLinks, AnObjectNamesTheLightsThatLightIt) {
+  const Settings settings = settingsOf(IntegratorKind::whitted, 8, 1);
+  const auto sides = [&](const ObjectLinks& left, const LightLinks& key = {.name = "key"}) {
+    Scene scene = twoWalls();
+    scene.objects[0].links = left;
+    scene.lights.push_back({DirectionalLight{.direction = {0, 0, -1}, .color = Color(1)}, {}, key});
+    scene.lights.push_back(
+        {DirectionalLight{.direction = {0, 0, -1}, .color = Color(0.5)}, {}, {.name = "fill"}});
+    const Picture all = picture(scene, settings);
+    return std::pair{all.at(1, 4).g, all.at(6, 4).g};
+  };
+  EXPECT_EQ(sides({}), (std::pair{0.75, 0.75}));
+  EXPECT_EQ(sides({.litBy = {"key"}}), (std::pair{0.5, 0.75}));
+  EXPECT_EQ(sides({.litBy = {"key", "fill"}, .notLitBy = {"key"}}), (std::pair{0.25, 0.75}));
+  EXPECT_EQ(sides({.litBy = {"nobody"}}), (std::pair{0.0, 0.75}));
+  EXPECT_EQ(sides({.litBy = {"key"}}, {.name = "key", .lights = {"right"}}), (std::pair{0.0, 0.75}))
+      << "both have to agree";
+}
+
 // --- lights that are seen -----------------------------------------------------------------------------
 
 /// A floor with a mirror in it before a panel that stands.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
@@ -155,6 +157,58 @@ TEST(Media, ScatterTheLightOfALampOnceByTheIntegral) {
     rules.mediumDepth = 1;
     EXPECT_NEAR(mean(scene, rules) / expected, 1, 0.02) << textured;
   }
+}
+
+TEST(Media, AskTheLightsAtAsManyPlacesWhetherTheyChangeOrNot) {
+  for (const bool cloud : {true, false})
+    for (const bool foggy : {true, false}) {
+      if (!cloud && !foggy) continue;
+      Scene scene = looking();
+      if (cloud) addCloud(scene, Cube{}, boxAt(-3, 4), 0.5);
+      scene.lights.push_back({PointLight{.position = {0, 2, -3}, .color = Color(4)}, {}, {.name = "lamp"}});
+      Settings settings = small(IntegratorKind::whitted, 1);
+      settings.fog = foggy ? 0.3 : 0;
+      settings.fogSamples = 8;
+      const RayTree tree = explained(scene, settings, 1, 1, 0).tree;
+      std::set<Real> places;
+      for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
+        EXPECT_EQ(lightOf(tree, static_cast<int>(i)), 0u) << "the ray names its light";
+        places.insert(tree.nodes[i].ray.origin.z);
+      }
+      EXPECT_GE(places.size(), cloud && foggy ? 6u : 8u) << "of both, some may be chosen twice";
+    }
+}
+
+TEST(Media, MorePlacesAreLessNoiseWhereTheyAreTheSameEverywhere) {
+  Scene scene = looking();
+  addCloud(scene, Cube{}, boxAt(-3, 4), 0.5);
+  scene.lights.push_back({PointLight{.position = {0, 1, -3}, .color = Color(4)}, {}});
+  const auto noise = [&](int places) {
+    Settings settings = small(IntegratorKind::whitted, 1);
+    settings.width = settings.height = 32;
+    settings.sampling = SampleKind::random;
+    settings.fogSamples = places;
+    Real sum = 0, squares = 0;
+    const Picture all = picture(scene, settings);
+    for (const Color& c : all.pixels) sum += c.g, squares += c.g * c.g;
+    const Real n = static_cast<Real>(all.pixels.size());
+    return std::sqrt(squares / n - sum / n * sum / n);
+  };
+  EXPECT_LT(noise(16), noise(1) / 6) << "each place in a part of its own";
+}
+
+TEST(Media, AreLitThroughGlassWherePhotonsGatherCaustics) {
+  Scene scene = looking();
+  addCloud(scene, Cube{}, boxAt(-3, 4), 0.5);
+  Phong glass;
+  glass.transmissive = Color(1), glass.index = 1.5;
+  addObject(scene, Sphere{}, Affine::translation({0, 3, -3}), glass);
+  scene.lights.push_back({PointLight{.position = {0, 6, -3}, .color = Color(40)}, {}});
+  Settings settings = small(IntegratorKind::whitted, 16);
+  const Real without = mean(scene, settings);
+  settings.caustics = 1000;
+  EXPECT_NEAR(mean(scene, settings), without, 1e-12) << "photons are kept on surfaces alone";
+  EXPECT_GT(without, 0.01);
 }
 
 TEST(Media, ScatterOftenAsAHalfSpaceDoes) {

@@ -22,6 +22,7 @@ std::vector<std::string> someValues(const Option& option) {
     case Option::Kind::color: return {"0.25", "0.5,0.25,1", "0"};
     case Option::Kind::region: return {"1,2,30,40", "0,0,0,0"};
     case Option::Kind::file: return {"pictures/a b.png", "/x.hdr", "none", "../y"};
+    case Option::Kind::place: return {"a ball", "1,-2.5,3", "none", "box, the second"};
     default: return {option.get({}), std::to_string(static_cast<int>(option.least) + 1)};
   }
 }
@@ -49,7 +50,8 @@ TEST(Options, TextRoundTrips) {
 TEST(Options, BadValuesAreRefusedByNameAndChangeNothing) {
   for (const Option& option : options())
     for (const char* bad : {"", "banana", "nan", "inf", "1e99", "-1e99", "1;2"}) {
-      if (option.kind == Option::Kind::file && *bad) continue;  // files may be called anything
+      const bool isName = option.kind == Option::Kind::file || option.kind == Option::Kind::place;
+      if (isName && *bad) continue;  // files and objects may be called anything
       Settings settings;
       try {
         option.assign(settings, bad);

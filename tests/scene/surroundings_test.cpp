@@ -149,5 +149,15 @@ TEST(Surroundings, PicturesThatAreTooLargeAreALimit) {
   EXPECT_THROW(readSurroundings(scene, resolve({choices}), {.memory = 100}, messages), Error);
 }
 
+TEST(Surroundings, ABlackLensOpeningIsToldOnce) {
+  const Folder folder;
+  const std::string black = pictureOf(folder / "black.png", 2, 2, Color(0));
+  const std::string white = pictureOf(folder / "white.png", 2, 2, Color(1));
+  const Read read({}, {{"aperture-picture", black, {}}});
+  ASSERT_EQ(read.messages.all().size(), 1u);
+  EXPECT_NE(read.messages.all()[0].what.find("black everywhere"), std::string::npos);
+  EXPECT_TRUE(Read({}, {{"aperture-picture", white, {}}}).messages.all().empty());
+}
+
 }  // namespace
 }  // namespace trace::test

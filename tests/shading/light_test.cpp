@@ -149,7 +149,27 @@ TEST(Projector, ThrowsItsPictureUprightAndTheRightWayRound) {
   EXPECT_NEAR(at(0, 0).g, 2 * 0.5, 1e-12);
   light.filter = TexelFilter::trilinear;
   light.blur = 1;
-  EXPECT_NEAR(at(-1, 3).r, 2 * 0.5, 1e-9) << "all of it is blurred into one";
+  EXPECT_NEAR(at(-1, 3).r, 2 * 0.5 * 0.5 * 0.7, 1e-9) << "all of it is blurred into one, its frame with it";
+}
+
+TEST(Projector, OutOfFocusItsFrameIsSoftAndItKeepsItsLight) {
+  ProjectorLight light{.position = {0, 0, 5}, .direction = {0, 0, -1}, .color = Color(1)};
+  light.fov = 90;  // 10 wide and high at z = 0
+  const auto at = [&](Real x) {
+    const auto arriving = light.illuminate({x, 0, 0}, {});
+    return arriving ? arriving->intensity().g : 0;
+  };
+  Real sharp = 0, soft = 0;
+  for (Real x = -7.995; x < 8; x += 0.01) sharp += at(x);
+  light.blur = 0.2;
+  EXPECT_NEAR(at(5), 0.5, 1e-12);
+  EXPECT_NEAR(at(4.5), 0.75, 1e-12);
+  EXPECT_NEAR(at(5.5), 0.25, 1e-12);
+  EXPECT_NEAR(at(3.9), 1, 1e-12);
+  EXPECT_EQ(at(6.01), 0);
+  for (Real x = -7.995; x < 8; x += 0.01) soft += at(x);
+  EXPECT_NEAR(soft / sharp, 1, 1e-3);
+  EXPECT_GE(light.reach({}).around, std::atan(1.2)) << "a tree of lights knows of it";
 }
 
 TEST(Projector, NumbersOfSrgbBecomeLinear) {

@@ -106,6 +106,27 @@ void checkArea(Findings& findings, const Item& call, const L& light) {
                     std::string(L::kKeyword) + ": expected sides u and v that are not parallel: it is dark");
 }
 
+/// Between nothing and all that is ahead.
+template <class L>
+bool checkView(Findings& findings, const Item& call, const L& light) {
+  if constexpr (requires { light.fov; }) {
+    if (light.fov > 0 && light.fov < 180) return true;
+    findings.error(call, std::string(L::kKeyword) + ": expected a fov between 0 and 180 degrees, found " +
+                             toText(light.fov));
+    return false;
+  }
+  return true;
+}
+
+/// What is up cannot be told where it lies along the direction.
+template <class L>
+void checkUp(Findings& findings, const Item& call, const L& light, bool given) {
+  if constexpr (requires { light.up; })
+    if (given && !(length(cross(light.direction, light.up)) > 0))
+      findings.warn(call, std::string(L::kKeyword) +
+                              ": expected an up that is not along the direction: another one is chosen");
+}
+
 template <class L>
 void read(Findings& findings, const Item& call) {
   const std::optional<Item> block = blockOf(findings, call);
@@ -114,7 +135,7 @@ void read(Findings& findings, const Item& call) {
   LightLinks links;
   StudentSpot spot;
   const std::size_t errors = findings.errors();
-  std::vector<std::string_view> given;
+  std::vector<std::string_view> given, unknown;
   RepeatedFields repeats(findings, L::kKeyword);
   for (const Item item : *block) {
     if (!isField(findings, item, L::kKeyword)) continue;
@@ -130,19 +151,31 @@ void read(Findings& findings, const Item& call) {
     if (assignField(findings, links, item)) continue;
     if (!assignField(findings, light, item)) {
       findings.unknownField(L::kKeyword, item, keywords<L>({"colour", "name", "lights", "excludes"}));
+      unknown.push_back(item.key());
       continue;
     }
     checkRange(findings, light, item);
     given.push_back(canonical(item.key()));
   }
+  const auto isGiven = [&](std::string_view field) {
+    return std::find(given.begin(), given.end(), field) != given.end();
+  };
   forEachField<L>([&](const auto& field) {
-    if (isRequired(field.keyword) && std::find(given.begin(), given.end(), field.keyword) == given.end())
-      findings.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword));
+    if (!isRequired(field.keyword) || isGiven(field.keyword)) return;
+    const std::string meant = nearest(field.keyword, unknown);
+    findings.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword),
+                   meant.empty() ? ""
+                                 : "\"" + meant + "\" is not known: did you mean \"" +
+                                       std::string(field.keyword) + "\"?");
   });
-  if (findings.errors() != errors || !checkDirection(findings, call, light)) return;
+  if (findings.errors() != errors || !checkDirection(findings, call, light) ||
+      !checkView(findings, call, light))
+    return;
   checkArea(findings, call, light);
+  checkUp(findings, call, light, isGiven("up"));
+  if constexpr (requires { light.exponent; }) light.exponent = std::max(0.0, light.exponent);
   if constexpr (requires { light.fullAngle; }) {
-    const bool fullAngle = std::find(given.begin(), given.end(), "full_angle") != given.end();
+    const bool fullAngle = isGiven("full_angle");
     if (!fullAngle) spot.settle(light);
     if (light.fullAngle > light.angle && fullAngle)
       findings.warn(call, "spot_light: expected a full_angle of at most the angle, found " +

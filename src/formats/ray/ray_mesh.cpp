@@ -17,9 +17,9 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 15> kMeshFields{
-    "uv",      "shared", "crease", "faces",       "gennormals", "material",   "materials", "name",
-    "normals", "points", "scheme", "sharp_edges", "subdivide",  "texture_uv", "two_sided"};
+constexpr std::array<std::string_view, 17> kMeshFields{
+    "uv",      "shared", "crease", "faces",       "gennormals", "material",   "materials", "name",  "lit_by",
+    "normals", "points", "scheme", "sharp_edges", "subdivide",  "texture_uv", "two_sided", "not_lit_by"};
 
 class MeshReader {
  public:
@@ -87,7 +87,7 @@ class MeshReader {
       node_.material = materials_.read(value, materials_.current);
       return true;
     }
-    if (operations_.read(findings_, item)) return true;
+    if (assignField(findings_, node_.links, item) || operations_.read(findings_, item)) return true;
     findings_.unknownField(Mesh::kKeyword, item, kMeshFields);
     return true;
   }

@@ -10,6 +10,7 @@
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_syntax.h"
 #include "geometry/mesh/mesh.h"
+#include "shading/lights/light_links.h"
 
 namespace trace::rayfile {
 
@@ -18,6 +19,7 @@ struct MeshNode {
   Mesh mesh;
   NotedMaterial material;
   std::string name;
+  ObjectLinks links{};
 };
 
 /// Meshes that later blocks may name: `shared = NAME;`.

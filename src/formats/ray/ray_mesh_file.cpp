@@ -13,8 +13,8 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 8> kFileFields{"uv",         "crease",   "file", "objfile",
-                                                      "gennormals", "material", "name", "subdivide"};
+constexpr std::array<std::string_view, 10> kFileFields{
+    "uv", "crease", "file", "objfile", "gennormals", "material", "name", "subdivide", "lit_by", "not_lit_by"};
 
 bool isMeshFile(const Item& item) {
   return item.keyed() && (item.key() == "file" || item.key() == "objfile");
@@ -35,6 +35,7 @@ std::vector<Object> MeshFiles::read(const Item& block) {
   NotedMaterial material =
       materials_.current == Material{} ? NotedMaterial(plainMaterial()) : materials_.current;
   bool generate = false;
+  ObjectLinks links;
   MeshOperations operations;
   for (const Item item : block) {
     if (item.is(Kind::word) && item.text() == "gennormals") {
@@ -49,7 +50,7 @@ std::vector<Object> MeshFiles::read(const Item& block) {
       rayfile::read(findings_, "gennormals", item.value(), generate);
     } else if (item.key() == "material") {
       material = materials_.read(item.value(), materials_.current);
-    } else if (!operations.read(findings_, item)) {
+    } else if (!assignField(findings_, links, item) && !operations.read(findings_, item)) {
       findings_.unknownField("a mesh from a file", item, kFileFields);
     }
   }
@@ -64,8 +65,10 @@ std::vector<Object> MeshFiles::read(const Item& block) {
       change(placed->second, generate, operations, findings_.syntax().shortPlace(block.offset()));
   }
   std::vector<Object> objects = placed->second;
-  if (!name.empty())
-    for (Object& object : objects) object.name = name;
+  for (Object& object : objects) {
+    if (!name.empty()) object.name = name;
+    object.links = links;
+  }
   return objects;
 }
 

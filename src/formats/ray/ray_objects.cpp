@@ -119,17 +119,25 @@ void ObjectReader::shape(const ShapeType& type, const Item& call, const Affine& 
 
 void ObjectReader::mesh(const Item& call, const Item& block, const Affine& worldFromObject) {
   if (namesMeshFile(block)) {
-    for (Object& part : meshFiles_.read(block))
-      add(call, std::move(part.name), std::move(part.shape), worldFromObject * part.worldFromObject,
-          part.material);
+    for (Object& part : meshFiles_.read(block)) {
+      part.worldFromObject = worldFromObject * part.worldFromObject;
+      add(call, std::move(part));
+    }
     return;
   }
   std::optional<MeshNode> node = readMesh(findings_, materials_, sharedMeshes_, block);
-  if (node) add(call, std::move(node->name), std::move(node->mesh), worldFromObject, node->material);
+  if (node)
+    add(call, {std::move(node->name),
+               std::move(node->mesh),
+               worldFromObject,
+               materials_.index(node->material),
+               {},
+               std::move(node->links)});
 }
 
 void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& block, Affine worldFromObject) {
   std::string name;
+  ObjectLinks links;
   NotedMaterial material = materials_.current;
   const std::size_t errors = findings_.errors();
   const bool ofObjects = shape.type().ofObjects;
@@ -142,9 +150,11 @@ void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& bloc
       material = materials_.read(item.value(), materials_.current);
     } else if (item.key() == "name") {
       rayfile::read(findings_, "name", item.value(), name);
+    } else if (assignField(findings_, links, item)) {
     } else if (readMaterials(shape, item, material)) {
     } else if (!assignField(findings_, shape, item)) {
-      findings_.unknownField(shape.keyword(), item, keywords(shape, {"material", "name"}));
+      findings_.unknownField(shape.keyword(), item,
+                             keywords(shape, {"material", "name", "lit_by", "not_lit_by"}));
     }
   }
   if (ofObjects) shape.setOperands(operands(call, block, material, shape.is<Clip>()));
@@ -165,7 +175,8 @@ void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& bloc
   }
   if (const auto* julia = shape.as<Julia>())
     if (const std::string excess = julia->excess(); !excess.empty()) findings_.warn(call, excess);
-  add(call, std::move(name), shape, worldFromObject, material);
+  add(call,
+      {std::move(name), std::move(shape), worldFromObject, materials_.index(material), {}, std::move(links)});
 }
 
 void ObjectReader::warnOfRanges(const Shape& shape, const Item& block) {
@@ -230,6 +241,8 @@ void ObjectReader::operand(const Item& whole, const Item& item, bool mayBeOpen,
     if (!mayBeOpen && !check(o.shape).solid)
       findings_.error(item, "expected a solid, found " + describe(item),
                       "an open object can only be the first in a clip { }");
+    if (o.links != ObjectLinks{})
+      findings_.warn(item, "lit_by and not_lit_by of a part of a solid change nothing: the whole says them");
     parts.push_back({std::move(o.name), std::move(o.shape), o.worldFromObject, o.material});
   }
   if (parts.size() > 1)
@@ -237,18 +250,13 @@ void ObjectReader::operand(const Item& whole, const Item& item, bool mayBeOpen,
   for (Operand& part : parts) operands.push_back(std::move(part));
 }
 
-void ObjectReader::add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
-                       const NotedMaterial& material) {
-  add(call, std::move(name), std::move(shape), worldFromObject, materials_.index(material));
-}
-
-void ObjectReader::add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
-                       std::uint32_t material) {
-  if (!invertible(worldFromObject))
+/// Its place is that of the call.
+void ObjectReader::add(const Item& call, Object object) {
+  if (!invertible(object.worldFromObject))
     return findings_.warn(call,
                           "an object is left out: its transform makes it flat, or infinitely large or small");
-  scene_.objects.push_back(
-      {std::move(name), std::move(shape), worldFromObject, material, syntax_.shortPlace(call.offset())});
+  object.place = syntax_.shortPlace(call.offset());
+  scene_.objects.push_back(std::move(object));
 }
 
 void ObjectReader::namedMaterial(const Item& call) {

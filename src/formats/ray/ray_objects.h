@@ -75,10 +75,7 @@ class ObjectReader {
   Operands operands(const Item& call, const Item& block, const NotedMaterial& material, bool clips);
   /// A group is one operand: the union of its objects.
   void operand(const Item& whole, const Item& item, bool mayBeOpen, std::vector<Operand>& operands);
-  void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
-           const NotedMaterial& material);
-  void add(const Item& call, std::string name, Shape shape, const Affine& worldFromObject,
-           std::uint32_t material);
+  void add(const Item& call, Object object);
   /// The particles alive at the frame's time, each as the objects of the block; spheres if there are none.
   void particles(const Item& call, const Affine& worldFromObject);
   /// Copies of the objects of the block.

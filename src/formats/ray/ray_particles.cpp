@@ -62,7 +62,7 @@ void ObjectReader::particles(const Item& call, const Affine& worldFromObject) {
       tint(materials_.current, lerp(static_cast<Real>(shade) / kShades, system.color, system.endColor));
       std::vector<Object> found = std::exchange(scene_.objects, {});
       for (const Item& item : shown) object(item, {});
-      if (shown.empty()) add(call, {}, Sphere{}, {}, materials_.current);
+      if (shown.empty()) add(call, {{}, Sphere{}, {}, materials_.index(materials_.current), {}});
       found.swap(scene_.objects);
       objects = std::move(found);
       if (objects.empty()) break;  // nothing to show, and that is reported
@@ -76,8 +76,10 @@ void ObjectReader::particles(const Item& call, const Affine& worldFromObject) {
     checkBudget();
     const Real size = system.size + particle.age * (system.endSize - system.size);
     const Affine place = Affine::translation(particle.place) * Affine::scaling({size, size, size});
-    for (const Object& o : objects)
-      add(call, o.name, o.shape, worldFromObject * place * o.worldFromObject, o.material);
+    for (Object o : objects) {
+      o.worldFromObject = worldFromObject * place * o.worldFromObject;
+      add(call, std::move(o));
+    }
   }
   materials_.current = outside;
 }

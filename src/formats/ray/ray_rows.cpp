@@ -90,11 +90,13 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
       for (int z = 0; z < static_cast<int>(n.z); ++z) {
         checkBudget();
         const Rows::Copy copy = rows.copy(x, y, z);
-        const Affine placed = Affine::translation(copy.place) * Affine::scaling(Vec3(copy.size));
+        const Affine placed = Affine::translation(copy.place) * Affine::scaling({copy.size, copy.size, copy.size});
         for (const LightSource& source : lights)
           if (hasPlace(source)) scene_.lights.push_back(moved(source, copy));
-        for (const Object& o : copied)
-          add(call, o.name, o.shape, worldFromObject * placed * o.worldFromObject, o.material);
+        for (Object o : copied) {
+          o.worldFromObject = worldFromObject * placed * o.worldFromObject;
+          add(call, std::move(o));
+        }
       }
 }
 

@@ -54,7 +54,7 @@ bool sameShape(const Scene& a, const Shape& x, const Scene& b, const Shape& y) {
 }
 
 bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y) {
-  return x.name == y.name && a.materials.at(x.material) == b.materials.at(y.material) &&
+  return x.name == y.name && x.links == y.links && a.materials.at(x.material) == b.materials.at(y.material) &&
          nearlyEqual(x.worldFromObject, y.worldFromObject) && sameShape(a, x.shape, b, y.shape);
 }
 

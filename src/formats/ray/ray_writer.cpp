@@ -152,9 +152,7 @@ class Writer {
       out_ += std::string(from.kKeyword) + " {\n";
       fields(from);
     });
-    forEachField<LightLinks>([&](const auto& f) {
-      if (!(links.*f.member).empty()) field(f.keyword, links.*f.member);
-    });
+    writeLinks(links);
     out_ += "}\n\n";
   }
 
@@ -259,7 +257,7 @@ class Writer {
       writeMesh(object, *mesh->data);
     } else {
       out_ += std::string(object.shape.keyword()) + " {\n";
-      writeName(object);
+      writeNames(object);
       forEachField(object.shape, [&](const AnyField& f, const auto& value) { field(f.keyword, value); });
       writeOwnMaterial(object);
     }
@@ -269,14 +267,24 @@ class Writer {
                    .shape = operand.shape,
                    .worldFromObject = operand.wholeFromOperand,
                    .material = operand.material,
-                   .place = {}});
+                   .place = {},
+                   .links = {}});
     });
     inWhole_ = outside;
     out_ += "}" + std::string(steps.size(), ')') + "\n\n";
   }
 
-  void writeName(const Object& object) {
+  /// Its own, and those of lights.
+  void writeNames(const Object& object) {
     if (!object.name.empty()) field("name", object.name);
+    writeLinks(object.links);
+  }
+
+  template <class Links>
+  void writeLinks(const Links& links) {
+    forEachField<Links>([&](const auto& f) {
+      if (!(links.*f.member).empty()) field(f.keyword, links.*f.member);
+    });
   }
 
   void writeOwnMaterial(const Object& object) {
@@ -288,7 +296,7 @@ class Writer {
   /// The materials of points stand before that of the mesh, which they would inherit from.
   void writeMesh(const Object& object, const MeshData& mesh) {
     out_ += std::string(Mesh::kKeyword) + " {\n";
-    writeName(object);
+    writeNames(object);
     if (uses_.at(&mesh) > 1) {
       const auto [number, fresh] = shared_.try_emplace(&mesh, shared_.size());
       out_ += "  shared = " + std::to_string(number->second) + ";\n";

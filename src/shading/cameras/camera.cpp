@@ -221,6 +221,15 @@ Vec2 CameraFrame::inEyeOf(const Vec2& pixel, Vec2 place) const {
   return place;
 }
 
+Real CameraFrame::focusOn(const Vec3& point) const {
+  const bool flat =
+      optics.projection == Projection::perspective || optics.projection == Projection::orthographic;
+  if (!flat && optics.tilt == 0) return length(point - eye);
+  const Axes axes(*this);
+  const Vec3 normal = axes.ahead * std::cos(optics.tilt) + axes.up * std::sin(optics.tilt);
+  return dot(normal, point - eye) / dot(normal, axes.ahead);
+}
+
 bool CameraFrame::wantsMiddle() const {
   return (optics.lens.radius > 0 && optics.lens.focus == 0) ||
          (optics.projection == Projection::orthographic && optics.viewHeight == 0) ||

@@ -128,6 +128,10 @@ struct CameraFrame {
   /// Of two eyes: the place of the whole picture that is nearest to `place` in the same eye's as `pixel`.
   Vec2 inEyeOf(const Vec2& pixel, Vec2 place) const;
 
+  /// The distance at which the lens is to be focused for the point to be sharp; not above 0 where it lies
+  /// behind a flat picture.
+  Real focusOn(const Vec3& point) const;
+
   /// Something is left to the first surface in the middle of the picture.
   bool wantsMiddle() const;
   /// That surface is at this distance.

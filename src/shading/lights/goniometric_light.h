@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
 #include "shading/lights/photometry.h"
 
@@ -40,11 +41,8 @@ struct GoniometricLight {
                         "to where the horizontal angle is 0 (types A and B: what is up)"},
                   Field{"per_candela", &GoniometricLight::perCandela, "", 0, kNoLimit,
                         "a factor for each candela of the file; 0: the brightest direction counts as 1"},
-                  Field{"constant_attenuation_coeff", &GoniometricLight::constant, "", 0, kNoLimit, "a"},
-                  Field{"linear_attenuation_coeff", &GoniometricLight::linear, "", 0, kNoLimit, "b"},
-                  Field{"quadratic_attenuation_coeff", &GoniometricLight::quadratic, "", 0, kNoLimit, "c"},
-                  Field{"radius", &GoniometricLight::radius, "units", 0, kNoLimit,
-                        "of the ball that shines; more than 0 makes shadows soft"}};
+                  fadingFields<GoniometricLight>(),
+                  ballField<GoniometricLight>()};
   }
   bool operator==(const GoniometricLight&) const = default;
   bool hasSize() const { return radius > 0; }

@@ -1,4 +1,5 @@
-// Which objects a light lights (light linking, as production renderers call it).
+// Which objects a light lights (light linking, as production renderers call it): the light says it, or the
+// object, or both. An object is lit by a light if neither objects.
 #pragma once
 
 #include <string>
@@ -23,6 +24,20 @@ struct LightLinks {
               "names of objects that it does not light"}};
   }
   bool operator==(const LightLinks&) const = default;
+};
+
+/// The same, as an object says it.
+struct ObjectLinks {
+  std::vector<std::string> litBy{};     ///< names of the lights that light it; none: all
+  std::vector<std::string> notLitBy{};  ///< names of lights that do not
+
+  static constexpr auto fields() {
+    return Fields{Field{"lit_by", &ObjectLinks::litBy, "", -kNoLimit, kNoLimit,
+                        "names of the lights that light it; none: all"},
+                  Field{"not_lit_by", &ObjectLinks::notLitBy, "", -kNoLimit, kNoLimit,
+                        "names of lights that do not light it"}};
+  }
+  bool operator==(const ObjectLinks&) const = default;
 };
 
 }  // namespace trace

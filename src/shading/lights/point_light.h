@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
 #include "shading/lights/light_seen.h"
 
@@ -28,13 +29,10 @@ struct PointLight {
   static constexpr auto fields() {
     return Fields{Field{"position", &PointLight::position, "", -kNoLimit, kNoLimit, "where it is"},
                   Field{"color", &PointLight::color, "", 0, kNoLimit, "its intensity"},
-                  Field{"constant_attenuation_coeff", &PointLight::constant, "", 0, kNoLimit, "a"},
-                  Field{"linear_attenuation_coeff", &PointLight::linear, "", 0, kNoLimit, "b"},
-                  Field{"quadratic_attenuation_coeff", &PointLight::quadratic, "", 0, kNoLimit, "c"},
+                  fadingFields<PointLight>(),
                   Field{"extra_highlight", &PointLight::extraHighlight, "", -kNoLimit, kNoLimit,
                         "added to color in highlights"},
-                  Field{"radius", &PointLight::radius, "units", 0, kNoLimit,
-                        "of the ball that shines; more than 0 makes shadows soft"},
+                  ballField<PointLight>(),
                   Field{"visible", &PointLight::visible, "", 0, 1,
                         "the ball is seen, in mirrors and through glass, too"}};
   }

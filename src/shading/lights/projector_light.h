@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
 #include "shading/textures/image_map.h"
 
@@ -49,14 +50,17 @@ struct ProjectorLight {
               "how texels are mixed; trilinear and ewa take means over the blur"},
         Field{"blur", &ProjectorLight::blur, "", 0, 1,
               "how much it is out of focus: a part of the picture's height"},
-        Field{"constant_attenuation_coeff", &ProjectorLight::constant, "", 0, kNoLimit, "a"},
-        Field{"linear_attenuation_coeff", &ProjectorLight::linear, "", 0, kNoLimit, "b"},
-        Field{"quadratic_attenuation_coeff", &ProjectorLight::quadratic, "", 0, kNoLimit, "c"},
-        Field{"radius", &ProjectorLight::radius, "units", 0, kNoLimit,
-              "of the ball that shines; more than 0 makes shadows soft"}};
+        fadingFields<ProjectorLight>(),
+        ballField<ProjectorLight>()};
   }
   bool operator==(const ProjectorLight&) const = default;
   bool hasSize() const { return radius > 0; }
+
+  /// How much lies between 0 and 1 of a stretch of that length around x: the frame blurs as the picture does.
+  static Real within(Real x, Real length) {
+    if (!(length > 0)) return x >= 0 && x <= 1 ? 1 : 0;
+    return std::clamp((std::min(x + length / 2, 1.0) - std::max(x - length / 2, 0.0)) / length, 0.0, 1.0);
+  }
 
   /// Half the width and height of the picture at distance 1.
   Vec2 half() const {
@@ -76,9 +80,11 @@ struct ProjectorLight {
     const Vec2 half = this->half();
     const Vec2 uv{0.5 - dot(arriving->toLight, aim.right) / (2 * half.x * ahead),
                   0.5 - dot(arriving->toLight, aim.up) / (2 * half.y * ahead)};
-    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+    const Real across = blur * half.y / half.x;  // of the picture's width
+    const Real inFrame = within(uv.x, across) * within(uv.y, blur);
+    if (!(inFrame > 0)) return {};
+    arriving->attenuation *= inFrame;
     if (file.map) {
-      const Real across = blur * half.y / half.x;  // of the picture's width
       const Texel texel = file.map->at(uv, {.u = Wrap::clamp,
                                             .v = Wrap::clamp,
                                             .filter = filter,
@@ -93,7 +99,8 @@ struct ProjectorLight {
   LightReach reach(const Rules& rules) const {
     LightReach reach = reachOfLamp(*this, rules);
     reach.axis = normalize(direction);
-    reach.around = std::atan(std::hypot(half().x, half().y));
+    const Vec2 half = this->half();
+    reach.around = std::atan(std::hypot(half.x + blur * half.y, half.y * (1 + blur)));
     return reach;
   }
 };

@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -28,18 +29,13 @@ struct SpotLight {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"position", &SpotLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-        Field{"direction", &SpotLight::direction, "", -kNoLimit, kNoLimit, "where the cone's axis points to"},
-        Field{"color", &SpotLight::color, "", 0, kNoLimit, "its intensity on the axis"},
+        beamFields<SpotLight>("where the cone's axis points to"),
         Field{"angle", &SpotLight::angle, "degrees", 0, 180, "between the axis and the side of the cone"},
         Field{"full_angle", &SpotLight::fullAngle, "degrees", 0, 180,
               "from here to the side of the cone the light falls off to nothing, by degrees"},
         Field{"exponent", &SpotLight::exponent, "", 0, kNoLimit, "of the cosine to the axis, a factor"},
-        Field{"constant_attenuation_coeff", &SpotLight::constant, "", 0, kNoLimit, "a"},
-        Field{"linear_attenuation_coeff", &SpotLight::linear, "", 0, kNoLimit, "b"},
-        Field{"quadratic_attenuation_coeff", &SpotLight::quadratic, "", 0, kNoLimit, "c"},
-        Field{"radius", &SpotLight::radius, "units", 0, kNoLimit,
-              "of the ball that shines; more than 0 makes shadows soft"}};
+        fadingFields<SpotLight>(),
+        ballField<SpotLight>()};
   }
   bool operator==(const SpotLight&) const = default;
   bool hasSize() const { return radius > 0; }

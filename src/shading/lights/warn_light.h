@@ -10,6 +10,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -31,9 +32,7 @@ struct WarnLight {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"position", &WarnLight::position, "", -kNoLimit, kNoLimit, "where it is"},
-        Field{"direction", &WarnLight::direction, "", -kNoLimit, kNoLimit, "where its axis points to"},
-        Field{"color", &WarnLight::color, "", 0, kNoLimit, "its intensity on the axis"},
+        beamFields<WarnLight>("where its axis points to"),
         Field{"exponent", &WarnLight::exponent, "", 0, kNoLimit,
               "of the cosine to the axis: the larger, the narrower the beam"},
         Field{"angle", &WarnLight::angle, "degrees", 0, 90,
@@ -44,11 +43,8 @@ struct WarnLight {
         Field{"y_max", &WarnLight::yMax, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of larger y"},
         Field{"z_min", &WarnLight::zMin, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of smaller z"},
         Field{"z_max", &WarnLight::zMax, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of larger z"},
-        Field{"constant_attenuation_coeff", &WarnLight::constant, "", 0, kNoLimit, "a"},
-        Field{"linear_attenuation_coeff", &WarnLight::linear, "", 0, kNoLimit, "b"},
-        Field{"quadratic_attenuation_coeff", &WarnLight::quadratic, "", 0, kNoLimit, "c"},
-        Field{"radius", &WarnLight::radius, "units", 0, kNoLimit,
-              "of the ball that shines; more than 0 makes shadows soft"}};
+        fadingFields<WarnLight>(),
+        ballField<WarnLight>()};
   }
   bool operator==(const WarnLight&) const = default;
   bool hasSize() const { return radius > 0; }

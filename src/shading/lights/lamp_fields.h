@@ -1,0 +1,31 @@
+// Fields that lamps have in common: those that stand at a place, fade with the distance, and may be balls.
+#pragma once
+
+#include "base/field.h"
+
+namespace trace {
+
+/// Of 1 / (a + b d + c d^2), by which it fades (faded() in illumination.h).
+template <class L>
+constexpr auto fadingFields() {
+  return Fields{Field{"constant_attenuation_coeff", &L::constant, "", 0, kNoLimit, "a"},
+                Field{"linear_attenuation_coeff", &L::linear, "", 0, kNoLimit, "b"},
+                Field{"quadratic_attenuation_coeff", &L::quadratic, "", 0, kNoLimit, "c"}};
+}
+
+/// Of the ball that it is (towardBall() in illumination.h).
+template <class L>
+constexpr auto ballField() {
+  return Field{"radius", &L::radius, "units",
+               0,        kNoLimit,   "of the ball that shines; more than 0 makes shadows soft"};
+}
+
+/// Of a lamp that shines to one side.
+template <class L>
+constexpr auto beamFields(const char* whereTo) {
+  return Fields{Field{"position", &L::position, "", -kNoLimit, kNoLimit, "where it is"},
+                Field{"direction", &L::direction, "", -kNoLimit, kNoLimit, whereTo},
+                Field{"color", &L::color, "", 0, kNoLimit, "its intensity on the axis"}};
+}
+
+}  // namespace trace
