@@ -140,10 +140,12 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
   }
 }
 
-void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const {
-  if (photons.empty() || !scatters(*bsdf_)) return;
+PhotonMap::Near Interaction::photonsOf(const PhotonMap& photons) const {
   const Vec3& flat = hit.surface.normal;
-  const PhotonMap::Near near = photons.near(hit.surface.point, facing() > 0 ? flat : -flat);
+  return photons.near(hit.surface.point, facing() > 0 ? flat : -flat);
+}
+
+void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all) const {
   Color light;
   std::size_t count = 0;
   PhotonTerm counted;

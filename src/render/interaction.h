@@ -56,9 +56,13 @@ class Interaction {
   /// it.
   void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
 
-  /// Adds the light of the nearest photons of the map that is scattered to where the ray comes from: the
-  /// diffuse part of it, or all.
-  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const;
+  /// The nearest photons of the map, on the side where the ray comes from.
+  PhotonMap::Near photonsOf(const PhotonMap& photons) const;
+  /// Adds their light that is scattered to where the ray comes from: the diffuse part of it, or all.
+  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all) const;
+  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const {
+    if (!photons.empty() && scatters(*bsdf_)) addPhotons(sum, kind, photonsOf(photons), all);
+  }
 
   // --- rays that go on in one direction ---
 

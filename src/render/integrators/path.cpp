@@ -128,9 +128,15 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     sum.stop(DepthLimit{RayKind::bounce, path.depth > depth_ ? depth_ : mostScattered_});
     return throughMedium();
   }
-  if (path.gathers) {
-    at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
-  } else {
+  // A gathering ray may end nearer than the photons lie of which the estimate would be made: they might be
+  // behind the wall that it comes from. Then the place looks around by itself (Jensen 2001).
+  bool gathers = path.gathers;
+  if (gathers && scatters(at.bsdf())) {
+    const PhotonMap::Near near = at.photonsOf(path.maps->all);
+    gathers = path.kind != RayKind::bounce || !(hit->t * hit->t < near.radius2);
+    if (gathers) at.addPhotons(sum, Term::Kind::photons, near, true);
+  }
+  if (!gathers) {
     at.addLights(sum, sampler);
     at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
@@ -147,7 +153,7 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const bool cached = !path.gathers && addCached(sum, at);
-  const bool follows = scatters(at.bsdf()) && !path.gathers && !cached;
+  const bool follows = scatters(at.bsdf()) && !gathers && !cached;
   const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
   const Real inBody = body ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
   const bool both = body && path.depth == 0;  // what is seen first is followed into the body besides
