@@ -1,30 +1,20 @@
 // Source: Khronos Group, glTF 2.0 Specification, and the extensions named below.
 #include "formats/mesh/gltf_check.h"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <nlohmann/json.hpp>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
-#include "base/field.h"
-#include "base/text.h"
-#include "formats/warnings.h"
+#include "formats/mesh/gltf_check_materials.h"
 
 namespace trace {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression",
-                           kLights = "KHR_lights_punctual";
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";
 /// Extensions that the reader takes into account, and those of pictures that it may not be able to read,
 /// which it tells.
-constexpr std::string_view kRead[] = {kLights,
+constexpr std::string_view kRead[] = {kGltfLights,
                                       "KHR_materials_ior",
                                       "KHR_materials_transmission",
                                       "KHR_materials_iridescence",
@@ -44,182 +34,46 @@ constexpr std::string_view kRead[] = {kLights,
                                       "EXT_texture_avif",
                                       "MSFT_texture_dds"};
 
-bool isOneOf(std::string_view word, std::span<const std::string_view> list) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-std::string inQuotes(std::string_view word) { return "\"" + std::string(word.substr(0, 60)) + "\""; }
-
-/// The value as the file has it, short.
-std::string found(const json& value) {
-  const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  return text.size() > 40 ? text.substr(0, 40) + "..." : text;
-}
-
-/// An object of the file and where it stands, as in `materials[0].pbrMetallicRoughness`.
-struct Part {
-  const json& value;
-  std::string path;
-
-  const json* find(std::string_view key) const {
-    const auto at = value.find(key);
-    return at == value.end() ? nullptr : &*at;
-  }
-  std::string pathOf(std::string_view key) const {
-    return path.empty() ? std::string(key) : path + "." + std::string(key);
-  }
-};
-
-class GltfCheck {
+class GltfCheck : private GltfMaterialCheck {
  public:
   GltfCheck(const json& root, const Place& place, Messages& messages)
-      : root_{root, ""}, place_(place), messages_(messages) {}
+      : GltfMaterialCheck(root, place), messages_(messages) {}
 
   void check() {
     checkVersion();
     checkExtensions();
-    index(root_, "scene", "scenes");
-    each(root_, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
-    each(root_, "nodes", [&](const Part& node) { checkNode(node); });
-    each(root_, "meshes", [&](const Part& mesh) {
+    index(root, "scene", "scenes");
+    each(root, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
+    each(root, "nodes", [&](const Part& node) { checkNode(node); });
+    each(root, "meshes", [&](const Part& mesh) {
       each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
     });
-    each(root_, "cameras", [&](const Part& camera) { checkCamera(camera); });
-    each(root_, "materials", [&](const Part& material) { checkMaterial(material); });
-    each(root_, "textures", [&](const Part& texture) {
+    each(root, "cameras", [&](const Part& camera) { checkCamera(camera); });
+    each(root, "materials", [&](const Part& material) { checkMaterial(material); });
+    each(root, "textures", [&](const Part& texture) {
       index(texture, "source", "images");
       index(texture, "sampler", "samplers");
     });
-    each(root_, "samplers", [&](const Part& sampler) { checkSampler(sampler); });
-    each(root_, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
-    each(root_, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
-    each(root_, "bufferViews", [&](const Part& view) {
+    each(root, "samplers", [&](const Part& sampler) { checkSampler(sampler); });
+    each(root, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
+    each(root, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
+    each(root, "bufferViews", [&](const Part& view) {
       index(view, "buffer", "buffers");
       for (const char* key : {"byteOffset", "byteLength", "byteStride"}) whole(view, key);
     });
-    if (const json* all = root_.find("extensions"); all && all->is_object())
-      object({*all, "extensions"}, kLights, [&](const Part& lights) {
+    if (const json* all = root.find("extensions"); all && all->is_object())
+      object({*all, "extensions"}, kGltfLights, [&](const Part& lights) {
         each(lights, "lights", [&](const Part& light) { checkLight(light); });
       });
     checkWhatIsNotRead();
-    warnings_.report(messages_);
+    warnings.report(messages_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what, std::string hint = {}) const {
-    throw Error(Fault::scene, place_, what, std::move(hint));
-  }
-  void warn(std::string what, std::string hint = {}, std::string_view kind = {}) {
-    warnings_.warn(place_, std::move(what), std::move(hint), kind);
-  }
-
-  // --- parts and values ---
-
-  template <class Visit>
-  void each(const Part& owner, std::string_view key, Visit&& visit) {
-    const json* list = owner.find(key);
-    if (!list) return;
-    const std::string path = owner.pathOf(key);
-    if (!list->is_array()) fail(path + ": expected a list, found " + found(*list));
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      const std::string place = path + "[" + std::to_string(i) + "]";
-      if (!(*list)[i].is_object()) fail(place + ": expected an object, found " + found((*list)[i]));
-      visit(Part{(*list)[i], place});
-    }
-  }
-  template <class Visit>
-  void object(const Part& owner, std::string_view key, Visit&& visit) {
-    const json* value = owner.find(key);
-    if (!value) return;
-    if (!value->is_object()) fail(owner.pathOf(key) + ": expected an object, found " + found(*value));
-    visit(Part{*value, owner.pathOf(key)});
-  }
-  template <class Visit>
-  void extension(const Part& owner, std::string_view name, Visit&& visit) {
-    object(owner, "extensions", [&](const Part& all) { object(all, name, visit); });
-  }
-
-  /// The length of the top list of that name; lights stand in an extension.
-  std::size_t countOf(std::string_view list) const {
-    const json* all = root_.find(list);
-    if (list == "lights") {
-      all = root_.find("extensions");
-      for (std::string_view key : {kLights, list})
-        if (all && all->is_object()) all = Part{*all, ""}.find(key);
-    }
-    return all && all->is_array() ? all->size() : 0;
-  }
-  void checkIndex(const json& value, const std::string& path, std::string_view list) const {
-    const std::size_t count = countOf(list);
-    if (value.is_number_unsigned() && value.get<std::uint64_t>() < count) return;
-    fail(path + ": expected a number of one of the " + std::to_string(count) + " " + std::string(list) +
-             ", found " + found(value),
-         count > 0 ? "they are counted from 0" : "");
-  }
-  void index(const Part& owner, std::string_view key, std::string_view list) const {
-    if (const json* value = owner.find(key)) checkIndex(*value, owner.pathOf(key), list);
-  }
-  void indices(const Part& owner, std::string_view key, std::string_view list) const {
-    const json* all = owner.find(key);
-    if (!all) return;
-    if (!all->is_array()) fail(owner.pathOf(key) + ": expected a list of numbers, found " + found(*all));
-    for (const json& value : *all) checkIndex(value, owner.pathOf(key), list);
-  }
-
-  void inRange(const Part& owner, std::string_view key, double value, double least, double most) {
-    if (value >= least && value <= most) return;
-    const std::string range =
-        most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
-    warn(owner.pathOf(key) + ": expected " + range + ", found " + toText(value), {},
-         "range of " + std::string(key));
-  }
-  void number(const Part& owner, std::string_view key, double least = -kNoLimit, double most = kNoLimit) {
-    const json* value = owner.find(key);
-    if (!value) return;
-    if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
-    inRange(owner, key, value->get<double>(), least, most);
-  }
-  void whole(const Part& owner, std::string_view key, std::uint64_t least = 0) const {
-    const json* value = owner.find(key);
-    if (!value || (value->is_number_unsigned() && value->get<std::uint64_t>() >= least)) return;
-    const bool tooLarge = value->is_number_float() && value->get<double>() >= 1.8e19;
-    fail(owner.pathOf(key) + ": expected a whole number " +
-         (tooLarge ? "that 64 bits can hold" : "of at least " + std::to_string(least)) + ", found " +
-         found(*value));
-  }
-  void numbers(const Part& owner, std::string_view key, std::size_t count, double least = -kNoLimit,
-               double most = kNoLimit) {
-    const json* value = owner.find(key);
-    if (!value) return;
-    const bool good = value->is_array() && value->size() == count &&
-                      std::all_of(value->begin(), value->end(), [](const json& n) { return n.is_number(); });
-    if (!good)
-      fail(owner.pathOf(key) + ": expected " + std::to_string(count) + " numbers, found " + found(*value));
-    for (const json& n : *value) inRange(owner, key, n.get<double>(), least, most);
-  }
-  void word(const Part& owner, std::string_view key, std::initializer_list<std::string_view> words) {
-    const json* value = owner.find(key);
-    if (!value) return;
-    if (value->is_string() && isOneOf(value->get_ref<const std::string&>(), {words.begin(), words.size()}))
-      return;
-    std::string list;
-    for (std::string_view w : words) list += (list.empty() ? "" : ", ") + std::string(w);
-    fail(owner.pathOf(key) + ": expected one of " + list + ", found " + found(*value));
-  }
-  /// Warns of properties that the specification does not have there.
-  void known(const Part& owner, std::initializer_list<std::string_view> keys) {
-    for (const auto& [key, value] : owner.value.items()) {
-      if (key == "name" || key == "extensions" || key == "extras") continue;
-      if (isOneOf(key, {keys.begin(), keys.size()})) continue;
-      warn("unknown property " + inQuotes(key) + " of " + owner.path + " is ignored",
-           didYouMean(key, {keys.begin(), keys.size()}), "unknown " + key.substr(0, 60));
-    }
-  }
-
   // --- the file ---
 
   void checkVersion() const {
-    const json* asset = root_.find("asset");
+    const json* asset = root.find("asset");
     if (!asset || !asset->is_object()) fail("expected an object \"asset\" with the version");
     const auto version = [&](const char* key) -> double {
       const json* value = Part{*asset, ""}.find(key);
@@ -252,7 +106,7 @@ class GltfCheck {
   }
   std::vector<std::string> names(std::string_view key) const {
     std::vector<std::string> all;
-    const json* list = root_.find(key);
+    const json* list = root.find(key);
     if (!list) return all;
     if (!list->is_array()) fail(std::string(key) + ": expected a list of names, found " + found(*list));
     for (const json& name : *list) {
@@ -290,7 +144,7 @@ class GltfCheck {
       for (const char* other : {"translation", "rotation", "scale"})
         if (node.find(other))
           warn(node.path + ": " + other + " is ignored, since matrix is given", {}, "matrix and others");
-    extension(node, kLights, [&](const Part& light) { index(light, "light", "lights"); });
+    extension(node, kGltfLights, [&](const Part& light) { index(light, "light", "lights"); });
   }
 
   void checkPrimitive(const Part& primitive) {
@@ -326,7 +180,7 @@ class GltfCheck {
     }
   }
   bool hasData(const json& accessor) const {
-    return (*root_.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
+    return (*root.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
   }
 
   void checkAccessor(const Part& accessor) {
@@ -370,126 +224,6 @@ class GltfCheck {
     });
   }
 
-  void checkMaterial(const Part& material) {
-    known(material, {"alphaCutoff", "alphaMode", "doubleSided", "emissiveFactor", "emissiveTexture",
-                     "normalTexture", "occlusionTexture", "pbrMetallicRoughness"});
-    word(material, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
-    number(material, "alphaCutoff", 0);
-    numbers(material, "emissiveFactor", 3, 0, 1);
-    for (const char* key : {"emissiveTexture", "normalTexture", "occlusionTexture"}) texture(material, key);
-    object(material, "pbrMetallicRoughness", [&](const Part& pbr) {
-      known(pbr, {"baseColorFactor", "baseColorTexture", "metallicFactor", "metallicRoughnessTexture",
-                  "roughnessFactor"});
-      numbers(pbr, "baseColorFactor", 4, 0, 1);
-      number(pbr, "metallicFactor", 0, 1);
-      number(pbr, "roughnessFactor", 0, 1);
-      for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"}) texture(pbr, key);
-    });
-    extension(material, "KHR_materials_ior", [&](const Part& e) {
-      number(e, "ior", 0);
-      if (const double ior = e.value.value("ior", 1.5); ior > 0 && ior < 1)
-        inRange(e, "ior", ior, 1, kNoLimit);
-    });
-    extension(material, "KHR_materials_transmission", [&](const Part& e) {
-      known(e, {"transmissionFactor", "transmissionTexture"});
-      number(e, "transmissionFactor", 0, 1);
-      texture(e, "transmissionTexture");
-    });
-    extension(material, "KHR_materials_iridescence", [&](const Part& e) {
-      known(e, {"iridescenceFactor", "iridescenceTexture", "iridescenceIor", "iridescenceThicknessMinimum",
-                "iridescenceThicknessMaximum", "iridescenceThicknessTexture"});
-      number(e, "iridescenceFactor", 0, 1);
-      number(e, "iridescenceIor", 1);
-      number(e, "iridescenceThicknessMinimum", 0);
-      number(e, "iridescenceThicknessMaximum", 0);
-      for (const char* key : {"iridescenceTexture", "iridescenceThicknessTexture"}) texture(e, key);
-    });
-    extension(material, "KHR_materials_emissive_strength",
-              [&](const Part& e) { number(e, "emissiveStrength", 0); });
-    checkLayers(material);
-    checkPassage(material);
-  }
-  void checkLayers(const Part& material) {
-    const auto textures = [&](const Part& e, std::initializer_list<const char*> keys) {
-      for (const char* key : keys) texture(e, key);
-    };
-    extension(material, "KHR_materials_clearcoat", [&](const Part& e) {
-      known(e, {"clearcoatFactor", "clearcoatTexture", "clearcoatRoughnessFactor",
-                "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
-      number(e, "clearcoatFactor", 0, 1);
-      number(e, "clearcoatRoughnessFactor", 0, 1);
-      textures(e, {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
-    });
-    extension(material, "KHR_materials_sheen", [&](const Part& e) {
-      known(e, {"sheenColorFactor", "sheenColorTexture", "sheenRoughnessFactor", "sheenRoughnessTexture"});
-      numbers(e, "sheenColorFactor", 3, 0, 1);
-      number(e, "sheenRoughnessFactor", 0, 1);
-      textures(e, {"sheenColorTexture", "sheenRoughnessTexture"});
-    });
-    extension(material, "KHR_materials_anisotropy", [&](const Part& e) {
-      known(e, {"anisotropyStrength", "anisotropyRotation", "anisotropyTexture"});
-      number(e, "anisotropyStrength", 0, 1);
-      number(e, "anisotropyRotation");
-      textures(e, {"anisotropyTexture"});
-    });
-    extension(material, "KHR_materials_specular", [&](const Part& e) {
-      known(e, {"specularFactor", "specularTexture", "specularColorFactor", "specularColorTexture"});
-      number(e, "specularFactor", 0, 1);
-      numbers(e, "specularColorFactor", 3, 0);
-      textures(e, {"specularTexture", "specularColorTexture"});
-    });
-    extension(material, "KHR_materials_pbrSpecularGlossiness", [&](const Part& e) {
-      known(e, {"diffuseFactor", "diffuseTexture", "specularFactor", "glossinessFactor",
-                "specularGlossinessTexture"});
-      numbers(e, "diffuseFactor", 4, 0, 1);
-      numbers(e, "specularFactor", 3, 0, 1);
-      number(e, "glossinessFactor", 0, 1);
-      textures(e, {"diffuseTexture", "specularGlossinessTexture"});
-    });
-  }
-  void checkPassage(const Part& material) {
-    extension(material, "KHR_materials_volume", [&](const Part& e) {
-      known(e, {"thicknessFactor", "thicknessTexture", "attenuationDistance", "attenuationColor"});
-      number(e, "thicknessFactor", 0);
-      number(e, "attenuationDistance", 0);
-      numbers(e, "attenuationColor", 3, 0, 1);
-      texture(e, "thicknessTexture");
-    });
-    extension(material, "KHR_materials_dispersion", [&](const Part& e) { number(e, "dispersion", 0); });
-  }
-  void texture(const Part& owner, std::string_view key) {
-    object(owner, key, [&](const Part& info) {
-      if (!info.find("index")) fail(info.path + ": expected an index");
-      index(info, "index", "textures");
-      if (const json* set = info.find("texCoord"); set && (!set->is_number_unsigned()))
-        fail(info.pathOf("texCoord") + ": expected a whole number from 0, found " + found(*set));
-      number(info, "strength", 0, 1);
-      extension(info, "KHR_texture_transform", [&](const Part& e) {
-        known(e, {"offset", "rotation", "scale", "texCoord"});
-        numbers(e, "offset", 2);
-        number(e, "rotation");
-        numbers(e, "scale", 2);
-        whole(e, "texCoord");
-      });
-    });
-  }
-  void checkSampler(const Part& sampler) {
-    known(sampler, {"magFilter", "minFilter", "wrapS", "wrapT"});
-    code(sampler, "magFilter", {9728, 9729});
-    code(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
-    for (const char* key : {"wrapS", "wrapT"}) code(sampler, key, {10497, 33071, 33648});
-  }
-  /// One of OpenGL's numbers.
-  void code(const Part& owner, std::string_view key, std::initializer_list<int> codes) {
-    const json* value = owner.find(key);
-    if (!value || std::any_of(codes.begin(), codes.end(), [&](int code) { return *value == code; })) return;
-    if (!value->is_number()) fail(owner.pathOf(key) + ": expected a number, found " + found(*value));
-    std::string list;
-    for (int code : codes) list += (list.empty() ? "" : ", ") + std::to_string(code);
-    warn(owner.pathOf(key) + ": expected one of " + list + ", found " + found(*value), {},
-         "code of " + std::string(key));
-  }
-
   void checkWhatIsNotRead() {
     if (const std::size_t n = countOf("animations")) warn("animations are not played: " + std::to_string(n));
     if (const std::size_t n = countOf("skins"))
@@ -497,10 +231,7 @@ class GltfCheck {
     if (morphs_ > 0) warn("morph targets are left out: " + std::to_string(morphs_));
   }
 
-  Part root_;
-  const Place& place_;
   Messages& messages_;
-  WarningsByKind warnings_;
   std::size_t morphs_ = 0;  ///< primitives that have some
 };
 
