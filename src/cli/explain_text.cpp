@@ -281,8 +281,8 @@ std::string explainText(const PixelFacts& facts, bool color) {
   text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
     text +=
-        "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
-        "see --camera-vertices 1\n";
+        "Paths from lights, those of all pixels, add to that picture what they bring straight to the camera; "
+        "--camera-vertices 1 shows it alone.\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   text += shownText(facts);
   text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
