@@ -162,18 +162,11 @@ std::optional<Vec2> uvAt(const TracedShape& form, const Vec3& p, const Vec3& nor
   return uv;
 }
 
-/// A texture coordinate at the end of a way on which it was `from` and `halfway`, as if it did not start
-/// again on it.
-Real goneOn(Real from, Real halfway, Real to) {
-  constexpr Real kTorn = 0.25;
-  return std::abs(halfway - (from + to) / 2) > kTorn ? to - std::round(to - from) : to;
-}
-
 /// The mesh with the texture coordinates of the shape. Each corner is asked a little inside its triangle, so
 /// that those on a line where coordinates start again, or at a pole, have them as their triangle does. A
 /// triangle that lies across such a line goes on with them.
 MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, Real size) {
-  constexpr Real kInside = 0x1p-8, kReach = 0.05;
+  constexpr Real kInside = 0x1p-8, kReach = 0.02, kTorn = 0.25;
   struct Key {
     std::uint32_t point;
     float u, v;
@@ -190,8 +183,14 @@ MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, R
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 corner = k == 0 ? v.a : k == 1 ? v.b : v.c;
       Vec2 uv = uvAt(form, corner + (middle - corner) * kInside, normal, kReach * size).value_or(around);
-      const Vec2 halfway = uvAt(form, (corner + middle) / 2, normal, kReach * size).value_or(around);
-      uv = {goneOn(around.x, halfway.x, uv.x), goneOn(around.y, halfway.y, uv.y)};
+      const Real far = max(std::abs(uv.x - around.x), std::abs(uv.y - around.y));
+      if (far > 2 * kTorn) {
+        const Vec2 halfway = uvAt(form, (corner + middle) / 2, normal, kReach * size).value_or(around);
+        const auto goneOn = [](Real from, Real between, Real to) {
+          return std::abs(between - (from + to) / 2) > kTorn ? to - std::round(to - from) : to;
+        };
+        uv = {goneOn(around.x, halfway.x, uv.x), goneOn(around.y, halfway.y, uv.y)};
+      }
       const std::uint32_t point = mesh.triangles[i][k];
       triangle[k] = numbers.number({point, static_cast<float>(uv.x), static_cast<float>(uv.y)});
       if (triangle[k] < mapped.points.size()) continue;
