@@ -125,6 +125,10 @@ constexpr std::array kExtensions{
               BALL(458, 260, 658, 460)},
     Extension{"principled", "metalness, clear coat, sheen and iridescence, as glTF has them", kModels, kPhong,
               "", BALL(658, 260, 858, 460)},
+    Extension{
+        "layers",
+        "lacquer, fibres, grain, tint and film of one model, and glass that colours and disperses light",
+        "principled.ray", kPhong, "", ""},
     Extension{"conductor", "metal in the colour of its measured indices", kModels, kPhong, "",
               BALL(858, 260, 1058, 460)},
     Extension{"velvet", "cloth with bright edges", kModels, kPhong, "", BALL(58, 460, 258, 660)},

@@ -19,6 +19,13 @@ bool anyObject(const World& world, Is&& is) {
   return false;
 }
 
+/// Nothing in the scene or around it gives light.
+bool isDark(const Scene& scene, const World& world) {
+  const bool glow = std::any_of(scene.materials.begin(), scene.materials.end(), glows);
+  return scene.lights.empty() && !glow && !world.outside().isSeenBy(RayKind::reflection) &&
+         world.media().empty();
+}
+
 /// Options that say something of what another one switches on.
 struct Serves {
   std::string_view option, needed;
@@ -190,6 +197,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              " finds no light in the scene: ambient light stands for light that bounces, "
              "and is left out",
          "add a light, an object with emissive, or a background with a gradient");
+  else if (whitted && !scene.objects.empty() && isDark(scene, world))
+    warn("no light: everything will be black",
+         "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
 }
 
 void warnOfEmptyMedia(const Scene& scene, Messages& messages) {

@@ -29,8 +29,9 @@ struct LintCheck {
 };
 std::span<const LintCheck> lintChecks();
 
-/// What reading and compiling the scene warned of, each as the check `reading` if no other check is about it,
-/// then the findings of the checks in their order. `world` was compiled from the scene with the settings.
+/// What reading and compiling the scene warned of, and what a render would, each as the check `reading` if no
+/// other check is about it, then the findings of the checks in their order. `world` was compiled from the
+/// scene with the settings.
 std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
                               const std::vector<Message>& warnings);
 

@@ -1,13 +1,17 @@
 // What the checks of lint are made of, for the files that hold them. The table is in lint.cpp.
 #pragma once
 
+#include <algorithm>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/lint.h"
 #include "app/lint_rays.h"
+#include "app/lint_survey.h"
 #include "formats/ray/ray_remarks.h"
+#include "math/box.h"
 
 namespace trace {
 
@@ -35,20 +39,50 @@ std::string percent(double share);
 const Place& placeOf(const LintScene& s, std::uint32_t object);
 Phong materialOf(const LintScene& s, std::uint32_t object);
 bool isAroundCamera(const LintScene& s, std::uint32_t object);
+/// A box around the object in the world.
+Box3 boxAround(const Object& object);
+/// To three digits, for people.
+Real roundedTo(Real value);
+/// Of objects by how often they are in the way, the one that is most often; the end if none is.
+inline std::map<std::uint32_t, int>::const_iterator mostOf(const std::map<std::uint32_t, int>& blockers) {
+  return std::max_element(blockers.begin(), blockers.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; });
+}
 
-// The checks of lights and camera (lint_lights.cpp).
+/// Warnings of reading that checks of their own take over.
+bool isOfArea(const Message& message);
+bool isOfGlass(const Message& message);
+
+// Of meshes (lint_meshes.cpp).
+void insideOut(const LintScene& s, Findings& findings);
+void turnedFaces(const LintScene& s, Findings& findings);
+void normalsAgainstFaces(const LintScene& s, Findings& findings);
+void zeroArea(const LintScene& s, Findings& findings);
+void coplanarFaces(const LintScene& s, Findings& findings);
+// Of materials (lint_materials.cpp).
+void unusedMaterial(const LintScene& s, Findings& findings);
+void inheritedGlass(const LintScene& s, Findings& findings);
+void indexBelowOne(const LintScene& s, Findings& findings);
+void depthTooLow(const LintScene& s, Findings& findings);
+void noMaterial(const LintScene& s, Findings& findings);
+
+// Of lights (lint_lights.cpp).
 void lightInside(const LintScene& s, Findings& findings);
 void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
 void lightCut(const LintScene& s, Findings& findings);
 void lightLink(const LintScene& s, Findings& findings);
+// Of light that is not there (lint_unlit.cpp).
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
+// Of the camera (lint_camera.cpp).
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
+/// Checks lights of which nothing arrives (lint_light_reach.cpp).
+void lightReachesNothing(const LintScene& s, Findings& findings);
 /// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 

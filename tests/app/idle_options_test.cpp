@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/session.h"
+#include "image/codec.h"
 #include "support/scene_files.h"
 
 namespace trace::test {
@@ -19,6 +20,7 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
   for (const Message& message : session.messages().all())
     if (message.what.find("changes nothing") != std::string::npos ||
         message.what.find("finds no light") != std::string::npos ||
+        message.what.find("no light: everything") != std::string::npos ||
         message.what.find("light nothing") != std::string::npos)
       all += message.what + "\n";
   return all;
@@ -29,6 +31,21 @@ ambient_light { color = (0.2, 0.2, 0.2); }
 point_light { position = (0, 5, 5); color = (1, 1, 1); }
 sphere { material = { diffuse = (1, 1, 1); reflective = (0.5, 0.5, 0.5); } }
 )";
+
+TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
+  const std::string dark = "no light: everything will be black\n",
+                    ball = "sphere { material = { diffuse = (1, 1, 1); } }";
+  const auto by = [](const char* integrator) { return std::vector<Choice>{{"integrator", integrator, {}}}; };
+  EXPECT_EQ(warnings(ball, {}), dark);
+  EXPECT_NE(warnings(ball, by("path")).find("finds no light"), std::string::npos);
+  EXPECT_EQ(warnings(ball + " ambient_light { color = 1; }", {}), "");
+  EXPECT_EQ(warnings("sphere { material = { emissive = (0, 1, 0); } }", {}), "");
+  const Folder folder;
+  writePicture(folder / "sky.png", Picture(2, 1));
+  const std::string sky = "settings { environment = \"" + folder / "sky.png" + "\"; }";
+  for (const char* integrator : {"whitted", "path", "direct", "bdpt", "mlt"})
+    EXPECT_EQ(warnings(sky + ball, by(integrator)), "") << integrator;
+}
 
 TEST(IdleOptions, AreToldWithTheirReason) {
   const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {

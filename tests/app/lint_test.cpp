@@ -73,9 +73,7 @@ TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
 
 TEST(Lint, OurOwnExamplesAreClean) {
   for (const std::string& scene : filesUnder(test::sourceFolder() + "/scenes", ".ray"))
-    // infinity: as in its program, its glass shows no background. jade: folds of the rabbit's mesh, in its
-    // fur.
-    if (scene.find("infinity") == std::string::npos && scene.find("jade") == std::string::npos) {
+    if (scene.find("infinity") == std::string::npos) {  // as in its program, its glass shows no background
       EXPECT_EQ(names(lintFile(scene)), "") << scene;
     }
 }
@@ -192,13 +190,73 @@ TEST(Lint, SkiesOfEveryShapeBlockTheSunAndLampsInsideAreNotBlocked) {
 TEST(Lint, ALightThatIsWeakHereMayBeStrongElsewhere) {
   const std::string lamp = "point_light { position = (40, 50, 60); color = (1, 1, 1); }\n";
   EXPECT_EQ(checksOf(kCamera + kSun + lamp + kFloor + kBall), Checks{"light-too-weak"});
-  EXPECT_EQ(checksOf(kCamera + kSun + lamp + kFloor + kBall + "translate(40, 49, 60, scale(10, 1, 10, " +
+  EXPECT_EQ(checksOf(kCamera + kSun + lamp + kFloor + kBall + "translate(40, 48, 60, scale(10, 1, 10, " +
                      kBall + "))"),
             Checks{});
   EXPECT_EQ(checksOf(kCamera + kSun + "directional_light { direction = (1, -1, 0); color = (0, 0, 0); }" +
                      kFloor + kBall),
             Checks{})
       << "a light that is switched off";
+}
+
+const std::string kLow =
+    "point_light { position = (0, -3, 0); color = (1, 1, 1); constant_attenuation_coeff = 1; "
+    "quadratic_attenuation_coeff = 0; }\n";
+
+std::ptrdiff_t reachingNothing(const std::string& text) {
+  const Checks checks = checksOf(text);
+  return std::count(checks.begin(), checks.end(), "light-reaches-nothing");
+}
+
+TEST(Lint, ALightMayReachOnlyWhatNobodySees) {
+  const std::string behind = "translate(0, 1, 12, " + kBall + ")\n";
+  const auto spot = [](const std::string& direction) {
+    return "spot_light { position = (0, 4, 12); direction = " + direction +
+           "; angle = 10; color = (1, 1, 1); constant_attenuation_coeff = 1; quadratic_attenuation_coeff = "
+           "0; }\n";
+  };
+  EXPECT_EQ(reachingNothing(kCamera + kSun + kFloor + spot("(0, -1, 0)") + behind), 0);
+}
+
+TEST(Lint, ALightMayReachOnlyAMirror) {
+  const std::string scene =
+      kCamera + kSun + kFloor +
+      "translate(0, 3, 12, rotate(1, 0, 0, -0.931, scale(2, 0.1, 2, box { material = { reflective = (1, 1, "
+      "1); } "
+      "})))\n"
+      "spot_light { position = (0, 5, 12); direction = (0, -1, 0); angle = 5; color = (1, 1, 1); "
+      "constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; }\n";
+  EXPECT_EQ(reachingNothing(scene), 1);
+  for (const char* throws :
+       {"caustics = 1000", "integrator = photon", "integrator = bdpt", "integrator = path"})
+    EXPECT_EQ(reachingNothing("settings { " + std::string(throws) + "; }" + scene), 0) << throws;
+}
+
+TEST(Lint, ALightMayReachOnlyASpeck) {
+  // A lamp in a small open box, of which the camera sees what is smaller than a pixel.
+  const std::string box =
+      "material = { diffuse = (1, 1, 1); }\ntranslate(0.31, -0.9, 0.27, scale(0.06, difference(box { }, "
+      "translate(0, 0.2, 0.2, scale(0.9, box { })))))\n";
+  const std::string lamp =
+      "spot_light { position = (0.31, -0.89, 0.28); direction = (0, -1, 0); angle = 10; color = (1, 1, 1); "
+      "constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; }\n";
+  EXPECT_EQ(reachingNothing(kCamera + kSun + kFloor + box + lamp), 0);
+}
+
+TEST(Lint, ALightThatReachesNothingIsTold) {
+  EXPECT_EQ(checksOf(kCamera + kSun + kFloor + kLow), Checks{"light-reaches-nothing"});
+  EXPECT_EQ(checksOf("settings { integrator = path; depth = 4; }" + kCamera + kSun + kFloor + kLow),
+            Checks{"light-reaches-nothing"});
+  EXPECT_EQ(checksOf("settings { fog = 0.1; }" + kCamera + kSun + kFloor + kLow), Checks{})
+      << "the air may be lit";
+  EXPECT_EQ(checksOf(kCamera + kSun + kFloor + kBall +
+                     "directional_light { direction = (0, 1, 0); color = (0, 0, 0); }"),
+            Checks{})
+      << "it is off";
+  EXPECT_EQ(checksOf(kCamera + kSun + kFloor + kBall +
+                     "directional_light { direction = (0, 1, 0); color = (1, 1, 1); }"),
+            Checks{"light-reaches-nothing"})
+      << "the floor is in its way";
 }
 
 TEST(Lint, ASpotLightMayShineOnNothing) {

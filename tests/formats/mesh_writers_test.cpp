@@ -153,6 +153,17 @@ TEST(MeshWriters, KeepPicturesThatLieAsTheCoordinatesHaveThem) {
   EXPECT_TRUE(has(clamped.material, "Kd 1 1 1\n") && !has(clamped.material, "Tf")) << clamped.material;
   EXPECT_TRUE(has(clamped.warnings, "textures of 1 material")) << "the holes are lost";
 
+  // Shapes that become triangles have coordinates where a picture lies on them.
+  Messages messages;
+  const std::string picture = "{ material = { diffuse = texture(image { file = \"a.png\"; }); } }";
+  const std::string ball =
+      writeObj(scene("SBT-raytracer 1.0 sphere " + picture), "out.obj", {}, messages).at(0).bytes;
+  EXPECT_TRUE(has(ball, "\nvt ")) << "a ball";
+  EXPECT_FALSE(
+      has(writeObj(scene("SBT-raytracer 1.0 sphere { }"), "out.obj", {}, messages).at(0).bytes, "\nvt "));
+  EXPECT_TRUE(has(writePly(scene("SBT-raytracer 1.0 torus " + picture), "out.ply", {}, messages).at(0).bytes,
+                  "comment TextureFile a.png\n"));
+
   for (const char* other : {"checker { }", "texture(image { file = \"a.png\"; channel = red; })",
                             "texture(image { file = \"a.png\"; transform = (2, 0, 0, 0, 2, 0); })",
                             "texture(image { file = \"a.png\"; translate = (1, 0, 0); })"}) {

@@ -495,6 +495,20 @@ TEST_F(ObjTextures, BumpsAreHeightsByTheModelsSize) {
   EXPECT_EQ(normals.material().bump, 1);
 }
 
+TEST_F(ObjTextures, DisplacementIsHeightsUnlessOthersAreGiven) {
+  for (const char* statement : {"disp", "map_disp", "map_Disp"}) {
+    const Read alone = read(std::string(statement) + " -bm 3 a.tga");
+    EXPECT_EQ(alone.warnings(), "") << statement;
+    EXPECT_EQ(std::get<ImageMap>(alone.texture("bump")->model).relief, Relief::heights);
+    EXPECT_NEAR(alone.material().bump, 3.0 / 200, 1e-7);
+  }
+  for (const char* other : {"bump", "norm"}) {
+    const Read both = read(std::string(other) + " a.tga\ndisp b.tga");
+    EXPECT_NE(both.warnings().find("the texture \"b.tga\" is not rendered yet"), std::string::npos) << other;
+    EXPECT_EQ(std::get<ImageMap>(both.texture("bump")->model).file.file.find("a.tga"), 0u);
+  }
+}
+
 TEST_F(ObjTextures, NamesOfOtherMachines) {
   expectUpright(read("map_Kd C:\\Users\\somebody\\maps\\a.tga"), "diffuse");
   expectUpright(read("map_Kd .\\a.tga"), "diffuse");
@@ -536,6 +550,10 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
   EXPECT_EQ(maps.at("metallic", kBottomLeft), Color(1));
   EXPECT_EQ(maps.at("opacity", kTopRight), Color(0)) << "its alpha";
   EXPECT_NE(read("Pr 3").warnings().find("Pr: expected 0 to 1"), std::string::npos);
+  EXPECT_NE(read("Pr 0.3\nmap_Ns a.tga").warnings().find("the texture \"a.tga\" is not rendered yet"),
+            std::string::npos)
+      << "it has a roughness, and no exponent";
+  EXPECT_EQ(read("Ns 30\nmap_Ns a.tga").warnings(), "");
 }
 
 // --- PLY ----------------------------------------------------------------------------------------------

@@ -133,9 +133,9 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
       // settings
       {"settings { depht = 3; }", "2:12: unknown option \"depht\" [did you mean \"depth\"?]"},
       {"settings { depth = deep; }",
-       "2:12: depth: expected a whole number from 0 to 1000 bounces, found \"deep\""},
+       "2:20: depth: expected a whole number from 0 to 1000 bounces, found \"deep\""},
       {"settings { highlight = phogn; }",
-       "2:12: highlight: expected blinn | phong, found \"phogn\" [did you mean \"phong\"?]"},
+       "2:24: highlight: expected blinn | phong, found \"phogn\" [did you mean \"phong\"?]"},
       {"settings { depth }", "2:12: settings: expected a field, as in name = value, found \"depth\""},
   };
   for (const Case& c : cases) EXPECT_EQ(errorsOf(c.text), c.errors) << c.text;

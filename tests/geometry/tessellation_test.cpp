@@ -3,8 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "geometry/mesh/tessellate.h"
+#include "geometry/shapes/blend.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/conic.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/lathe.h"
 #include "geometry/shapes/metaballs.h"
@@ -55,6 +63,65 @@ TEST(Tessellation, PointsAndNormalsAreThoseOfTheSurface) {
       }
     }
   }
+}
+
+/// How many edges of neighbouring triangles run the same way in both.
+int turnedEdges(const std::vector<SurfaceCorner>& corners) {
+  std::map<std::array<Real, 6>, int> edges;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 &a = corners[i].point, &b = corners[i % 3 == 2 ? i - 2 : i + 1].point;
+    if (!(a == b)) ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
+  }
+  int turned = 0;
+  for (const auto& [edge, times] : edges) {
+    const auto back = edges.find({edge[3], edge[4], edge[5], edge[0], edge[1], edge[2]});
+    turned += std::max(0, times - (back == edges.end() ? 0 : back->second));
+  }
+  return turned;
+}
+
+TEST(Tessellation, TrianglesOfASolidAreTurnedAlike) {
+  // Where balls run into one another, the points of cells fold thin triangles over.
+  const auto ball = [](const Vec3& middle, const Vec3& size) {
+    return Operand{"", Sphere{}, Affine::translation(middle) * Affine::scaling(size), 0};
+  };
+  Blend balls;
+  balls.radius = 0.5;
+  balls.objects = Operands(
+      {ball({}, {2, 1.8, 1.6}), ball({1.4, 0, 0}, {1.25, 1.5, 1.2}), ball({2.4, 1, 0}, {0.4, 1.6, 0.3})});
+  EXPECT_EQ(turnedEdges(tessellate(balls, 64)), 0);
+}
+
+TEST(Tessellation, PicturesLieOnTheMeshAsOnTheShape) {
+  for (const Shape& shape :
+       {Shape(Sphere{}), Shape(Cube{}), Shape(Cylinder{}), Shape(Cone{}), Shape(Torus{})}) {
+    SCOPED_TRACE(nameOf(shape));
+    const auto mesh = tessellated(shape, 64, true);
+    ASSERT_TRUE(mesh);
+    ASSERT_EQ(mesh->uvs.size(), mesh->points.size());
+    EXPECT_EQ(mesh->triangles.size(), tessellated(shape)->triangles.size());
+    const TracedShape traced = prepare(shape);
+    int asked = 0;
+    for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
+      Vec3 middle, normal = normalize(faceNormal(*mesh, i));
+      Vec2 uv;
+      for (std::uint32_t p : mesh->triangles[i]) {
+        middle += Vec3(mesh->points[p]) / 3;
+        uv = {uv.x + mesh->uvs[p].x / 3, uv.y + mesh->uvs[p].y / 3};
+      }
+      const Ray ray{middle + normal * 0.01, -normal};
+      for (const Crossing& crossing : placesOf(traced, ray)) {
+        if (std::abs(crossing.t - 0.01) > 0.01) continue;
+        const Vec2 own = traced.surface(ray, crossing).uv;
+        EXPECT_NEAR(std::remainder(own.x - uv.x, 1), 0, 0.03);
+        EXPECT_NEAR(std::remainder(own.y - uv.y, 1), 0, 0.03);
+        ++asked;
+        break;
+      }
+    }
+    EXPECT_GT(asked, static_cast<int>(mesh->triangles.size() / 2));
+  }
+  EXPECT_TRUE(tessellated(Sphere{})->uvs.empty()) << "for which nobody has asked";
 }
 
 TEST(Tessellation, SolidsFaceOutward) {

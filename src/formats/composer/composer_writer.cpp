@@ -118,15 +118,19 @@ class Writer {
 
   /// `hasUv`: pictures can lie on the object.
   cf::Material material(std::uint32_t index, std::string& name, bool hasUv) {
-    const Phong p = phongWithoutTextures(scene_.materials.at(index));
+    Phong p = phongWithoutTextures(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     for (const FieldTexture& field : scene_.materials[index].textures) {
       const auto* image = std::get_if<ImageMap>(&field.texture->model);
-      if (field.field == "diffuse" && image && !hasUv)
-        warn("pictures of shapes that become triangles are left out");
-      else if (field.field == "diffuse" && image)
+      const bool paints = (field.field == kDiffuse || field.field == kColor) && image;
+      if (paints && !hasUv)
+        warn("pictures are left out of meshes without texture coordinates");
+      else if (paints)
         say(name, "texture=" + *pictures_.insert(image->file.file).first);
-      else
+      else if (field.field == kAmbient && image) {
+        p.ambient *= meanOf(*image);
+        warn("pictures of ambient become their mean colour");
+      } else
         warn("textures are left out, but for pictures of diffuse");
     }
     Color ambientLight;
@@ -150,6 +154,17 @@ class Writer {
     if (m.ktran > 0 && p.index != cf::kGlass) say(name, "ior=" + toText(p.index));
     return m;
   }
+  /// Of all of the picture.
+  static Color meanOf(ImageMap image) {
+    image.filter = TexelFilter::trilinear;
+    image.transform = ImageMap{}.transform;
+    return image.at(
+        {.point = {}, .uv = {0.5, 0.5}, .uvX = {1, 0}, .uvY = {0, 1}, .pointX = {}, .pointY = {}});
+  }
+  bool isPainted(std::uint32_t material) const {
+    const auto& textures = scene_.materials.at(material).textures;
+    return textureOf(textures, kDiffuse) || textureOf(textures, kColor);
+  }
   static void say(std::string& name, const std::string& word) {
     if (name.find(word) == std::string::npos) name += (name.empty() ? "" : " ") + word;
   }
@@ -164,7 +179,7 @@ class Writer {
       o.sphere = sphere(object.worldFromObject);
     } else if (const auto mesh = displacedMesh(object, scene_.materials)) {
       add(o, mesh->generateNormals ? withGeneratedNormals(*mesh, true) : *mesh, object);
-    } else if (const auto surface = tessellated(object.shape)) {
+    } else if (const auto surface = tessellated(object.shape, 64, isPainted(object.material))) {
       warn("shapes other than spheres and meshes become triangles");
       add(o, *surface, object);
     } else {

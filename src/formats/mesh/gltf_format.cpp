@@ -1,208 +1,25 @@
-// Nodes, meshes, lights and the camera of a glTF file. tinygltf takes the JSON apart and finds the buffers.
-// It trusts the file in some places where a damaged one must not be trusted: checkGltf() looks at those
-// first, and every index and range is checked here. Only this file and gltf_looks.cpp know the library.
+// Nodes and meshes of a glTF file. Every index and range is checked here or before (gltf_file.cpp).
 #include "formats/mesh/gltf_format.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>  // for tinygltf, which forgets it
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "base/file.h"
 #include "base/text.h"
 #include "base/unique.h"
-#include "formats/directions.h"
-#include "formats/mesh/gltf_buffers.h"
-#include "formats/mesh/gltf_check.h"
-#include "formats/mesh/gltf_json.h"
+#include "formats/mesh/gltf_elements.h"
+#include "formats/mesh/gltf_file.h"
 #include "formats/mesh/gltf_looks.h"
 #include "formats/mesh/gltf_material.h"
-#include "formats/mesh/gltf_tree.h"
-#include "formats/mesh/gltf_upgrade.h"
+#include "formats/mesh/gltf_view.h"
 #include "geometry/mesh/mesh.h"
-
-#define TINYGLTF_IMPLEMENTATION
-#include "formats/mesh/gltf_values.h"
 
 namespace trace {
 namespace {
-
-constexpr std::string_view kMagic = "glTF";
-
-std::uint32_t littleInt(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
-// --- the container ----------------------------------------------------------------------------------
-
-/// The JSON of the file: all of it, or the first chunk of a binary one. Throws Error if chunks do not fit.
-std::string_view jsonOf(const Place& place, std::string_view bytes) {
-  if (!bytes.starts_with(kMagic)) return bytes;
-  const auto fail = [&](const char* what) { throw Error(Fault::scene, place, what); };
-  if (bytes.size() < 20) fail("expected a glTF header of 20 bytes, found the end of the file");
-  const std::size_t json = littleInt(bytes, 12), end = 20 + json;
-  if (littleInt(bytes, 8) > bytes.size() || end > bytes.size())
-    fail("the file is shorter than its header says");
-  const bool hasChunks = littleInt(bytes, 4) >= 2;  // before, the rest was the body
-  if (hasChunks && end + 8 <= bytes.size() && littleInt(bytes, end) > bytes.size() - end - 8)
-    fail("the binary chunk is longer than the rest of the file");
-  return bytes.substr(20, json);
-}
-
-/// Files that the scene names, each read once.
-struct Files {
-  std::set<std::string> read;
-  InputFiles& inputs;
-
-  static bool exists(const std::string& path, void*) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
-  }
-  static std::string expand(const std::string& path, void*) { return path; }
-  static bool readWhole(std::vector<unsigned char>* to, std::string* error, const std::string& path,
-                        void* self) {
-    Files& files = *static_cast<Files*>(self);
-    if (!files.read.insert(path).second) {
-      *error = "two buffers are the same file";
-      return false;
-    }
-    try {
-      const std::string bytes = readFile(path);
-      files.inputs.noteRead(path, bytes);
-      to->assign(bytes.begin(), bytes.end());
-      return true;
-    } catch (const Error& failure) {
-      if (failure.fault() == Fault::limit) throw;
-      *error = failure.messages().front().what;
-      return false;
-    }
-  }
-};
-
-tinygltf::Model parse(const std::string& file, std::string_view bytes, const Place& place, InputFiles& inputs,
-                      Messages& messages) {
-  nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
-  std::string upgraded;
-  if (isGltf1(json)) {
-    json = upgradedGltf(json, place);
-    upgraded = upgradedGltfFile(json, bytes);
-    bytes = upgraded;
-  }
-  checkGltf(json, place, messages);
-  checkGltfBuffers(json, place);
-  checkGltfTree(json, place);
-  Files files{{}, inputs};
-  tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({Files::exists, Files::expand, Files::readWhole, nullptr, &files});
-  // Only the bytes of a data URI are kept: those in a buffer lie where nobody has looked yet.
-  parser.SetImageLoader(
-      [](tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* data,
-         int size, void*) {
-        if (image->bufferView < 0) image->image.assign(data, data + size);
-        return true;
-      },
-      nullptr);
-  tinygltf::Model model;
-  std::string errors, warnings;
-  const std::string folder = std::filesystem::path(file).parent_path().string();
-  const auto size = static_cast<unsigned>(bytes.size());
-  bool good = false;
-  try {
-    good =
-        bytes.starts_with(kMagic)
-            ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-            : parser.LoadASCIIFromString(&model, &errors, &warnings, bytes.data(), size, folder);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    errors = error.what();
-  }
-  if (!good)
-    throw Error(Fault::scene, place, "not a sound glTF file: " + errors.substr(0, errors.find('\n')));
-  return model;
-}
-
-// --- numbers ----------------------------------------------------------------------------------------
-
-/// The elements of an accessor, checked to lie inside their buffer.
-class Elements {
- public:
-  Elements(const tinygltf::Model& model, int index, const Place& place) {
-    const auto fail = [&](const char* what) {
-      throw Error(Fault::scene, place, "accessor " + std::to_string(index) + ": " + what);
-    };
-    if (!isIndex(index, model.accessors.size())) fail("there is none");
-    const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
-    if (accessor.sparse.isSparse) fail("sparse accessors are not read yet");
-    if (!isIndex(accessor.bufferView, model.bufferViews.size())) fail("expected a buffer view");
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-    if (!isIndex(view.buffer, model.buffers.size())) fail("expected a view of a buffer");
-    const auto& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-
-    type_ = accessor.componentType;
-    normalized_ = accessor.normalized;
-    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_));
-    if (components < 1 || components > 4 || size < 1 || size > 4) fail("expected a scalar or a vector");
-    components_ = static_cast<std::size_t>(components);
-    size_ = static_cast<std::size_t>(size);
-    stride_ = view.byteStride ? view.byteStride : components_ * size_;
-    count_ = accessor.count;
-    const bool viewFits = view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset;
-    if (!viewFits || accessor.byteOffset > view.byteLength) fail("its buffer view is longer than the buffer");
-    const std::size_t room = view.byteLength - accessor.byteOffset;
-    if (count_ > 0 && (room < components_ * size_ || (room - components_ * size_) / stride_ < count_ - 1))
-      fail("it is longer than its buffer view");
-    first_ = data.data() + view.byteOffset + accessor.byteOffset;
-  }
-
-  std::size_t count() const { return count_; }
-  std::size_t components() const { return components_; }
-  std::size_t bytes() const { return count_ * components_ * size_; }
-
-  double number(std::size_t i, std::size_t component) const {
-    const unsigned char* from = first_ + i * stride_ + component * size_;
-    switch (type_) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return whole<std::int8_t>(from);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return whole<std::uint8_t>(from);
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return whole<std::int16_t>(from);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return whole<std::uint16_t>(from);
-      case TINYGLTF_COMPONENT_TYPE_INT: return whole<std::int32_t>(from);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return whole<std::uint32_t>(from);
-    }
-    return load<float>(from);
-  }
-  Vec3f vector(std::size_t i) const { return Vec3f(Vec3{number(i, 0), number(i, 1), number(i, 2)}); }
-
- private:
-  template <class T>
-  static T load(const unsigned char* from) {
-    T value;
-    std::memcpy(&value, from, sizeof value);
-    return value;
-  }
-  template <class T>
-  double whole(const unsigned char* from) const {
-    const double value = load<T>(from);
-    return normalized_ ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
-  }
-
-  const unsigned char* first_ = nullptr;
-  std::size_t count_ = 0, components_ = 1, size_ = 1, stride_ = 1;
-  int type_ = 0;
-  bool normalized_ = false;
-};
 
 Affine transformOf(const tinygltf::Node& node) {
   Affine m;
@@ -232,7 +49,7 @@ class GltfReader {
   GltfReader(const std::string& file, std::string_view bytes, Messages& messages)
       : place_{file, 0, 0, {}},
         messages_(messages),
-        gltf_(parse(file, bytes, place_, model_.inputs, messages)),
+        gltf_(parsedGltf(file, bytes, place_, model_.inputs, messages)),
         looks_(gltf_, place_, messages) {
     for (const tinygltf::Image& image : gltf_.images)
       if (!image.uri.empty()) model_.inputs.noteNamed(besideFile(file, fileOf(image)));
@@ -310,10 +127,11 @@ class GltfReader {
 
   void read(const tinygltf::Node& node, const Affine& worldFromNode) {
     if (isIndex(node.camera, gltf_.cameras.size()))
-      readCamera(gltf_.cameras[static_cast<std::size_t>(node.camera)], worldFromNode);
+      readCamera(gltf_.cameras[static_cast<std::size_t>(node.camera)], worldFromNode, place_, model_,
+                 messages_);
     const double light = extension(node.extensions, "KHR_lights_punctual", "light", -1);
     if (light >= 0 && light < static_cast<double>(gltf_.lights.size()))
-      readLight(gltf_.lights[static_cast<std::size_t>(light)], worldFromNode);
+      readLight(gltf_.lights[static_cast<std::size_t>(light)], worldFromNode, place_, model_, messages_);
     if (node.mesh < 0) return;
     if (!isIndex(node.mesh, gltf_.meshes.size())) fail("there is no mesh " + std::to_string(node.mesh));
     const std::string& name =
@@ -328,55 +146,6 @@ class GltfReader {
       model_.objects.back().name = name;
       model_.objects.back().worldFromObject = worldFromNode;
     }
-  }
-
-  void readCamera(const tinygltf::Camera& from, const Affine& worldFromNode) {
-    if (model_.camera) return;
-    const bool parallel = from.type == "orthographic";
-    const double fov = parallel ? 45 : from.perspective.yfov * 180 / kPi;
-    const double aspect =
-        parallel ? from.orthographic.xmag / from.orthographic.ymag : from.perspective.aspectRatio;
-    Camera camera;
-    camera.position = worldFromNode * Vec3{};
-    camera.viewdir = linear(worldFromNode, {0, 0, -1});
-    camera.updir = linear(worldFromNode, {0, 1, 0});
-    if (!(fov > 0 && fov < 180) || (parallel && !(std::abs(aspect) > 0 && std::isfinite(aspect))) ||
-        !canLook(camera.viewdir, camera.updir) || !isFinite(camera.position))
-      return messages_.warn(place_, "camera \"" + from.name + "\" cannot look; it is left out");
-    camera.viewdir = normalize(camera.viewdir);
-    camera.updir = normalize(camera.updir);
-    camera.fov = fov;
-    if (std::abs(aspect) > 0 && std::isfinite(aspect)) camera.aspectratio = std::abs(aspect);
-    model_.camera = camera;
-    if (!parallel) return;
-    model_.choices.push_back({"projection", "orthographic", place_});
-    model_.choices.push_back({"view-height", toText(std::abs(2 * from.orthographic.ymag)), place_});
-  }
-
-  /// Candela and lux become the courses' colours, whose matt surfaces do not divide by pi.
-  void readLight(const tinygltf::Light& from, const Affine& worldFromNode) {
-    const Color color = colorOf(from.color, Color(1)) * (from.intensity / kPi);
-    const Vec3 position = worldFromNode * Vec3{}, direction = linear(worldFromNode, {0, 0, -1});
-    if (!isFinite(color) || !isFinite(position) || !isFinite(direction) || direction == Vec3{})
-      return messages_.warn(place_, "light \"" + from.name + "\" is left out: its numbers are not finite");
-    if (from.type == "directional") {
-      model_.lights.push_back({DirectionalLight{.direction = normalize(direction), .color = color}, place_});
-      return;
-    }
-    const auto degrees = [](Real radians) { return std::clamp(radians * 180 / kPi, 0.0, 90.0); };
-    if (from.type == "spot")
-      model_.lights.push_back({SpotLight{.position = position,
-                                         .direction = normalize(direction),
-                                         .color = color,
-                                         .angle = degrees(from.spot.outerConeAngle),
-                                         .fullAngle = degrees(from.spot.innerConeAngle),
-                                         .constant = 0,
-                                         .quadratic = 1},
-                               place_});
-    else
-      model_.lights.push_back({PointLight{.position = position, .color = color}, place_});
-    if (!limitsLifted_) model_.choices.push_back({"limit-attenuation", "off", place_});
-    limitsLifted_ = true;
   }
 
   // --- meshes ---
@@ -396,8 +165,8 @@ class GltfReader {
     return found->second;
   }
 
-  Elements elements(int accessor) {
-    const Elements result(gltf_, accessor, place_);
+  GltfElements elements(int accessor) {
+    const GltfElements result(gltf_, accessor, place_);
     if (result.bytes() > allowance_) fail("the same data is used too often, in more than 100 meshes");
     allowance_ -= result.bytes();
     return result;
@@ -408,7 +177,7 @@ class GltfReader {
     std::vector<Vec3f> result;
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) return result;
-    const Elements from = elements(found->second);
+    const GltfElements from = elements(found->second);
     if (from.components() < 3 || (count > 0 && from.count() != count))
       fail(std::string(name) + ": expected one vector for each point");
     for (std::size_t i = 0; i < from.count(); ++i) result.push_back(from.vector(i));
@@ -447,7 +216,7 @@ class GltfReader {
       for (std::uint32_t i = 0; i < points; ++i) corners.push_back(i);
       return corners;
     }
-    const Elements from = elements(primitive.indices);
+    const GltfElements from = elements(primitive.indices);
     corners.reserve(from.count());
     for (std::size_t i = 0; i < from.count(); ++i) {
       const double corner = from.number(i, 0);
@@ -469,7 +238,7 @@ class GltfReader {
       ++withoutUvs_;
       return mesh.uvs.assign(mesh.points.size(), {0, 1});
     }
-    const Elements from = elements(found->second);
+    const GltfElements from = elements(found->second);
     if (from.components() < 2 || from.count() != mesh.points.size())
       fail(name + ": expected one for each point");
     for (std::size_t i = 0; i < from.count(); ++i)
@@ -491,8 +260,7 @@ class GltfReader {
 
   Place place_;
   Messages& messages_;
-  Model model_;                // parsing notes files in it
-  bool limitsLifted_ = false;  // light falls off as in nature
+  Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;
   std::map<int, std::vector<Object>> parts_;  ///< of meshes
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
@@ -508,7 +276,7 @@ class GltfReader {
 }  // namespace
 
 bool recognisesGltf(std::string_view bytes) {
-  if (bytes.starts_with(kMagic)) return true;
+  if (isBinaryGltf(bytes)) return true;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && bytes[first] == '{' &&
          bytes.find("\"asset\"") != std::string_view::npos;

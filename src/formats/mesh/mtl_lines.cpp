@@ -45,10 +45,10 @@ constexpr std::array<std::string_view, 21> kMaps{
     "map_Pr", "map_Pm",   "map_Ps",   "map_Bump", "map_bump", "bump",  "map_Disp",
     "disp",   "map_disp", "map_refl", "refl",     "norm",     "decal", "map_norm"};
 
-/// Maps whose picture is rendered.
-constexpr std::array<std::string_view, 13> kRendered{"map_Ka", "map_Kd",   "map_Ks",   "map_Ke", "map_Ns",
-                                                     "map_d",  "map_Bump", "map_bump", "bump",   "norm",
-                                                     "map_Pr", "map_Pm",   "map_Ps"};
+/// Maps whose picture is rendered, unless another takes their place (formats/mesh/obj_material.h).
+constexpr std::array<std::string_view, 16> kRendered{
+    "map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_Ns", "map_d",    "map_Bump", "map_bump",
+    "bump",   "norm",   "map_Pr", "map_Pm", "map_Ps", "map_Disp", "map_disp", "disp"};
 
 /// An option of a texture, and how many words follow it at most. What is missing of several numbers is
 /// `otherwise`.

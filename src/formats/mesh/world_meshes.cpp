@@ -87,7 +87,7 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
     std::optional<MeshData> triangles;
     const auto mesh = displacedMesh(object, scene.materials);
     if (!mesh) {
-      triangles = tessellated(object.shape);
+      triangles = tessellated(object.shape, 64, pictureOf(scene.materials.at(object.material)) != nullptr);
       sampled |= triangles.has_value();
     }
     if ((mesh || triangles) && invertible(object.worldFromObject))

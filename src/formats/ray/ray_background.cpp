@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "base/text.h"
 #include "formats/ray/ray_fields.h"
@@ -10,7 +11,9 @@ namespace trace::rayfile {
 
 Background readBackground(Findings& findings, const Item& block) {
   Background background;
+  std::optional<Item> turbidity;
   for (const Item item : block) {
+    if (item.keyed() && item.key() == "turbidity") turbidity = item.value();
     if (!item.keyed()) {
       findings.expected(item, Background::kKeyword, "a field, as in color = (0.4, 0.6, 1)");
       continue;
@@ -37,8 +40,8 @@ Background readBackground(Findings& findings, const Item& block) {
   if (background.turbidity > 0 && !(length(background.sun) > 0))
     findings.error(block, "background: expected a direction to the sun, found (0, 0, 0)");
   if (background.turbidity < 0)
-    findings.warn(block, "background: expected a turbidity of at least 0, found " +
-                             toText(background.turbidity) + ": there is no sky");
+    findings.warn(turbidity.value_or(block), "background: expected a turbidity of at least 0, found " +
+                                                 toText(background.turbidity) + ": there is no sky");
   for (const Color& color : background.colors)
     if (color.r < 0 || color.g < 0 || color.b < 0)
       findings.warn(block, "background: expected colors of at least 0, found a number below");

@@ -50,7 +50,7 @@ class Reader {
     scene_.unusedMaterials = materials_.unused();
     if (Notes* notes = findings_.notes()) notes->last = materials_.current;
     findings_.finish();
-    warnOfDarkness();
+    warnOfEmptiness();
     messages_.throwIfFailed();
   }
   const TextureReader& textures() { return materials_.textures(); }
@@ -92,15 +92,9 @@ class Reader {
     materials_.current = materials_.read(item.value(), materials_.current);
   }
 
-  void warnOfDarkness() {
-    const Place place{scene_.file, 0, 0, {}};
-    if (scene_.objects.empty()) return messages_.warn(place, "no object: the picture will be empty");
-    const bool glow = std::any_of(scene_.materials.begin(), scene_.materials.end(), glows);
-    const Background& around = scene_.background;
-    const bool shines = !around.gradient.empty() || around.turbidity > 0;
-    if (scene_.lights.empty() && !glow && !shines)
-      messages_.warn(place, "no light: everything will be black",
-                     "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
+  void warnOfEmptiness() {
+    if (scene_.objects.empty())
+      messages_.warn(Place{scene_.file, 0, 0, {}}, "no object: the picture will be empty");
   }
 
   void camera(const Item& call) {

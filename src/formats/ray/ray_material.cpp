@@ -177,7 +177,7 @@ void Materials::field(Block& block, const Item& field) {
     match(block.material.model, [&](const auto& model) {
       if constexpr (requires { model.index; })
         if (key == "index" && model.index == 0)
-          findings_.warn(field, "index of material: expected a number above 0, found 0",
+          findings_.warn(field, "index of material: nothing has an index of 0",
                          "air has 1, water 1.33, glass 1.5");
     });
     if (key == "shininess" && field.value().is(Kind::number)) block.shininess = field;
@@ -224,7 +224,7 @@ void Materials::fromLibrary(Block& block, const Item& value) {
   const std::optional<Material> found = libraryMaterial(name);
   if (!found) {
     std::string hint = didYouMean(name, libraryNames());
-    if (hint.empty()) hint = "docs/indices.md lists them, as in library = water";
+    if (hint.empty()) hint = "docs/library.md and docs/indices.md list them, as in library = water";
     findings_.error(value, "library: expected the name of a material, found " + describe(value),
                     std::move(hint));
     return;

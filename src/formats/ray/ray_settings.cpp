@@ -22,14 +22,17 @@ std::string choiceText(const Item& value) {
 void choice(Findings& findings, const Item& item) {
   const Choice choice{std::string(item.key()), choiceText(item.value()),
                       findings.syntax().shortPlace(item.offset())};
+  Item wrong = item;
   try {
     Settings scratch;
-    findOption(choice.option).assign(scratch, choice.value);
+    const Option& option = findOption(choice.option);
+    wrong = item.value();
+    option.assign(scratch, choice.value);
     findings.scene().choices.push_back(choice);
   } catch (const Error& error) {
     const Message& message = error.messages().front();
     const std::string_view what = message.what;
-    findings.error(item, std::string(what.starts_with("--") ? what.substr(2) : what), message.hint);
+    findings.error(wrong, std::string(what.starts_with("--") ? what.substr(2) : what), message.hint);
   }
 }
 

@@ -63,11 +63,7 @@ void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace,
   if (!(view.near < view.far))
     messages.warn(viewPlace, "expected near to be less than far, found " + toText(view.near) + " and " +
                                  toText(view.far) + ": nothing is seen");
-  if (scene.objects.empty()) return messages.warn(place, "no object: the picture will be empty");
-  const bool glow = std::any_of(scene.materials.begin(), scene.materials.end(), glows);
-  if (scene.lights.empty() && !glow)
-    messages.warn(place, "no light: everything will be black",
-                  "add one, as in PointLight 0 5 5 \"diffuse\" [1 1 1]");
+  if (scene.objects.empty()) messages.warn(place, "no object: the picture will be empty");
 }
 
 void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "base/budget.h"
 #include "geometry/mesh/mesh.h"
@@ -60,6 +61,9 @@ class SampleGrid {
         if (!points[cell]) points[cell] = place(cell);
         quad[i] = {*points[cell], smoothNormal(cell, edge.normal, solid), edge.material};
       }
+      // The ring runs counter-clockwise seen from the axis's end. Neighbours agree even where a cell's point
+      // folds a thin triangle over, whose own normal would turn it.
+      if (solid && edge.normal[edge.axis] < 0) std::swap(quad[1], quad[3]);
       for (const std::size_t i : {0, 1, 2, 0, 2, 3}) corners.push_back(quad[i]);
     }
     return corners;

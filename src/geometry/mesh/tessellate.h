@@ -30,7 +30,7 @@ inline constexpr Box3 kFarthest{{-100, -100, -100}, {100, 100, 100}};
 Box3 drawnBounds(const Shape& shape, const Box3& within = kFarthest);
 
 /// Three corners for each triangle. A mesh gives its own; other shapes are sampled on a grid of about
-/// `divisions` cells along their longest side.
+/// `divisions` cells along their longest side. Those of a solid stand counter-clockwise seen from outside.
 std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions = 24, const Box3& within = kFarthest);
 
 }  // namespace trace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/unique.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
@@ -125,14 +126,13 @@ void add(Builder& builder, const Cylinder& shape, int) { builder.frustum(shape.f
 void add(Builder& builder, const Cone& shape, int) { builder.frustum(shape.frustum(), 0); }
 void add(Builder& builder, const Conic& shape, int) { builder.frustum(shape.frustum(), shape.low()); }
 
-/// The triangles of any shape with equal corners joined; those of a solid face outward.
-MeshData joined(const std::vector<SurfaceCorner>& corners, bool solid) {
+/// The triangles of any shape with equal corners joined.
+MeshData joined(const std::vector<SurfaceCorner>& corners) {
   using Key = std::array<float, 6>;
   Unique<Key> numbers;
   MeshData mesh;
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     Triangle triangle;
-    Vec3 normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3f p(corners[i + k].point), n(corners[i + k].normal);
       triangle[k] = numbers.number({p.x, p.y, p.z, n.x, n.y, n.z});
@@ -140,21 +140,72 @@ MeshData joined(const std::vector<SurfaceCorner>& corners, bool solid) {
         mesh.points.push_back(p);
         mesh.normals.push_back(n);
       }
-      normal += corners[i + k].normal;
     }
     mesh.triangles.push_back(triangle);
-    const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(mesh.triangles.size() - 1));
-    if (face == Vec3{})
+    if (faceNormal(mesh, static_cast<std::uint32_t>(mesh.triangles.size() - 1)) == Vec3{})
       mesh.triangles.pop_back();
-    else if (solid && dot(face, normal) < 0)
-      std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
   }
   return mesh;
 }
 
+/// The texture coordinates of the place on the shape that is nearest to p along the normal.
+std::optional<Vec2> uvAt(const TracedShape& form, const Vec3& p, const Vec3& normal, Real reach) {
+  const Ray ray{p + normal * reach, -normal};
+  std::optional<Crossing> nearest;
+  const auto look = [&](const Crossing& crossing) {
+    if (!nearest || std::abs(crossing.t - reach) < std::abs(nearest->t - reach)) nearest = crossing;
+  };
+  form.crossings(ray, {0, 2 * reach}, look);
+  if (!nearest) return {};
+  const Vec2 uv = form.surface(ray, *nearest).uv;
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
+  return uv;
+}
+
+/// The mesh with the texture coordinates of the shape. Each corner is asked a little inside its triangle, so
+/// that those on a line where coordinates start again, or at a pole, have them as their triangle does. A
+/// triangle that lies across such a line goes on with them.
+MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, Real size) {
+  constexpr Real kInside = 0x1p-8, kReach = 0.02, kTorn = 0.25;
+  struct Key {
+    std::uint32_t point;
+    float u, v;
+  };
+  Unique<Key> numbers;
+  MeshData mapped;
+  mapped.twoSided = mesh.twoSided;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    checkBudget();
+    const Corners v = corners(mesh, i);
+    const Vec3 middle = (v.a + v.b + v.c) / 3, normal = normalize(faceNormal(mesh, i));
+    const Vec2 around = uvAt(form, middle, normal, kReach * size).value_or(Vec2{});
+    Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 corner = k == 0 ? v.a : k == 1 ? v.b : v.c;
+      Vec2 uv = uvAt(form, corner + (middle - corner) * kInside, normal, kReach * size).value_or(around);
+      const Real far = max(std::abs(uv.x - around.x), std::abs(uv.y - around.y));
+      if (far > 2 * kTorn) {
+        const Vec2 halfway = uvAt(form, (corner + middle) / 2, normal, kReach * size).value_or(around);
+        const auto goneOn = [](Real from, Real between, Real to) {
+          return std::abs(between - (from + to) / 2) > kTorn ? to - std::round(to - from) : to;
+        };
+        uv = {goneOn(around.x, halfway.x, uv.x), goneOn(around.y, halfway.y, uv.y)};
+      }
+      const std::uint32_t point = mesh.triangles[i][k];
+      triangle[k] = numbers.number({point, static_cast<float>(uv.x), static_cast<float>(uv.y)});
+      if (triangle[k] < mapped.points.size()) continue;
+      mapped.points.push_back(mesh.points[point]);
+      mapped.normals.push_back(mesh.normals[point]);
+      mapped.uvs.push_back(uv);
+    }
+    mapped.triangles.push_back(triangle);
+  }
+  return mapped;
+}
+
 }  // namespace
 
-std::optional<MeshData> tessellated(const Shape& shape, int steps) {
+std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped) {
   if (shape.is<Mesh>()) return {};
   const TracedShape form = prepare(shape);
   const Box3 box = form.bounds();
@@ -163,10 +214,10 @@ std::optional<MeshData> tessellated(const Shape& shape, int steps) {
   Builder builder(steps);
   const bool known = visitAs<Sphere, Cube, Square, Cylinder, Cone, Conic>(
       shape, [&](const auto& s) { add(builder, s, steps); });
-  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps), solid);
+  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps));
   if (mesh.triangles.empty()) return {};
   mesh.twoSided = !solid;
-  return mesh;
+  return mapped ? withTextureCoordinates(mesh, form, maxComponent(box.size())) : mesh;
 }
 
 }  // namespace trace

@@ -9,7 +9,8 @@
 namespace trace {
 
 /// In the shape's own space, with normals, in that many steps around or along its longest side. Nothing for a
-/// shape that is a mesh, or has no end, or nothing to see.
-std::optional<MeshData> tessellated(const Shape& shape, int steps = 64);
+/// shape that is a mesh, or has no end, or nothing to see. `mapped`: with the texture coordinates of the
+/// shape.
+std::optional<MeshData> tessellated(const Shape& shape, int steps = 64, bool mapped = false);
 
 }  // namespace trace

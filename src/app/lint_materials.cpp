@@ -1,0 +1,112 @@
+// The checks of materials, and of how deep glass is looked into.
+#include <algorithm>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/lint_checks.h"
+#include "base/text.h"
+#include "geometry/field_value.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+
+namespace trace::lint_checks {
+namespace {
+
+void addMaterials(const Shape& shape, std::set<std::uint32_t>& used) {
+  used.insert(materialsOf(shape).begin(), materialsOf(shape).end());
+  for (const Operand& operand : shape.operands().list()) {
+    used.insert(operand.material);
+    addMaterials(operand.shape, used);
+  }
+}
+
+/// Nothing but black, and nothing said of it.
+bool isBare(const Material& material) {
+  return material.name.empty() && material.textures.empty() && material.model == MaterialModel() &&
+         material.mediumDensity == 0;
+}
+
+/// Whether the shape, or a part of it, would be of that material and it is bare.
+bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
+  if (shape.type().ofObjects) {
+    std::span<const Operand> parts = shape.operands().list();
+    if (shape.is<Clip>() && !parts.empty()) parts = parts.first(1);  // others only cut
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Operand& part) { return isBare(s, part.shape, part.material); });
+  }
+  return materialsOf(shape).empty() && isBare(s.scene.materials[material]);
+}
+
+}  // namespace
+
+/// Some readers keep the materials that the file names and leave to nothing in the scene, others beside it.
+void unusedMaterial(const LintScene& s, Findings& findings) {
+  const bool inRay = s.scene.format == "ray";
+  const auto unused = [&](const std::string& name, const Place& place) {
+    warn(findings, "unused-material", place, "the material \"" + name + "\" is given to nothing",
+         inRay ? "name it in an object, as in sphere { material = \"" + name + "\"; }, or take it out"
+               : "give it to an object, or take it out");
+  };
+  for (const UnusedMaterial& material : s.scene.unusedMaterials) unused(material.name, material.place);
+  std::set<std::uint32_t> used;
+  for (const Object& object : s.scene.objects) {
+    used.insert(object.material);
+    addMaterials(object.shape, used);
+  }
+  for (std::uint32_t i = 0; i < s.scene.materials.size(); ++i)
+    if (!s.scene.materials[i].name.empty() && !used.contains(i))
+      unused(s.scene.materials[i].name, Place{.file = s.scene.file});
+}
+
+void inheritedGlass(const LintScene& s, Findings& findings) {
+  for (const Message& message : s.warnings)
+    if (isOfGlass(message)) warn(findings, "inherited-glass", message.place, message.what, message.hint);
+}
+
+void indexBelowOne(const LintScene& s, Findings& findings) {
+  std::set<std::uint32_t> told;
+  for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
+    const Phong material = materialOf(s, object);
+    if (!material.transmits() || material.index >= 1) continue;
+    if (!told.insert(s.scene.objects[object].material).second) continue;
+    warn(findings, "index-below-1", placeOf(s, object),
+         "the index of refraction of " + quoted(s, object) + " is " + toText(material.index) +
+             ": no matter has one below 1",
+         "glass has index = 1.5, water 1.33; for a bubble in glass nest a surface of index 1");
+  }
+}
+
+void depthTooLow(const LintScene& s, Findings& findings) {
+  constexpr double kFew = 0.04;
+  const double samples = s.survey.samples;
+  if (s.survey.cutShort.size() < kFew * samples || s.survey.cutShort.empty()) return;
+  const std::vector<int> darker = changedByDepth(s.settings, s.world, s.survey);
+  // With the depth set, and with each depth above it.
+  const auto enough = std::find_if(darker.begin(), darker.end(), [&](int n) { return n < kFew * samples; });
+  if (darker.empty() || enough == darker.begin()) return;
+  const std::string depth = std::to_string(s.settings.depth + static_cast<int>(enough - darker.begin()));
+  warn(findings, "depth-too-low", placeOf(s, s.survey.cutShortIn),
+       "rays end inside glass, at first in " + quoted(s, s.survey.cutShortIn) + ", for the depth is only " +
+           std::to_string(s.settings.depth) + ": " + percent(darker.front() / samples) +
+           " of the picture would look different with more",
+       "--depth " + depth + ", or settings { depth = " + depth + "; } in the scene");
+}
+
+void noMaterial(const LintScene& s, Findings& findings) {
+  std::vector<std::uint32_t> bare;
+  for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i)
+    if (isBare(s, s.scene.objects[i].shape, s.scene.objects[i].material)) bare.push_back(i);
+  if (bare.empty()) return;
+  const std::size_t others = bare.size() - 1;
+  warn(findings, "no-material", placeOf(s, bare.front()),
+       quoted(s, bare.front()) +
+           (others == 0   ? " has no material"
+            : others == 1 ? " and one more object have no material"
+                          : " and " + std::to_string(others) + " more objects have no material") +
+           ", or one that says nothing: no light makes it other than black",
+       "give it one, as in material = { diffuse = (0.8, 0.8, 0.8); ambient = (0.8, 0.8, 0.8); }");
+}
+
+}  // namespace trace::lint_checks

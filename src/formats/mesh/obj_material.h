@@ -1,0 +1,32 @@
+// Materials of an MTL file, as tinyobjloader has read them, as those of Trace.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "shading/material.h"
+
+namespace tinyobj {
+struct material_t;
+}  // namespace tinyobj
+
+namespace trace {
+
+/// What its pictures are called, and what is in them.
+struct MtlPictures {
+  Place place;                                            ///< of the MTL file
+  std::function<std::string(const std::string&)> nameOf;  ///< as seen from the mesh's file
+  std::function<bool(const std::string&)> isTransparent;  ///< the picture of that name may be
+  std::function<void(const std::string&)> unused;         ///< it is not rendered
+};
+
+/// The material with its pictures; nothing if it has numbers that are not finite.
+std::optional<Material> materialOf(const tinyobj::material_t& mtl, const MtlPictures& pictures);
+
+/// MTL does not say how high heights stand: `bump` becomes a part of the model's longest side.
+void scaleHeights(Material& material, Real longestSide);
+
+/// What colours of points multiply.
+Color paintedColor(const MaterialModel& model);
+
+}  // namespace trace
