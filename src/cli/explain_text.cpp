@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "app/path_ways.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/console.h"
@@ -215,8 +216,8 @@ class TreeText {
   void shadow(const RayNode& node) {
     if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
     for (const Filter& filter : node.filters)
-      line("* " + text(filter.factor) + " through " + printable(objectName(scene_, filter.object)) +
-           " at distance " + text(filter.t));
+      line("* " + text(filter.factor) + " through " + printable(fillingName(scene_, filter.object)) +
+           (std::isfinite(filter.t) ? " at distance " + text(filter.t) : " on its way"));
     line("= " + text(node.radiance) + " passes");
   }
 
@@ -226,6 +227,23 @@ class TreeText {
   std::vector<std::vector<int>> children_;
   std::string text_, margin_;
 };
+
+/// Each way in which paths from both ends were joined, and what it counts; "" where there is none.
+std::string waysText(const RayTree& tree, const Scene& scene) {
+  std::string lines;
+  int places = 0;
+  for (const PathWay& way : pathWays(tree)) {
+    if (lines.empty())
+      lines = "The paths of the sample, s places from the light's end and t from the camera's:\n";
+    if (way.places() != places) lines += "  " + std::to_string(way.places()) + " places\n";
+    places = way.places();
+    lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + "  counts " +
+             text(way.share) + ", brings " + text(way.brings) + ", alone " + text(way.alone()) + "; #" +
+             std::to_string(way.between < 0 ? way.end : way.between) + " " +
+             printable(sentence(way, tree, scene)) + "\n";
+  }
+  return lines.empty() ? "" : lines + "\n";
+}
 
 /// What an 8-bit file shows of the light, if that is not the light itself.
 std::string shownText(const PixelFacts& facts) {
@@ -265,7 +283,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
             std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);
   text += "\n\n";
-  text += TreeText(facts, color).all() + "\n";
+  text += TreeText(facts, color).all() + "\n" + waysText(e.tree, facts.scene);
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
@@ -278,15 +296,20 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text +=
         "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
         "corner\n";
-  text += "their mean  " + exact(e.pixel) + "\nthe picture " + exact(facts.rendered) + "\n";
+  text += "their mean  " + exact(e.pixel) + (facts.byChains ? "\nby `path`   " : "\nthe picture ") +
+          exact(facts.rendered) + "\n";
+  if (facts.byChains)
+    text += "            chains make the picture, in no order of pixels: it tends to the same\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
     text +=
         "            and what paths from lights bring straight to the camera (t = 1), those of all pixels; "
         "see --camera-vertices 1\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
-  text += shownText(facts);
-  text += facts.agrees() ? "The rays above sum to the picture's pixel, bit for bit.\n"
-                         : "The rays above do NOT sum to the picture's pixel: please report this.\n";
+  const bool whole = !facts.byChains && !facts.settings.denoise;  // nothing else has a part in the pixel
+  if (whole && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
+  const std::string pixel = whole ? "the picture's pixel" : "the pixel as it was traced";
+  text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
+                         : "The rays above do NOT sum to " + pixel + ": please report this.\n";
   return text;
 }
 
