@@ -51,6 +51,9 @@ PlaneView samplesView(const Film& film) {
     most = std::max(most, c.r);
   }
   if (most == 0) return {std::move(counts), "no pixel has samples yet"};
+  if (least == most)
+    return {heat(std::move(counts), most),
+            formatted("%.0f %s in every pixel", most, most == 1 ? "ray" : "rays")};
   const std::string legend = formatted("rays a pixel: %.0f to %.0f, which is white; %.4g on the average",
                                        least, most, film.convergence().samples);
   return {heat(std::move(counts), most), legend};

@@ -11,23 +11,48 @@ int mostRaysOf(const Settings& settings) {
   return subdivides(settings) ? across * across : samplesOf(settings);
 }
 
+/// What has a part in the picture, and no ray of the pixel.
+std::string noteOn(const Settings& settings) {
+  if (settings.integrator == IntegratorKind::mlt)
+    return "Chains made this picture, in no order of pixels: these are paths to whose mean they tend.";
+  std::string note;
+  if (settings.integrator == IntegratorKind::bdpt)
+    note = "Beside these, paths from lights that end at the camera (t = 1) bring light, those of all pixels.";
+  if (settings.denoise)
+    note += std::string(note.empty() ? "" : " ") + "Denoise makes the pixel a mean of pixels that are alike.";
+  return note;
+}
+
+/// What follows from the tree.
+void arrange(TracedPixel& pixel) {
+  pixel.segments = raySegments(pixel.tree());
+  const std::vector<RayNode>& rays = pixel.tree().nodes;
+  pixel.level.assign(rays.size(), 0);
+  pixel.hasChildren.assign(rays.size(), 0);
+  for (std::size_t i = 1; i < rays.size(); ++i) {
+    if (rays[i].parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(rays[i].parent);
+    pixel.level[i] = pixel.level[parent] + 1;
+    pixel.hasChildren[parent] = 1;
+  }
+  pixel.ways = pathWays(pixel.tree());
+}
+
 }  // namespace
+
+TracedPixel arrangedPixel(std::shared_ptr<const Session> session, Explanation explanation) {
+  TracedPixel pixel{std::move(session), explanation.tree.x, explanation.tree.y, 0, std::move(explanation)};
+  arrange(pixel);
+  return pixel;
+}
 
 TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,
                        const Cancelled& cancelled) {
   TracedPixel pixel{session, x, y, std::clamp(sample, 0, mostRaysOf(session->settings()) - 1)};
   try {
     pixel.explanation = pixel.session->explain(x, y, pixel.sample, cancelled);
-    pixel.segments = raySegments(pixel.tree());
-    const std::vector<RayNode>& rays = pixel.tree().nodes;
-    pixel.level.assign(rays.size(), 0);
-    pixel.hasChildren.assign(rays.size(), 0);
-    for (std::size_t i = 1; i < rays.size(); ++i) {
-      if (rays[i].parent < 0) continue;
-      const auto parent = static_cast<std::size_t>(rays[i].parent);
-      pixel.level[i] = pixel.level[parent] + 1;
-      pixel.hasChildren[parent] = 1;
-    }
+    arrange(pixel);
+    pixel.note = noteOn(session->settings());
   } catch (const Error& error) {
     pixel.problem = error.messages().front().what;
   } catch (const std::exception& error) {

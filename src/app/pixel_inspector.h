@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/background_task.h"
+#include "app/path_ways.h"
 #include "app/ray_segments.h"
 #include "app/ray_view.h"
 #include "app/session.h"
@@ -21,12 +22,18 @@ struct TracedPixel {
   std::vector<RaySegment> segments{};  ///< one for each ray
   std::vector<int> level{};            ///< of each ray in the tree; the camera ray's is 0
   std::vector<char> hasChildren{};
+  std::vector<PathWay> ways{};  ///< that its paths from both ends were joined in
+  /// What its rays leave unsaid of the picture; "" if nothing.
+  std::string note{};
   std::string problem{};  ///< why there are no rays; "" if there are
 
   const RayTree& tree() const { return explanation.tree; }
   const Scene& scene() const { return session->scene(); }
   RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
 };
+
+/// What a window shows of rays that were explained.
+TracedPixel arrangedPixel(std::shared_ptr<const Session> session, Explanation explanation);
 
 /// Traces sample `sample` of the pixel, or its last one if it has fewer. Keeps errors as the problem.
 TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int sample,

@@ -14,6 +14,7 @@ RayLooks looksOf(const RayNode& node) {
 
 /// The t at which the ray ends; infinite if it does not.
 Real length(const RayNode& node) {
+  if (const MediumTerm* scattered = scatteredIn(node)) return scattered->t;
   if (node.hit) return node.hit->t;
   if (!node.ends.empty()) {
     if (const auto* blocked = std::get_if<Blocked>(&node.ends.front())) return blocked->t;
@@ -24,6 +25,12 @@ Real length(const RayNode& node) {
 }
 
 }  // namespace
+
+const MediumTerm* scatteredIn(const RayNode& node) {
+  for (const Term& term : node.terms)
+    if (term.medium && term.goesOn()) return &*term.medium;
+  return nullptr;
+}
 
 std::vector<RaySegment> raySegments(const RayTree& tree) {
   Box3 box;

@@ -15,6 +15,9 @@ struct RaySegment {
   bool leaves = false;  ///< it goes on without end; drawn in part
 };
 
+/// The medium that sent the path of the ray on; null if none did.
+const MediumTerm* scatteredIn(const RayNode& node);
+
 /// One for each ray, in the tree's order. What leaves the scene is drawn for a third of the tree's size.
 std::vector<RaySegment> raySegments(const RayTree& tree);
 

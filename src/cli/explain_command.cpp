@@ -89,7 +89,8 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
   opened->open(arguments.files[0], choices, arguments.strict);
-  if (rowOf(opened->settings()).byChains) {
+  const bool byChains = rowOf(opened->settings()).byChains;
+  if (byChains) {
     console.line(
         LogLevel::info,
         "note: chains make this picture, in no order of pixels; shown are paths of --integrator path, "
@@ -108,8 +109,8 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
   const Size size = session.size();
   const PixelFacts facts{
-      session.scene(),   explanation, size.width, size.height, session.film().ofSamples(x, y),
-      session.settings()};
+      session.scene(),    explanation, size.width, size.height, session.film().ofSamples(x, y),
+      session.settings(), byChains};
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "app/path_ways.h"
 #include "base/match.h"
 #include "cli/json.h"
 #include "geometry/materials.h"
@@ -164,7 +165,13 @@ class Writer {
     if (t.connection)
       json["connection"] = {
           {"s", t.connection->light}, {"t", t.connection->camera}, {"share", t.connection->share}};
-    if (t.photons) json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
+    if (t.photons) {
+      json["photons"] = {{"count", t.photons->count}, {"radius", t.photons->radius}};
+      json["photons"]["each"] = Json::list();
+      for (const Photon& p : t.photons->photons)
+        json["photons"]["each"].add(
+            {{"point", toJson(p.point)}, {"direction", toJson(p.direction)}, {"power", toJson(p.power)}});
+    }
     if (t.cache) json["cache"] = {{"records", t.cache->records}};
     if (t.medium) {
       constexpr std::array<std::string_view, 4> kWhat{"covers", "glows", "scatters", "follows"};
@@ -276,6 +283,18 @@ std::string explainJson(const PixelFacts& facts) {
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
+  if (const std::vector<PathWay> ways = pathWays(e.tree); !ways.empty()) {
+    json["ways"] = Json::list();
+    for (const PathWay& way : ways)
+      json["ways"].add({{"s", way.light},
+                        {"t", way.camera},
+                        {"share", way.share},
+                        {"brings", toJson(way.brings)},
+                        {"end", way.end},
+                        {"start", way.start < 0 ? Json(nullptr) : Json(way.start)},
+                        {"between", way.between < 0 ? Json(nullptr) : Json(way.between)},
+                        {"sentence", sentence(way, e.tree, facts.scene)}});
+  }
   // One ray a line.
   std::string all = json.text();
   all.pop_back();  // the closing brace

@@ -1,0 +1,328 @@
+#include "cli/explain_text.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "app/path_ways.h"
+#include "base/printable.h"
+#include "base/text.h"
+#include "cli/console.h"
+#include "geometry/mesh/mesh.h"
+#include "scene/options.h"
+
+namespace trace::cli {
+namespace {
+
+// --- numbers: for the eye, six digits ---
+
+std::string text(Real x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", x);
+  return buffer;
+}
+std::string text(Real x, Real y, Real z) { return text(x) + " " + text(y) + " " + text(z); }
+std::string text(const Vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
+/// A grey is one number.
+std::string text(const Color& c) { return c.r == c.g && c.g == c.b ? text(c.r) : text(c.r, c.g, c.b); }
+/// All digits: what reads back as the same bits.
+std::string exact(const Color& c) { return toText(c.r) + " " + toText(c.g) + " " + toText(c.b); }
+
+bool sameBits(const Color& a, const Color& b) {
+  const auto same = [](double x, double y) {
+    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+    return bits(x) == bits(y) || (std::isnan(x) && std::isnan(y));
+  };
+  return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);
+}
+
+// --- the tree ---
+
+class TreeText {
+ public:
+  TreeText(const PixelFacts& facts, bool color)
+      : scene_(facts.scene), tree_(facts.explanation.tree), color_(color), children_(tree_.nodes.size()) {
+    for (int i = 1; i < static_cast<int>(tree_.nodes.size()); ++i)
+      if (at(i).parent >= 0) children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
+  }
+
+  std::string all() {
+    for (int i = 0; i < static_cast<int>(tree_.nodes.size()); ++i)
+      if (at(i).parent < 0) ray(i, i > 0 ? "\n" : "", "");
+    return std::move(text_);
+  }
+
+ private:
+  const RayNode& at(int index) const { return tree_.nodes[static_cast<std::size_t>(index)]; }
+
+  /// `first` stands before the ray's first line, `rest` before the others.
+  void ray(int index, const std::string& first, const std::string& rest) {
+    const RayNode& node = at(index);
+    const std::vector<int>& children = children_[static_cast<std::size_t>(index)];
+    margin_ = rest + (children.empty() ? "    " : "|   ");
+
+    const std::string kind(trace::name(node.kind));
+    const std::string name = "#" + std::to_string(index) + " " + kind + " ray";
+    std::string title = name;
+    if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
+    if (const auto light = lightOf(tree_, index)) title += " to " + printable(lightName(scene_, *light));
+    if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
+    text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
+    line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
+    for (const Ignored& ignored : node.ignored)
+      line(printable("no surface for light: " + sentence(ignored, scene_)));
+    if (node.hit) hit(node);
+    if (node.kind == RayKind::shadow)
+      shadow(node);
+    else if (node.kind == RayKind::light)
+      line("a place that paths from the camera are joined with");
+    else
+      terms(node);
+    if (const std::string why = sentence(node, scene_); !why.empty()) line(printable("-> " + why));
+    line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
+
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      text_ += rest + "|\n";
+      ray(children[i], rest + "+-- ", rest + (i + 1 < children.size() ? "|   " : "    "));
+    }
+  }
+
+  void line(const std::string& words) { text_ += margin_ + words + "\n"; }
+
+  void hit(const RayNode& node) {
+    const Hit& hit = *node.hit;
+    const Object& object = scene_.objects[hit.object];
+    const std::string shape(object.shape.keyword());
+    std::string what = "hits ";
+    if (!object.name.empty()) what += "\"" + object.name + "\", ";
+    what += shape;
+    if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
+    const bool mesh = object.shape.is<Mesh>();
+    line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
+                   materialNames(scene_, node.materials) + ", at distance " + text(hit.t)));
+    const SurfacePoint& s = hit.surface;
+    std::string side = hit.leaving ? "leaving it" : "entering it";
+    const Indices& indices = node.indices;
+    const auto index = [&](Real value, std::uint32_t body, Real priority) {
+      if (!indices.nested) return text(value);
+      return text(value) + " (" + printable(fillingText(scene_, body, priority)) + ")";
+    };
+    if (whitted(*node.bsdf).passage == Passage::straight)
+      side += ": a pane that bends nothing";
+    else if (whitted(*node.bsdf).transmits())
+      side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
+              index(indices.behind, indices.objectBehind, indices.priorityBehind);
+    if (hit.opacity < 1) side += "; opacity " + text(hit.opacity);
+    const Vec2 uv = s.uv;
+    line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
+    line("point " + text(s.point) + ", normal " + text(s.normal));
+    if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
+    if (node.raised)
+      line("its rays to light start at " + text(*node.raised) + ", " + text(length(*node.raised - s.point)) +
+           " off the facet: on the smooth surface of the corners' normals");
+  }
+
+  void terms(const RayNode& node) {
+    for (const Term& term : node.terms) {
+      const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
+      if (term.light) {
+        light(term, node);
+        continue;
+      }
+      if (term.dark) {
+        line("+ " + printable(lightName(scene_, term.dark->light)) + " 0; " +
+             std::string(sentence(*term.dark)));
+        continue;
+      }
+      const Color value = term.factor * term.value;
+      const bool isHole = term.kind == Term::Kind::hole;
+      const bool covers = (term.kind == Term::Kind::fog || isHole) && term.ray < 0 && term.value.g <= 0 &&
+                          !isBlack(term.value);
+      std::string words = "+ " + kind + " " + text(value);
+      if (covers) {
+        line(words + (isHole ? ": so much of the surface is not there: " + text(term.factor.r)
+                             : ": it covers " + text(term.factor.r) + " of what lies behind"));
+        continue;
+      }
+      const std::string product = text(term.factor) + " * " + text(term.value);
+      if (term.ray >= 0)
+        words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);
+      else if (!(term.factor == Color(1)) && !isBlack(value))
+        words += " = " + product;
+      if (term.chance && term.chance->density > 0) {
+        const ChanceTerm& chance = *term.chance;
+        words += "\n" + margin_ + "    by chance, density " + text(chance.density);
+        if (chance.other > 0)
+          words += ", the other way " + text(chance.other) + ": counts " + text(chance.share);
+      }
+      if (term.connection)
+        words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
+                 " from the light, t = " + std::to_string(term.connection->camera) +
+                 " from the camera: counts " + text(term.connection->share);
+      if (term.scattered)
+        words += "\n" + margin_ + "    light of " + printable(lightName(scene_, *term.scattered));
+      if (term.medium) words += "\n" + margin_ + "    " + medium(term);
+      if (term.body)
+        words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
+                 (term.body->steps > 0
+                      ? ", and was scattered " + counted(static_cast<std::size_t>(term.body->steps), "time")
+                      : "");
+      if (term.cache)
+        words += "\n" + margin_ + "    blended of " + counted(term.cache->records, "place") +
+                 " of the irradiance cache";
+      if (term.photons)
+        words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
+                 text(term.photons->radius);
+      line(words);
+    }
+    if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
+    line("= " + text(node.radiance));
+  }
+
+  std::string medium(const Term& term) const {
+    const MediumTerm& m = *term.medium;
+    const bool air = m.object == Filling::kAir;
+    const std::string by = air ? "fog" : printable(objectName(scene_, m.object));
+    switch (m.what) {
+      case MediumTerm::What::covers: return "what media on the way take of it";
+      case MediumTerm::What::glows: return "given off on the way";
+      case MediumTerm::What::scatters: return "scattered by " + by + " at distance " + text(m.t);
+      case MediumTerm::What::follows: break;
+    }
+    return "scattered by " + by + " at distance " + text(m.t) + ", where it comes from";
+  }
+
+  void light(const Term& term, const RayNode& node) {
+    const LightTerm& light = *term.light;
+    const bool none = isBlack(term.factor), always = term.ray < 0;
+    const Vec3 normal = node.hit->surface.shading;
+    const bool away = dot(light.arriving.toLight, normal) * dot(node.ray.direction, normal) >= 0;
+    line("+ " + printable(lightName(scene_, light.light)) + " " + text(term.factor * term.value) +
+         (none     ? (away ? "; faces away, no shadow ray" : "; scatters none of it, no shadow ray")
+          : always ? "; the part that no shadow takes away"
+                   : ""));
+    const Illumination& from = light.arriving;
+    const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
+    if (none) return;
+    std::string highlight = " + specular " + text(light.scatter.specular);
+    if (!isBlack(from.extraHighlight * light.scatter.specular))
+      highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
+    line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
+         ")" +
+         (light.share == 1 ? ""
+          : light.probability < 1
+              ? " * " + text(light.share) + ", for it was chosen among all lights with probability " +
+                    text(light.probability)
+              : " * " + text(light.share) + " as one of several rays"));
+    const Real shadow = whitted(*node.bsdf).shadow;
+    if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
+    line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +
+         "      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
+  }
+
+  void shadow(const RayNode& node) {
+    if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
+    for (const Filter& filter : node.filters)
+      line("* " + text(filter.factor) + " through " + printable(fillingName(scene_, filter.object)) +
+           (std::isfinite(filter.t) ? " at distance " + text(filter.t) : " on its way"));
+    line("= " + text(node.radiance) + " passes");
+  }
+
+  const Scene& scene_;
+  const RayTree& tree_;
+  bool color_;
+  std::vector<std::vector<int>> children_;
+  std::string text_, margin_;
+};
+
+/// Each way in which paths from both ends were joined, and what it counts; "" where there is none.
+std::string waysText(const RayTree& tree, const Scene& scene) {
+  std::string lines;
+  int places = 0;
+  for (const PathWay& way : pathWays(tree)) {
+    if (lines.empty())
+      lines = "The paths of the sample, s places from the light's end and t from the camera's:\n";
+    if (way.places() != places) lines += "  " + std::to_string(way.places()) + " places\n";
+    places = way.places();
+    lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + "  counts " +
+             text(way.share) + ", brings " + text(way.brings) + ", alone " + text(way.alone()) + "; #" +
+             std::to_string(way.between < 0 ? way.end : way.between) + " " +
+             printable(sentence(way, tree, scene)) + "\n";
+  }
+  return lines.empty() ? "" : lines + "\n";
+}
+
+/// What an 8-bit file shows of the light, if that is not the light itself.
+std::string shownText(const PixelFacts& facts) {
+  const Development development = developmentOf(facts.settings);
+  if (development == Development{}) return "";
+  std::string steps, before;
+  for (const Option& option : options())
+    if (const std::string value = option.get(facts.settings);
+        (option.group == "Tone" || option.name == "tone") && value != option.get(Settings{})) {
+      const bool wantsPicture = option.name == "bloom" || option.name == "dither" || value == "stretch";
+      std::string& list = wantsPicture ? before : steps;
+      list += (list.empty() ? "" : ", ") + std::string(option.name) + " " + value;
+    }
+  if (facts.settings.denoise) before += (before.empty() ? "" : ", ") + std::string("denoise");
+  if (isAnaglyph(facts.settings.stereo))
+    before += (before.empty() ? "" : ", ") + std::string("the other eye");
+  const Color shown = developed(facts.rendered, development);
+  std::string text = "the file    ";
+  for (const double channel : {shown.r, shown.g, shown.b})
+    text += std::to_string(toLevel(channel, facts.settings.rounding)) + " ";
+  return text + "of 255" + (steps.empty() ? "" : ", by " + steps) +
+         (before.empty() ? "" : "; without " + before) + "\n";
+}
+
+}  // namespace
+
+bool PixelFacts::agrees() const {
+  const RayTree& tree = explanation.tree;
+  return sumsUp(tree) && sameBits(explanation.pixel, rendered) &&
+         sameBits(tree.nodes[0].radiance, explanation.samples[static_cast<std::size_t>(tree.sample)]);
+}
+
+std::string explainText(const PixelFacts& facts, bool color) {
+  const Explanation& e = facts.explanation;
+  std::string text = printable(facts.scene.file) + ", pixel " + std::to_string(e.tree.x) + "," +
+                     std::to_string(e.tree.y) + " of " + std::to_string(facts.width) + " x " +
+                     std::to_string(facts.height) + ", sample " + std::to_string(e.tree.sample) + " of " +
+                     std::to_string(e.samples.size());
+  if (e.tree.moment >= 0)
+    text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
+            std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);
+  text += "\n\n";
+  text += TreeText(facts, color).all() + "\n" + waysText(e.tree, facts.scene);
+  for (std::size_t i = 0; i < e.samples.size(); ++i)
+    text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
+            (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
+            (e.corners.empty() ? "" : "  at " + toText(e.corners[i].x) + "," + toText(e.corners[i].y)) +
+            (e.weights[i] == 1 ? "" : "  counts " + toText(e.weights[i])) +
+            (isFinite(e.samples[i]) ? "" : "  not finite: left out") + "\n";
+  if (e.settled)
+    text += "no more: the error of their mean is at most " + toText(facts.settings.noiseTarget) + "\n";
+  if (!e.corners.empty())
+    text +=
+        "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
+        "corner\n";
+  text += "their mean  " + exact(e.pixel) + (facts.byChains ? "\nby `path`   " : "\nthe picture ") +
+          exact(facts.rendered) + "\n";
+  if (facts.byChains)
+    text += "            chains make the picture, in no order of pixels: it tends to the same\n";
+  if (facts.settings.integrator == IntegratorKind::bdpt)
+    text +=
+        "Paths from lights, those of all pixels, add to that picture what they bring straight to the camera; "
+        "--camera-vertices 1 shows it alone.\n";
+  if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
+  const bool whole = !facts.byChains && !facts.settings.denoise;  // nothing else has a part in the pixel
+  if (whole && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
+  const std::string pixel = whole ? "the picture's pixel" : "the pixel as it was traced";
+  text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
+                         : "The rays above do NOT sum to " + pixel + ": please report this.\n";
+  return text;
+}
+
+}  // namespace trace::cli

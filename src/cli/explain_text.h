@@ -15,6 +15,8 @@ struct PixelFacts {
   int width = 0, height = 0;  ///< of the picture
   Color rendered;             ///< the pixel, from a render
   Settings settings{};
+  bool byChains =
+      false;  ///< chains make the picture that was asked for, and the settings are those of `path`
   /// The tree's sum, the pixel's samples and the render agree bit for bit.
   bool agrees() const;
 };

@@ -85,7 +85,12 @@ PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) con
           settings_.moveSize};
 }
 
-std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves) const {
+std::uint64_t Metropolis::numberOf(std::int64_t tile, int firstSample) {
+  return mixBits(static_cast<std::uint64_t>(tile) << 32 | static_cast<std::uint32_t>(firstSample));
+}
+
+std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
+                                     const ChainWatch& watch) const {
   std::vector<Splat> splats;
   if (!(mean_ > 0)) return splats;
   constexpr std::uint64_t kChains = 0x636861696e73ull;  // other numbers than those of the starts
@@ -103,6 +108,8 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   };
 
   Stop here = samples.at(numbers);
+  const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
+  if (watch) watch({-1, true, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, numbers);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
@@ -111,6 +118,9 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     there.visits = accepts + (anywhere ? 1 : 0);
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
+    if (watch)
+      watch({n, anywhere, pixelOf(there).x, pixelOf(there).y, there.light, here.light, accepts, goes},
+            numbers);
     if (goes) std::swap(here, there);
     goes ? numbers.keep() : numbers.undo();
     leave(there);

@@ -20,8 +20,24 @@
 
 namespace trace {
 
+/// One move of a chain: a sample that was offered to it.
+struct ChainMove {
+  std::int64_t number = 0;  ///< from 0; -1 is where the chain starts
+  bool anywhere = false;    ///< all numbers were thrown anew; else each was moved a little
+  int x = 0, y = 0;         ///< the pixel that the offered sample looks at
+  Real light = 0;           ///< how bright it is
+  Real before = 0;          ///< and the sample where the chain was
+  Real chance = 1;          ///< with which the move is made
+  bool made = true;
+};
+/// Sees each move before it is made or taken back, with the numbers of the sample that is offered.
+using ChainWatch = std::function<void(const ChainMove&, PrimarySample&)>;
+
 class Metropolis {
  public:
+  /// Of the chain of a tile's samples from that one on.
+  static std::uint64_t numberOf(std::int64_t tile, int firstSample);
+
   /// Looks for light: takes Settings::chainStarts samples. `interrupt` is asked meanwhile, and may throw
   /// GivenUp. Of a job that was cancelled the chains are empty. The moments must outlive it.
   Metropolis(std::span<const Moment> moments, const Settings& settings, const Size& size, Job& job,
@@ -32,7 +48,12 @@ class Metropolis {
 
   /// What the chain of that number leaves in the picture in so many moves. Film::picture() divides the sum of
   /// all chains by the number of all moves.
-  std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves) const;
+  std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
+                           const ChainWatch& watch = {}) const;
+  /// Of the picture: where chains go.
+  const Tile& area() const { return area_; }
+  /// With which their samples are taken.
+  const Settings& settings() const { return settings_; }
 
  private:
   PrimarySample startOf(std::uint64_t number, std::uint64_t moves) const;

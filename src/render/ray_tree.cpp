@@ -33,8 +33,16 @@ std::string sentOn(const RayNode& node) {
   std::string text;
   for (const Term& term : node.terms)
     if (term.goesOn())
-      text += (text.empty() ? "" : " and ") + std::string(Term::kNames[static_cast<std::size_t>(term.kind)]);
+      text += (text.empty() ? "" : " and ") +
+              std::string(term.medium ? "bounce" : Term::kNames[static_cast<std::size_t>(term.kind)]);
   return text;
+}
+
+/// Where a medium sent the path of the ray on, which came no farther; null if none did.
+const MediumTerm* turnedBy(const RayNode& node) {
+  for (const Term& term : node.terms)
+    if (term.goesOn() && term.medium) return &*term.medium;
+  return nullptr;
 }
 
 /// What it is and where: "sphere (scene.ray:12)".
@@ -79,10 +87,11 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                       [&](const Blocked& e) { return "blocked by " + objectName(scene, e.object); },
                       [&](const ReachedLight&) -> std::string {
                         if (node.filters.empty()) return "reached the light";
+                        const bool none = isBlack(node.radiance);
                         std::string names;
                         for (const Filter& filter : node.filters)
                           names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
-                        return "reached the light, filtered by " + names;
+                        return (none ? "absorbed by " : "reached the light, filtered by ") + names;
                       },
                       [&](const MetLight& e) {
                         return "met " + lightName(scene, e.light) + " at distance " + shortText(e.t, 6);
@@ -210,7 +219,12 @@ std::string_view sentence(const DarkTerm& dark) {
 std::string sentence(const RayNode& node, const Scene& scene) {
   std::string text;
   const RayEnd* last = nullptr;
+  const MediumTerm* turned = turnedBy(node);
+  if (turned)
+    text = "scattered by " + (turned->object == Filling::kAir ? "fog" : objectName(scene, turned->object)) +
+           " at distance " + shortText(turned->t, 6);
   for (const RayEnd& end : node.ends) {
+    if (turned && std::holds_alternative<LeftScene>(end)) continue;  // it did not come so far
     const auto* limit = std::get_if<DepthLimit>(&end);
     if (limit && last && std::holds_alternative<DepthLimit>(*last))
       text += ", no " + kindName(limit->unsent);

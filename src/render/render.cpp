@@ -119,8 +119,7 @@ class TileRenderer {
     const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
     samples.paths = std::int64_t{pixels} * wave.count();
     samples.colors.assign(static_cast<std::size_t>(samples.paths), Color(0));
-    const auto number =
-        mixBits(static_cast<std::uint64_t>(tile) << 32 | static_cast<std::uint32_t>(wave.first));
+    const std::uint64_t number = Metropolis::numberOf(tile, wave.first);
     samples.splats = chains_->chain(*chainTracer_, number, samples.paths);
     if (passes_.empty()) return;
     for (int y = area.y0; y < area.y1; ++y)

@@ -26,7 +26,5 @@ void chooseFile(Studio& studio, const Option& option);
 std::string keyText(const Action& action);
 
 void drawMenu(Studio& studio);
-/// File browsers, help and about.
-void drawDialogs(Studio& studio);
 
 }  // namespace trace::studio

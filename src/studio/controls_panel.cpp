@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/typed_file.h"
 #include "app/typed_region.h"
 #include "base/text.h"
 #include "scene/conventions.h"
@@ -152,14 +153,21 @@ std::optional<std::string> editPlace(const std::string& value) {
 std::optional<std::string> editFile(Studio& studio, const Option& option, const std::string& value) {
   const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - button - gap);
-  std::string text = value == "none" ? "" : value;
+  const std::string& scene = studio.workspace.document.file();
+  std::string text = shownFile(value, scene);
   const bool typed = editText("##value", text, "no file");
   ImGui::SameLine(0, gap);
   if (ImGui::Button("...", {button, 0})) chooseFile(studio, option);
   landmark("choose " + std::string(option.name));
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a file");
   if (!typed) return {};
-  return text.empty() ? "none" : text;
+  try {
+    return typedFile(text, std::string(option.name), scene);
+  } catch (const Error& error) {
+    studio.workspace.report(error.messages());
+    studio.show("Log");
+    return {};
+  }
 }
 
 std::optional<std::string> edit(Studio& studio, const Option& option, const std::string& value) {
@@ -253,8 +261,8 @@ void drawControls(Studio& studio) {
       shown = ImGui::CollapsingHeader(std::string(group).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
       if (shown) {
         table = ImGui::BeginTable(std::string(group).c_str(), 2, ImGuiTableFlags_SizingStretchProp);
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.42f);
-        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.58f);
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.48f);
+        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.52f);
       }
     }
     if (table) row(studio, option, defaults, now);

@@ -46,6 +46,7 @@ void FileDialog::choose(const std::string& name) {
   const bool exists = fs::exists(path, ignored);
   if (purpose_ == Purpose::read && !exists) {
     problem_ = "there is no file \"" + name + "\" here";
+    focusName_ = true;
   } else if (purpose_ == Purpose::write && exists && !overwrite_) {
     overwrite_ = focusName_ = true;
     problem_ = "\"" + name + "\" exists; press the button or Enter again to replace it";

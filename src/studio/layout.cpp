@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "studio/actions.h"
+#include "studio/dialogs.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/panels.h"

@@ -1,6 +1,7 @@
 // ray-studio: the window of Trace. The logic is in app/Workspace; panels and actions are tables.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -43,13 +44,13 @@ void openDropped(Studio& studio, const std::string& file) {
 bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
-         workspace.inspector.busy() || studio.rays.modelTask.busy();
+         workspace.inspector.busy() || studio.rays.modelTask.busy() || studio.rays.chains.busy();
 }
 
-/// True if there is something new to see. Waits for it, but not long.
-bool update(Studio& studio, bool hurry) {
+/// True if there is something new to see. Waits for it, but not longer than so many seconds.
+bool update(Studio& studio, double longest) {
   Workspace& workspace = studio.workspace;
-  bool due = studio.window.wait(hurry || isBusy(studio) ? kBusy : kIdle);
+  bool due = studio.window.wait(std::min(longest, isBusy(studio) ? kBusy : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures();
   workspace.update();
@@ -58,7 +59,7 @@ bool update(Studio& studio, bool hurry) {
     studio.quit = false;
   }
   const Workspace::Pulse pulse = workspace.pulse();
-  const bool modelling = studio.rays.modelTask.busy();
+  const bool modelling = studio.rays.modelTask.busy() || studio.rays.chains.busy();
   due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
         ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
@@ -110,7 +111,7 @@ int run(const Arguments& arguments) {
   std::string title;
   while (!studio.quit || studio.workspace.saving()) {
     const bool scripted = script && !script->waits();
-    if (update(studio, script.has_value()) || scripted) frame(studio);
+    if (update(studio, scripted ? 0 : script ? kBusy : kIdle) || scripted) frame(studio);
     if (window.closing()) {
       window.keepOpen();
       studio.leave([&] { studio.quit = true; });

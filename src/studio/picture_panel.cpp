@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "app/picture_views.h"
-#include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
+#include "studio/picture_parts.h"
 
 namespace trace::studio {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 constexpr double kLeastInterval = 0.1;  // seconds between two looks at a render
 constexpr double kMostShare = 0.15;     // of the time may go into looking
 constexpr float kGap = 6;               // between two pictures side by side
-
-bool sameSize(const Picture& a, const Picture& b) { return a.width == b.width && a.height == b.height; }
 
 /// How far the render has come, and the plane that is looked at.
 void refreshPlane(Studio& studio, bool pictureChanged) {
@@ -88,74 +87,6 @@ void refresh(Studio& studio) {
   }
 }
 
-void drawBar(Studio& studio) {
-  PictureView& view = studio.picture;
-  const bool open = studio.workspace.document.isOpen();
-  const auto button = [&](const char* name, const char* tip, bool enabled) {
-    ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(name);
-    ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
-    ImGui::SameLine();
-    return pressed;
-  };
-  const bool working = studio.workspace.render.state().working();
-  if (!working && button("Render", "render the scene as it is now (F5)", open))
-    studio.workspace.startRender();
-  if (working && button(" Stop ", "stop; what is done stays (Esc)", true)) studio.workspace.render.stop();
-  const auto runAction = [&](const char* name) {
-    for (const Action& action : actions())
-      if (std::string_view(action.name) == name) action.run(studio);
-  };
-  if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
-    runAction("Export picture...");
-  if (button("Fit", "the whole picture (F)", true)) view.fit = true;
-  if (button("1:1", "one pixel to one of the screen (A)", true)) {
-    view.fit = false;
-    view.zoom = 1;
-  }
-
-  const auto roomFor = [](float wide) {  // else on the next line
-    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
-  };
-  roomFor(characters(17));
-  ImGui::SetNextItemWidth(characters(17));
-  ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
-                     view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("stops: powers of two; only what is shown, not what is saved\nright click: 0");
-  if (ImGui::IsItemClicked(1)) view.exposure = 0;
-  ImGui::SameLine();
-  roomFor(characters(17));
-  ImGui::SetNextItemWidth(characters(17));
-  int plane = static_cast<int>(view.plane);
-  if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
-    view.plane = static_cast<FilmPlane>(plane);
-  landmark("plane");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
-        "changed");
-  if (!studio.workspace.reference()) {
-    ImGui::SameLine();
-    roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);
-    if (ImGui::Button("Compare...")) runAction("Open reference...");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a picture to compare with (Ctrl+Shift+R)");
-    return;
-  }
-  int index = static_cast<int>(view.view);
-  ImGui::SetNextItemWidth(characters(20));
-  if (ImGui::Combo("##view", &index, kViewNames, static_cast<int>(std::size(kViewNames))))
-    view.view = static_cast<View>(index);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how the two pictures are shown (C)");
-  if (view.view == View::difference || view.view == View::falseColour) {
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(characters(14));
-    ImGui::SliderFloat("##magnify", &view.magnify, 1, 255, "x %.0f", ImGuiSliderFlags_Logarithmic);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("by which differences are magnified");
-  }
-}
-
 /// Where one picture lies on the screen.
 struct FrameArea {
   ImVec2 low, size;
@@ -180,12 +111,15 @@ void pictureIn(const FrameArea& frame, const Texture& texture) {
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
 }
 
-/// A text on a dark plate, so that it can be read on any picture.
-void caption(ImVec2 at, const char* text) {
-  const ImVec2 size = ImGui::CalcTextSize(text), pad = ImGui::GetStyle().FramePadding;
+/// A text on a dark plate, so that it can be read on any picture, in lines of at most that width.
+void caption(ImVec2 at, const char* text, float most) {
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  const float room = std::max(most - 2 * pad.x, characters(12));
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x + 2 * pad.x, at.y + size.y + 2 * pad.y}, IM_COL32(0, 0, 0, 170), 4);
-  list.AddText({at.x + pad.x, at.y + pad.y}, IM_COL32(255, 255, 255, 255), text);
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad.x, at.y + pad.y},
+               IM_COL32(255, 255, 255, 255), text, nullptr, room);
 }
 
 void zoomAndPan(PictureView& view, const FrameArea& frame) {
@@ -207,90 +141,24 @@ void zoomAndPan(PictureView& view, const FrameArea& frame) {
   }
 }
 
-void drawStatus(Studio& studio, bool hovered, int x, int y) {
-  const PictureView& view = studio.picture;
-  Workspace& workspace = studio.workspace;
-  const BackgroundRender::State state = workspace.render.state();
-  if (state.working()) {
-    char text[96];
-    const std::string left = state.remaining ? ", " + durationText(*state.remaining) + " left" : "";
-    if (state.phase == BackgroundRender::Phase::building)
-      std::snprintf(text, sizeof text, "building");
-    else if (state.phase == BackgroundRender::Phase::denoising)
-      std::snprintf(text, sizeof text, "taking noise out");
-    else
-      std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
-                    durationText(state.elapsed).c_str(), left.c_str());
-    ImGui::ProgressBar(static_cast<float>(state.fraction), {characters(28), ImGui::GetFrameHeight()}, text);
-    ImGui::SameLine();
-  }
-  if (!hovered && view.noise.size() > 1) {  // how noise falls
-    const float most = *std::max_element(view.noise.begin(), view.noise.end());
-    ImGui::PlotLines("##noise", view.noise.data(), static_cast<int>(view.noise.size()), 0, nullptr, 0, most,
-                     {characters(12), ImGui::GetFrameHeight()});
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "the noise of the picture since the render began: the standard error of a pixel's mean, on "
-          "the average, in levels of 255; at the top %.3g",
-          most);
-    ImGui::SameLine();
-  }
-  ImGui::AlignTextToFramePadding();
-  if (hovered) {
-    ImGui::Text("%d, %d", x, y);
-    const Color c = view.levels.at(x, y);
-    const Rounding rounding = workspace.document.settings().rounding;
-    ImGui::SameLine(0, characters(3));
-    const Color clamped = clamp01(c);
-    const float side = ImGui::GetFontSize();
-    ImGui::ColorButton(
-        "##colour",
-        {static_cast<float>(clamped.r), static_cast<float>(clamped.g), static_cast<float>(clamped.b), 1},
-        ImGuiColorEditFlags_NoTooltip, {side, side});
-    ImGui::SameLine();
-    ImGui::TextUnformatted(pixelText(view.shown.at(x, y), c, rounding).c_str());
-    const auto& reference = workspace.reference();
-    if (reference && sameSize(*reference, view.shown)) {
-      ImGui::TextDisabled("reference  %s",
-                          pixelText(reference->at(x, y), reference->at(x, y), rounding).c_str());
+/// The pixels where the chain that is followed was, up to its chosen move: small moves are joined.
+void drawChainWay(const Studio& studio, const Frame& frame, int width, int height) {
+  const ChainInspector& chains = studio.rays.chains;
+  if (!chains.offered()) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  std::optional<ImVec2> last;
+  const float radius = 2 * studio.theme.scale;
+  for (int i = 0; i <= chains.index(); ++i) {
+    const ChainMove& move = chains.walk()->moves[static_cast<std::size_t>(i)];
+    const ImVec2 at = frame.at((move.x + 0.5) / width, (move.y + 0.5) / height);
+    if (i == chains.index()) {
+      if (last) list.AddLine(*last, at, IM_COL32(255, 210, 60, 255), 1.5f);
+      list.AddCircle(at, 3 * radius, IM_COL32(255, 210, 60, 255), 0, move.made ? 2.5f : 1.0f);
     }
-  } else if (workspace.saving() || workspace.reading()) {
-    ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");
-  } else if (state.working()) {
-    ImGui::TextDisabled("%s", view.convergence.samples > 0 ? convergenceText(view.convergence).c_str() : " ");
-  } else if (view.shown.width > 0) {
-    const char* how = state.phase == BackgroundRender::Phase::finished ? "finished"
-                      : state.phase == BackgroundRender::Phase::failed ? "failed: see the log"
-                                                                       : "stopped";
-    const bool several = view.convergence.samples > 1;
-    ImGui::TextDisabled("%d x %d, %s after %s%s%s%s", view.shown.width, view.shown.height, how,
-                        durationText(state.elapsed).c_str(), several ? ", " : "",
-                        several ? convergenceText(view.convergence).c_str() : "",
-                        workspace.stale() ? "; the scene has changed since: F5 renders" : "");
-  } else {
-    ImGui::TextUnformatted(" ");
-  }
-}
-
-void drawWelcome(Studio& studio, ImVec2 area) {
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + area.y * 0.3f);
-  const auto centred = [&](const char* text) {
-    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(text).x) / 2));
-    ImGui::TextDisabled("%s", text);
-  };
-  centred(studio.workspace.reading() ? "The file is being read." : "Drop a scene here, or");
-  ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
-  if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
-  const auto recent = studio.workspace.recent();
-  if (!recent.empty()) {
-    ImGui::NewLine();
-    centred("Opened lately:");
-  }
-  for (const std::string& file : recent) {
-    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
-    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
-    if (ImGui::SmallButton(file.c_str())) studio.workspace.open(file);
-    ImGui::PopStyleColor();
+    if (!move.made) continue;
+    if (last && !move.anywhere) list.AddLine(*last, at, IM_COL32(110, 200, 255, 130), 1);
+    list.AddCircleFilled(at, radius, IM_COL32(110, 200, 255, 200));
+    last = at;
   }
 }
 
@@ -315,7 +183,8 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
   if (ofPlane) {
     clipped(canvas, end, frame, view.planeTexture);
-    caption({canvas.x + 8, canvas.y + 8}, view.planeLegend.c_str());
+    caption({canvas.x + 8, canvas.y + 8}, view.planeLegend.c_str(), area.x - 16);
+    landmark("caption");
   }
   const bool comparable = reference && sameSize(*reference, view.shown);
   const bool differs = mode == View::difference || mode == View::falseColour;
@@ -337,14 +206,19 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   }
   if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
-  if (mode != View::picture && !comparable)
-    caption(corner, "the reference has another size");
-  else if (two || mode == View::swipe) {
-    caption(corner, "picture");
+  if (mode != View::picture && !comparable) {
+    caption(corner,
+            ("the reference has another size: " + std::to_string(reference->width) + " x " +
+             std::to_string(reference->height) + " beside " + std::to_string(width) + " x " +
+             std::to_string(height))
+                .c_str(),
+            area.x - 16);
+  } else if (two || mode == View::swipe) {
+    caption(corner, "picture", area.x);
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
-    caption({end.x - wide - 8, corner.y}, "reference");
+    caption({end.x - wide - 8, corner.y}, "reference", area.x);
   } else if (mode != View::picture) {
-    caption(corner, kViewNames[static_cast<int>(mode)]);
+    caption(corner, kViewNames[static_cast<int>(mode)], area.x);
   }
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -354,6 +228,11 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   y = static_cast<int>(std::floor((mouse.y - under.low.y) / under.size.y * static_cast<float>(height)));
   const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
+  if (!ofPlane && mode == View::picture) {
+    list.PushClipRect(canvas, end, true);
+    drawChainWay(studio, frame, width, height);
+    list.PopClipRect();
+  }
   const PixelPlace pixel = view.pixel ? view.pixel.in({width, height}) : PixelPlace{};
   if (view.pixel && pixel.x < width && pixel.y < height) {
     const float side = std::max(view.zoom, 1.0f), ring = std::max(side, 9.0f * studio.theme.scale);
@@ -374,7 +253,7 @@ void drawPicture(Studio& studio) {
   refresh(studio);
   drawBar(studio);
   const ImVec2 canvas = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  const float below = ImGui::GetFrameHeightWithSpacing() +
+  const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() +
                       (studio.workspace.reference() ? ImGui::GetTextLineHeightWithSpacing() : 0);
   const ImVec2 area{room.x, room.y - below};
   if (area.x < 8 || area.y < 8) return;

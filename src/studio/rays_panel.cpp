@@ -6,38 +6,15 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "studio/landmarks.h"
 #include "studio/panels.h"
+#include "studio/ray_rows.h"
 #include "studio/rays_view.h"
 
 namespace trace::studio {
 namespace {
 
-constexpr ImGuiTableFlags kTreeTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY |
-                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_Resizable |
-                                       ImGuiTableFlags_PadOuterX;
-
 const RayNode& nodeAt(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
-
-std::string title(const TracedPixel& pixel) {
-  return std::to_string(pixel.x) + ", " + std::to_string(pixel.y) +
-         (pixel.explanation.samples.size() > 1 ? ", sample " + std::to_string(pixel.sample) : "");
-}
-
-ImVec4 textColour(const Studio& studio, const TracedPixel& pixel, int node) {
-  const Color c = colourOf(pixel.looks(node), studio.theme.light);
-  return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1};
-}
-
-const char* lookName(const TracedPixel& pixel, int node) { return look(pixel.looks(node)).name.data(); }
-
-std::string metBy(const TracedPixel& pixel, int index) {
-  const RayNode& node = nodeAt(pixel.tree(), index);
-  if (node.hit) return objectName(pixel.scene(), node.hit->object);
-  for (const RayEnd& end : node.ends)
-    if (const auto* stop = std::get_if<Blocked>(&end)) return objectName(pixel.scene(), stop->object);
-  const auto light = lightOf(pixel.tree(), index);
-  return light ? lightName(pixel.scene(), *light) : "";
-}
 
 void drawHead(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
@@ -66,7 +43,7 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   int step = view.step < 0 ? count : view.step;
   char format[32];
-  std::snprintf(format, sizeof format, view.step < 0 ? "all rays: %d" : "ray %%d of %d", count);
+  std::snprintf(format, sizeof format, view.step < 0 ? "rays: %d, all" : "ray %%d of %d", count);
   const float all = ImGui::CalcTextSize("All").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(
       std::max(characters(10), ImGui::GetContentRegionAvail().x - all - ImGui::GetStyle().ItemSpacing.x));
@@ -83,13 +60,15 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
-  if (!ImGui::BeginTable("tree", 4, kTreeTable, {0, -below})) return;
+  if (!ImGui::BeginTable("tree", 4, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
-  ImGui::TableHeadersRow();
+  columnHeads({"its kind and the rays that it sent on", "the object, light or medium that it came to",
+               "the largest channel of what it brings to the pixel: its radiance times its weight there",
+               "why it ended, or how it goes on"});
   if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float top = static_cast<float>(found - rows.begin()) * height, room = ImGui::GetWindowHeight();
@@ -119,8 +98,8 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen;
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
       ImGui::SetNextItemOpen(!view.closed[n]);
-      ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, i));
-      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", lookName(pixel, i));
+      ImGui::PushStyleColor(ImGuiCol_Text, rayColour(studio, pixel, i));
+      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", rayName(pixel, i));
       ImGui::PopStyleColor();
       if (ImGui::IsItemToggledOpen())
         view.closed[n] = !open;
@@ -129,14 +108,13 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       if (overRow || ImGui::IsItemHovered()) {
         view.hovered = i;
         if (ImGui::IsMouseDoubleClicked(0)) studio.raysTab = "Ray";
-        ImGui::SetTooltip("%s", sentence(node, pixel.scene()).c_str());
       }
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(metBy(pixel, i).c_str());
+      cutText(metBy(pixel, i));
       ImGui::TableNextColumn();
-      if (node.kind != RayKind::shadow) ImGui::Text("%.4f", share(node));
+      if (node.kind != RayKind::shadow && node.kind != RayKind::light) ImGui::Text("%.4f", share(node));
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(sentence(node, pixel.scene()).c_str());
+      cutText(sentence(node, pixel.scene()));
       ImGui::PopID();
     }
   ImGui::EndTable();
@@ -161,7 +139,7 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
     ImGui::SetTooltip("all that is known of the selected ray (double click on its row)");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(textColour(studio, pixel, view.selected), "%s",
+  ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s",
                      sentence(nodeAt(pixel.tree(), view.selected), pixel.scene()).c_str());
 }
 
@@ -190,7 +168,7 @@ void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   if (view.selected < 0) return ImGui::TextDisabled("select a ray, in space or in the table");
   const RayNode& node = nodeAt(pixel.tree(), view.selected);
   ImGui::PushTextWrapPos();
-  ImGui::TextColored(textColour(studio, pixel, view.selected), "%s ray: %s", lookName(pixel, view.selected),
+  ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s ray: %s", rayName(pixel, view.selected),
                      sentence(node, pixel.scene()).c_str());
   ImGui::PopTextWrapPos();
   drawBoxes(studio);
@@ -212,56 +190,12 @@ void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   ImGui::EndTable();
 }
 
-void drawDifference(Studio& studio, const TracedPixel& traced) {
-  RaysView& view = studio.rays;
-  const TracedPixel* pinned = studio.workspace.inspector.pinned();
-  if (!pinned) return ImGui::TextDisabled("Pin keeps these rays, to compare others with them");
-  const std::vector<RayPair>& pairs = studio.workspace.inspector.pairs();
-  const auto differ = std::count_if(pairs.begin(), pairs.end(), [](const RayPair& p) { return p.differs; });
-  const Color before = pinned->explanation.pixel, now = traced.explanation.pixel;
-  ImGui::Text("pinned %s: %.4f %.4f %.4f", title(*pinned).c_str(), before.r, before.g, before.b);
-  ImGui::Text("now %s: %.4f %.4f %.4f", title(traced).c_str(), now.r, now.g, now.b);
-  ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(pairs.size()));
-  if (!ImGui::BeginTable("pairs", 3, kTreeTable)) return;
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.34f);
-  ImGui::TableSetupColumn("met now", ImGuiTableColumnFlags_WidthStretch, 0.26f);
-  ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthStretch, 0.4f);
-  ImGui::TableHeadersRow();
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(pairs.size()));
-  while (clipper.Step())
-    for (int r = clipper.DisplayStart; r < clipper.DisplayEnd; ++r) {
-      const RayPair& pair = pairs[static_cast<std::size_t>(r)];
-      const TracedPixel& pixel = pair.b >= 0 ? traced : *pinned;
-      const int index = pair.b >= 0 ? pair.b : pair.a;
-      ImGui::PushID(r);
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      const float indent = static_cast<float>(pair.depth) * ImGui::GetFontSize() * 0.75f;
-      if (indent > 0) ImGui::Indent(indent);
-      ImGui::PushStyleColor(ImGuiCol_Text, textColour(studio, pixel, index));
-      if (ImGui::Selectable(lookName(pixel, index), pair.b >= 0 && pair.b == view.selected,
-                            ImGuiSelectableFlags_SpanAllColumns) &&
-          pair.b >= 0)
-        view.selected = pair.b;
-      ImGui::PopStyleColor();
-      if (ImGui::IsItemHovered() && pair.b >= 0) view.hovered = pair.b;
-      if (indent > 0) ImGui::Unindent(indent);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(metBy(pixel, index).c_str());
-      ImGui::TableNextColumn();
-      if (pair.differs) ImGui::TextColored(studio.palette().changed, "%s", pair.what.c_str());
-      ImGui::PopID();
-    }
-  ImGui::EndTable();
-}
-
 }  // namespace
 
 const TracedPixel* shownPixel(const Studio& studio) {
-  const TracedPixel* pixel = studio.workspace.inspector.traced();
-  return pixel && pixel->problem.empty() ? pixel : nullptr;
+  if (const TracedPixel* offered = studio.rays.chains.offered()) return offered;
+  const TracedPixel* traced = studio.workspace.inspector.traced();
+  return traced && traced->problem.empty() ? traced : nullptr;
 }
 
 void stepRays(Studio& studio, int rays) {
@@ -293,22 +227,42 @@ void updatePixel(Studio& studio) {
   const auto session = studio.workspace.render.session();
   if (session && picture.pixel) {
     const PixelPlace pixel = picture.pixel.in(session->size());
+    if (pixel.x != view.clickedX || pixel.y != view.clickedY) view.chainMove = -1;
+    view.clickedX = pixel.x;
+    view.clickedY = pixel.y;
     inspector.want(session, pixel.x, pixel.y, view.sample);
+    view.chains.want(session, pixel.x, pixel.y, view.chainMove);
   } else {
     inspector.want(nullptr, 0, 0, 0);
+    view.chains.want(nullptr, 0, 0, -1);
   }
-  if (!inspector.update() || !inspector.traced()) return;
-  const TracedPixel& pixel = *inspector.traced();
-  const std::size_t count = pixel.tree().nodes.size();
-  if (pixel.x != view.x || pixel.y != view.y || count != view.rays) {
+  const bool moved = view.chains.update();
+  if (moved && view.chainMove < 0) view.revealMove = true;
+  const bool traced = inspector.update();
+  if (!moved && !traced) return;
+  const TracedPixel* shown = shownPixel(studio);
+  if (!shown) return;
+  const std::size_t count = shown->tree().nodes.size();
+  if (shown->x != view.x || shown->y != view.y || count != view.rays) {
     view.step = -1;
     view.selected = count > 0 ? 0 : -1;
     view.closed.assign(count, 0);
   }
-  view.x = pixel.x;
-  view.y = pixel.y;
+  chooseWay(studio, -1);
+  view.x = shown->x;
+  view.y = shown->y;
   view.rays = count;
   view.boxesOf = -1;
+}
+
+/// What the pixel's rays leave unsaid, or which move of a chain they belong to.
+std::string noteOn(const RaysView& view, const TracedPixel& pixel) {
+  if (!view.chains.offered())
+    return pixel.note + (view.chains.busy() ? " A chain that comes by this pixel is looked for." : "");
+  const ChainMove& move = view.chains.walk()->moves[static_cast<std::size_t>(view.chains.index())];
+  const std::string which = move.number < 0 ? " " : ", move " + std::to_string(move.number) + ": ";
+  return "A chain of this picture" + which + sentence(move) +
+         (view.chains.before() ? ". Grey: where it was." : ".");
 }
 
 }  // namespace
@@ -338,18 +292,27 @@ void drawRays(Studio& studio) {
     ImGui::PopTextWrapPos();
   } else {
     drawHead(studio, *pixel);
+    if (const std::string note = noteOn(view, *pixel); !note.empty()) {
+      ImGui::PushTextWrapPos();
+      ImGui::TextColored(studio.palette().changed, "%s", note.c_str());
+      ImGui::PopTextWrapPos();
+      landmark("note on rays");
+    }
     if (ImGui::BeginTabBar("about rays")) {
       const auto tab = [&](const char* name, void (*draw)(Studio&, const TracedPixel&)) {
         const ImGuiTabItemFlags flags = studio.raysTab == name ? ImGuiTabItemFlags_SetSelected : 0;
         if (!ImGui::BeginTabItem(name, nullptr, flags)) return;
         if (flags) studio.raysTab.clear();
+        landmark("tab " + std::string(name));
         ImGui::BeginChild(name);
         draw(studio, *pixel);
         ImGui::EndChild();
         ImGui::EndTabItem();
       };
+      if (view.chains.offered()) tab("Chain", drawChain);
       tab("Tree", drawTree);
       tab("Ray", drawNumbers);
+      if (!pixel->ways.empty()) tab("Ways", drawWays);
       tab("Difference", drawDifference);
       ImGui::EndTabBar();
     }

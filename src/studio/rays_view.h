@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/chain_walk.h"
 #include "app/orbit_camera.h"
 #include "app/pixel_inspector.h"
 #include "app/scene_model.h"
@@ -16,9 +17,10 @@ namespace trace::studio {
 enum class Surfaces { shaded, wireframe, none };
 
 struct RaysView {
-  int sample = 0;            ///< that is asked for
-  std::size_t rays = 0;      ///< of the pixel that is shown
-  int x = -1, y = -1;        ///< of that pixel
+  int sample = 0;        ///< that is asked for
+  std::size_t rays = 0;  ///< of the pixel that is shown
+  int x = -1, y = -1;    ///< of that pixel
+  int clickedX = -1, clickedY = -1;
   int selected = -1;         ///< ray of the pixel; -1: none
   int hovered = -1;          ///< under the cursor, in space or in the table, in this frame
   int hoveredBefore = -1;    ///< in the last frame
@@ -29,6 +31,14 @@ struct RaysView {
   std::vector<VisitedBox> boxes;  ///< of the hierarchies, by the selected ray
   int boxesOf = -1;               ///< the node that they are of
   int box = 0;                    ///< how many are shown
+
+  int way = -1;              ///< of the ways that paths from both ends were joined in; -1: none is chosen
+  std::vector<int> wayRays;  ///< its rays, drawn before all others
+  bool revealWay = false;    ///< the table scrolls to it
+
+  ChainInspector chains;    ///< of `mlt`: a chain that comes by the pixel
+  int chainMove = -1;       ///< whose rays are asked for; -1: the one that came nearest to the pixel
+  bool revealMove = false;  ///< the table scrolls to it
 
   // The view in space.
   std::unique_ptr<SceneDrawer> drawer;
@@ -47,7 +57,7 @@ struct RaysView {
   float opacity = 1;  ///< of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
-  std::array<bool, kRayLooks.size()> lookShown{true, true, true, true, true, true, true};
+  std::array<bool, kRayLooks.size()> lookHidden{};
 
   bool inStep(int node) const { return step < 0 || node < step; }
 };
@@ -66,6 +76,14 @@ const TracedPixel* shownPixel(const Studio& studio);
 void stepRays(Studio& studio, int rays);
 /// Finds the hierarchy boxes that the selected ray visited.
 void showBoxes(Studio& studio);
+/// The tab that lists the moves of a chain.
+void drawChain(Studio& studio, const TracedPixel& pixel);
+/// Chooses one of the pixel's ways, or none.
+void chooseWay(Studio& studio, int way);
+/// The tab that lists them.
+void drawWays(Studio& studio, const TracedPixel& pixel);
+/// The tab that compares the rays with those that were pinned.
+void drawDifference(Studio& studio, const TracedPixel& traced);
 /// The scene and the rays in space, with its switches and legend, in the rest of the child window.
 void drawSpace(Studio& studio);
 

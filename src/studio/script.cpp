@@ -73,6 +73,11 @@ std::string state(const Studio& studio) {
   }
   if (const TracedPixel* traced = workspace.inspector.traced())
     text << "traced " << traced->x << " " << traced->y << "\n";
+  if (const TracedPixel* pixel = shownPixel(studio))
+    text << "rays " << pixel->tree().nodes.size() << "\nways " << pixel->ways.size() << "\nway "
+         << studio.rays.way << "\n";
+  if (const ChainWalk* walk = studio.rays.chains.walk(); walk && studio.rays.chains.offered())
+    text << "chain " << studio.rays.chains.index() << " of " << walk->moves.size() << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
   if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
   text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";
@@ -136,8 +141,9 @@ void checkNumbers(const Words& words) {
 }
 void checkPicture(const Words& words) { pictureFormatFor(words[0]); }
 void checkTab(const Words& words) {
-  if (words[0] != "Tree" && words[0] != "Ray" && words[0] != "Difference")
-    throw Error(Fault::usage, "expected Tree, Ray or Difference, found " + words[0]);
+  if (words[0] != "Tree" && words[0] != "Ray" && words[0] != "Ways" && words[0] != "Chain" &&
+      words[0] != "Difference")
+    throw Error(Fault::usage, "expected Tree, Ray, Ways, Chain or Difference, found " + words[0]);
 }
 void checkOption(const Words& words) {
   Settings scratch;
@@ -211,7 +217,7 @@ constexpr std::array kCommands{
               whole(a[1]);
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown", nullptr, nullptr, 3,
-            [](Studio& s, const Words&) { return !s.workspace.inspector.busy(); }},
+            [](Studio& s, const Words&) { return !s.workspace.inspector.busy() && !s.rays.chains.busy(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
             [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
@@ -221,11 +227,24 @@ constexpr std::array kCommands{
               s.rays.selected = whole(a[0]);
             },
             checkNumbers},
+    Command{"way", "NUMBER", 1, 1, "select one of the ways in which paths from both ends were joined, from 0",
+            [](Studio& s, const Words& a) {
+              chooseWay(s, whole(a[0]));
+              if (s.rays.way < 0) throw Error(Fault::usage, "the pixel has no way " + a[0]);
+            },
+            checkNumbers},
+    Command{"move", "NUMBER", 1, 1, "go so many moves on in the chain of mlt, or back if it is negative",
+            [](Studio& s, const Words& a) {
+              if (!s.rays.chains.walk()) throw Error(Fault::usage, "no chain is followed");
+              s.rays.chainMove = std::max(0, s.rays.chains.index() + whole(a[0]));
+              s.rays.revealMove = true;
+            },
+            checkNumbers},
     Command{"step", "NUMBER", 1, 1, "go so many rays on in the order of tracing, or back if it is negative",
             [](Studio& s, const Words& a) { stepRays(s, whole(a[0])); }, checkNumbers},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
             [](Studio& s, const Words&) { showBoxes(s); }},
-    Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray or Difference",
+    Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray, Ways, Chain or Difference",
             [](Studio& s, const Words& a) { s.raysTab = a[0]; }, checkTab},
     Command{"save", "FILE", 1, 1, "write the picture",
             [](Studio& s, const Words& a) { s.workspace.savePicture(a[0]); }, checkPicture},
@@ -246,7 +265,7 @@ constexpr std::array kCommands{
             },
             nullptr, 0},
     Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen", nullptr,
-            nullptr, 0,
+            nullptr, 3,
             [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); }},
 };
 
@@ -288,6 +307,12 @@ Script::Script(const std::string& file) {
 bool Script::step(Studio& studio) {
   waits_ = false;
   if (framesToWait_ > 0) return --framesToWait_, true;
+  bool goesOn = true;  // commands that need no frame follow each other at once
+  while (goesOn && !waits_ && framesToWait_ == 0) goesOn = next(studio);
+  return goesOn;
+}
+
+bool Script::next(Studio& studio) {
   const Workspace& workspace = studio.workspace;
   waits_ = workspace.reading() || workspace.saving();
   if (waits_) return true;

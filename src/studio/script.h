@@ -13,8 +13,8 @@ class Script {
   /// Throws Error with every mistake that shows before anything runs, by file and line.
   explicit Script(const std::string& file);
 
-  /// Called after each frame: does the next command, or waits for what the last one began. False at the end.
-  /// Throws Error with file and line if a command fails.
+  /// Called after each frame: does the next commands up to one that needs frames, or waits for what the last
+  /// one began. False at the end. Throws Error with file and line if a command fails.
   bool step(Studio& studio);
   /// What the script waits for needs no frame.
   bool waits() const { return waits_; }
@@ -24,6 +24,8 @@ class Script {
     Place place;
     std::vector<std::string> words;
   };
+  bool next(Studio& studio);
+
   std::vector<Line> lines_;
   std::size_t next_ = 0;
   int framesToWait_ = 0;

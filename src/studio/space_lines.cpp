@@ -129,13 +129,20 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
   for (const RaySegment& segment : pixel.segments) {
     const int i = segment.node;
     const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
-    if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
+    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
     const bool hot = !pinned && (i == view.hoveredBefore || i == view.selected || i == view.step - 1);
     const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
+    const auto& way = view.wayRays;
+    const bool chosen = !pinned && std::find(way.begin(), way.end(), i) != way.end();
+    const bool faint = pinned || (!way.empty() && !chosen);
     const auto weight =
-        static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
+        chosen ? 1.0f
+               : static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
     pen.line(segment.from, segment.to, hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour,
-             pinned ? 0.6f : 1, 1.2f + 2.2f * weight + (hot ? 1.0f : 0), segment.leaves ? 6.0f : 0);
+             pinned  ? 0.6f
+             : faint ? 0.25f
+                     : 1,
+             1.2f + 2.2f * weight + (hot ? 1.0f : 0), segment.leaves ? 6.0f : 0);
     if (view.hitNormalsShown && node.hit && !pinned)
       pen.line(node.hit->surface.point,
                node.hit->surface.point + node.hit->surface.shading * (0.2 * view.size),
@@ -204,6 +211,7 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
     }
   if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
     addRays(studio, *pinned, true, pen);
+  if (const TracedPixel* before = view.chains.before()) addRays(studio, *before, true, pen);
   if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
   if (const TracedPixel* pixel = shownPixel(studio); pixel && view.selected >= 0)
     addPhotons(pixel->tree().nodes[static_cast<std::size_t>(view.selected)],

@@ -111,7 +111,7 @@ int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVe
   if (!pixel) return -1;
   for (const RaySegment& segment : pixel->segments) {
     const int i = segment.node;
-    if (!view.lookShown[static_cast<std::size_t>(segment.looks)] || !view.inStep(i)) continue;
+    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || !view.inStep(i)) continue;
     const float d = distanceTo(view, matrix, low, size, segment);
     if (d < least) {
       least = d;
@@ -230,11 +230,11 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::InvisibleButton("class", {wide.x + side + 3 * pad, line}))
-      view.lookShown[i] = !view.lookShown[i];
+      view.lookHidden[i] = !view.lookHidden[i];
     ImGui::PopID();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s\nclick to show or hide", kRayLooks[i].help.data());
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const bool on = view.lookShown[i];
+    const bool on = !view.lookHidden[i];
     const ImU32 tint = ImGui::GetColorU32(
         ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
     const ImVec2 square{at.x + pad, at.y + (line - side) / 2};

@@ -60,7 +60,7 @@ TEST(PictureViews, PlanesAreHeatMapsWithALegend) {
   const Picture shown = film.picture();
   const PlaneView samples = planeView(FilmPlane::samples, film, shown);
   EXPECT_EQ(samples.colours.at(0, 0), Color(1)) << "the most";
-  EXPECT_EQ(samples.legend, "rays a pixel: 4 to 4, which is white; 4 on the average");
+  EXPECT_EQ(samples.legend, "4 rays in every pixel");
   const PlaneView noise = planeView(FilmPlane::noise, film, shown);
   EXPECT_EQ(noise.colours.at(0, 0), Color(0));
   EXPECT_EQ(noise.colours.at(1, 0), Color(1));

@@ -177,6 +177,56 @@ code=0
 "$studio" scene.ray --script script >log 2>&1 || code=$?
 [[ $code == 2 ]] || fail "a script that asks for a bad sample of a good picture ends with exit code $code"
 
+# Paths from both ends and their ways; a chain of mlt, move by move; a shadow ray that is blocked is drawn.
+cat >lamp.ray <<'END'
+SBT-raytracer 1.0
+settings { integrator = bdpt; depth = 3; spp = 4; sampling = sobol; width = 40; chain-starts = 500; }
+camera { position = (0, 1, 6); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+translate(0, 2, 0, scale(0.3, sphere { name = "lamp"; material = { emissive = (4, 4, 4) } }))
+rotate(1, 0, 0, -1.5708, scale(8, 8, 1, square { material = { diffuse = (0.7, 0.7, 0.7) } }))
+translate(0, 2, -3, scale(8, 8, 1, square { material = { diffuse = (0.7, 0.7, 0.7) } }))
+END
+cat >blocked.ray <<'END'
+SBT-raytracer 1.0
+camera { position = (0, 2, 6); viewdir = (0, -0.3, -1); updir = (0, 1, 0); fov = 40; }
+point_light { position = (0, 3, 0); color = (1, 1, 1); constant_attenuation_coeff = 1; }
+translate(0, 2, 0, sphere { material = { diffuse = (0.2, 0.2, 0.2) } })
+rotate(1, 0, 0, -1.5708, scale(8, 8, 1, square { material = { diffuse = (0.2, 0.2, 0.2) } }))
+END
+cat >script <<'END'
+open lamp.ray
+wait
+pixel 12 20
+rays
+tab Ways
+way 0
+state ways
+set integrator mlt
+wait
+rays
+tab Chain
+state chain
+move 1
+rays
+state moved
+open blocked.ray
+set width 40
+wait
+pixel 20 20
+rays
+screenshot blocked.png space
+END
+"$studio" --script script >log 2>&1 || fail "ways or chains are not shown"
+grep -q '^ways [1-9]' ways || fail "a pixel of bdpt has no ways"
+grep -q '^way 0' ways || fail "a way cannot be chosen"
+grep -q '^chain [0-9]* of [1-9]' chain || fail "no chain is followed"
+at() { grep '^chain ' "$1" | cut -d' ' -f2; }
+(($(at moved) == $(at chain) + 1)) || fail "the chain does not go on"
+if command -v convert >/dev/null; then
+  red="$(convert blocked.png -fx 'r > 0.6 && r > 1.6 * g ? 1 : 0' -format '%[fx:mean * w * h]' info:)"
+  awk "BEGIN { exit !($red > 8) }" || fail "a blocked shadow ray is not drawn: $red red points"
+fi
+
 # What was changed is remembered, and `ray` alone opens the window that remembers it.
 if command -v xdotool >/dev/null; then
   "$(dirname -- "$studio")/ray" >log 2>&1 &

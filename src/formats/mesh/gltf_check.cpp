@@ -1,0 +1,244 @@
+// Source: Khronos Group, glTF 2.0 Specification, and the extensions named below.
+#include "formats/mesh/gltf_check.h"
+
+#include <cmath>
+#include <vector>
+
+#include "formats/mesh/gltf_check_materials.h"
+
+namespace trace {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";
+/// Extensions that the reader takes into account, and those of pictures that it may not be able to read,
+/// which it tells.
+constexpr std::string_view kRead[] = {kGltfLights,
+                                      "KHR_materials_ior",
+                                      "KHR_materials_transmission",
+                                      "KHR_materials_iridescence",
+                                      "KHR_materials_emissive_strength",
+                                      "KHR_materials_clearcoat",
+                                      "KHR_materials_sheen",
+                                      "KHR_materials_anisotropy",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_volume",
+                                      "KHR_materials_dispersion",
+                                      "KHR_materials_unlit",
+                                      "KHR_materials_pbrSpecularGlossiness",
+                                      "KHR_mesh_quantization",
+                                      "KHR_texture_transform",
+                                      "KHR_texture_basisu",
+                                      "EXT_texture_webp",
+                                      "EXT_texture_avif",
+                                      "MSFT_texture_dds"};
+
+class GltfCheck : private GltfMaterialCheck {
+ public:
+  GltfCheck(const json& root, const Place& place, Messages& messages)
+      : GltfMaterialCheck(root, place), messages_(messages) {}
+
+  void check() {
+    checkVersion();
+    checkExtensions();
+    index(root, "scene", "scenes");
+    each(root, "scenes", [&](const Part& scene) { indices(scene, "nodes", "nodes"); });
+    each(root, "nodes", [&](const Part& node) { checkNode(node); });
+    each(root, "meshes", [&](const Part& mesh) {
+      each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
+    });
+    each(root, "cameras", [&](const Part& camera) { checkCamera(camera); });
+    each(root, "materials", [&](const Part& material) { checkMaterial(material); });
+    each(root, "textures", [&](const Part& texture) {
+      index(texture, "source", "images");
+      index(texture, "sampler", "samplers");
+    });
+    each(root, "samplers", [&](const Part& sampler) { checkSampler(sampler); });
+    each(root, "images", [&](const Part& image) { index(image, "bufferView", "bufferViews"); });
+    each(root, "accessors", [&](const Part& accessor) { checkAccessor(accessor); });
+    each(root, "bufferViews", [&](const Part& view) {
+      index(view, "buffer", "buffers");
+      for (const char* key : {"byteOffset", "byteLength", "byteStride"}) whole(view, key);
+    });
+    if (const json* all = root.find("extensions"); all && all->is_object())
+      object({*all, "extensions"}, kGltfLights, [&](const Part& lights) {
+        each(lights, "lights", [&](const Part& light) { checkLight(light); });
+      });
+    checkWhatIsNotRead();
+    warnings.report(messages_);
+  }
+
+ private:
+  // --- the file ---
+
+  void checkVersion() const {
+    const json* asset = root.find("asset");
+    if (!asset || !asset->is_object()) fail("expected an object \"asset\" with the version");
+    const auto version = [&](const char* key) -> double {
+      const json* value = Part{*asset, ""}.find(key);
+      if (!value) return -1;
+      const auto number = value->is_string() ? parseNumber(value->get_ref<const std::string&>())
+                                             : std::optional<ParsedNumber>();
+      if (!number || number->length != value->get_ref<const std::string&>().size())
+        fail(std::string("asset.") + key + ": expected a version such as \"2.0\", found " + found(*value));
+      return number->value;
+    };
+    const double of = version("version"), least = version("minVersion");
+    if (of < 0) fail("asset.version: expected a version such as \"2.0\", found none");
+    if (!(of >= 2 && of < 3) || least >= 2.1)
+      fail("expected glTF of version 2.0, found version " + toText(std::max(of, least)),
+           of < 2 ? "programs that read the old version write the new one too" : "");
+  }
+
+  void checkExtensions() {
+    for (const std::string& name : names("extensionsRequired")) {
+      if (name == kDraco || name == kMeshopt) failOfCompression(name);
+      if (!isOneOf(name, kRead))
+        fail("the file requires the extension " + inQuotes(name) + ", which is not read",
+             "export the scene without it");
+    }
+    std::string others;
+    for (const std::string& name : names("extensionsUsed"))
+      if (!isOneOf(name, kRead) && name != kDraco && name != kMeshopt)
+        others += (others.empty() ? "" : ", ") + inQuotes(name);
+    if (!others.empty()) warn("extensions that are not read: " + others.substr(0, 400));
+  }
+  std::vector<std::string> names(std::string_view key) const {
+    std::vector<std::string> all;
+    const json* list = root.find(key);
+    if (!list) return all;
+    if (!list->is_array()) fail(std::string(key) + ": expected a list of names, found " + found(*list));
+    for (const json& name : *list) {
+      if (!name.is_string()) fail(std::string(key) + ": expected a list of names, found " + found(name));
+      all.push_back(name.get<std::string>());
+    }
+    return all;
+  }
+  [[noreturn]] void failOfCompression(std::string_view name) const {
+    fail("compressed meshes (" + std::string(name) + ") are not read",
+         "export the scene without compression");
+  }
+
+  void checkNode(const Part& node) {
+    known(node,
+          {"camera", "children", "skin", "matrix", "mesh", "rotation", "scale", "translation", "weights"});
+    index(node, "mesh", "meshes");
+    index(node, "camera", "cameras");
+    index(node, "skin", "skins");
+    indices(node, "children", "nodes");
+    numbers(node, "matrix", 16);
+    numbers(node, "translation", 3);
+    numbers(node, "scale", 3);
+    numbers(node, "rotation", 4);
+    if (const json* q = node.find("rotation")) {
+      double square = 0;
+      for (const json& n : *q) square += n.get<double>() * n.get<double>();
+      constexpr double kClose = 0.02;
+      if (!(std::abs(square - 1) < kClose))
+        warn(node.path + ".rotation: expected a quaternion of length 1, found one of length " +
+                 toText(std::round(std::sqrt(square) * 1000) / 1000),
+             {}, "length of rotation");
+    }
+    if (node.find("matrix"))
+      for (const char* other : {"translation", "rotation", "scale"})
+        if (node.find(other))
+          warn(node.path + ": " + other + " is ignored, since matrix is given", {}, "matrix and others");
+    extension(node, kGltfLights, [&](const Part& light) { index(light, "light", "lights"); });
+  }
+
+  void checkPrimitive(const Part& primitive) {
+    known(primitive, {"attributes", "indices", "material", "mode", "targets"});
+    index(primitive, "material", "materials");
+    index(primitive, "indices", "accessors");
+    if (const json* mode = primitive.find("mode"))
+      if (!mode->is_number_unsigned() || mode->get<std::uint64_t>() > 6)
+        fail(primitive.pathOf("mode") + ": expected 0 to 6, found " + found(*mode));
+    const json* attributes = primitive.find("attributes");
+    if (!attributes || !attributes->is_object()) fail(primitive.path + ": expected an object \"attributes\"");
+    const Part of{*attributes, primitive.pathOf("attributes")};
+    for (const auto& [key, value] : attributes->items()) checkIndex(value, of.pathOf(key), "accessors");
+    knownAttributes(of);
+    if (!of.find("POSITION"))
+      warn(primitive.path + " has no POSITION: there is nothing to see of it", {}, "no POSITION");
+    extension(primitive, kDraco, [&](const Part&) {  // unless the file has the mesh a second time, as it is
+      if (const json* points = of.find("POSITION"); points && !hasData(*points)) failOfCompression(kDraco);
+    });
+    morphs_ += primitive.find("targets") != nullptr;
+  }
+  /// Sets are counted, as in TEXCOORD_1, and programs may add names that begin with _.
+  void knownAttributes(const Part& attributes) {
+    constexpr std::string_view kNames[] = {"POSITION", "NORMAL",   "TANGENT",  "TEXCOORD_0",
+                                           "COLOR_0",  "JOINTS_0", "WEIGHTS_0"};
+    for (const auto& [key, value] : attributes.value.items()) {
+      if (key.starts_with('_')) continue;
+      const std::size_t digits = key.find_last_not_of("0123456789") + 1;
+      const bool counted = digits < key.size() && key.substr(0, digits).ends_with('_');
+      if (isOneOf(counted ? key.substr(0, digits) + "0" : key, kNames)) continue;
+      warn("unknown attribute " + inQuotes(key) + " of " + attributes.path + " is ignored",
+           didYouMean(key, kNames), "unknown " + key.substr(0, 60));
+    }
+  }
+  bool hasData(const json& accessor) const {
+    return (*root.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
+  }
+
+  void checkAccessor(const Part& accessor) {
+    index(accessor, "bufferView", "bufferViews");
+    word(accessor, "type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
+    whole(accessor, "count", 1);
+    whole(accessor, "byteOffset");
+    if (const json* type = accessor.find("componentType"))
+      if (!type->is_number_unsigned() || type->get<std::uint64_t>() < 5120 ||
+          type->get<std::uint64_t>() > 5126)
+        fail(accessor.pathOf("componentType") + ": expected 5120 to 5126, found " + found(*type));
+  }
+
+  // --- cameras, lights, materials ---
+
+  void checkCamera(const Part& camera) {
+    word(camera, "type", {"perspective", "orthographic"});
+    object(camera, "perspective", [&](const Part& p) {
+      known(p, {"aspectRatio", "yfov", "zfar", "znear"});
+      for (const char* key : {"aspectRatio", "yfov", "zfar", "znear"}) number(p, key, 0);
+    });
+  }
+
+  void checkLight(const Part& light) {
+    known(light, {"color", "intensity", "type", "range", "spot"});
+    if (!light.find("type")) fail(light.path + ": expected a type, as in \"point\"");
+    word(light, "type", {"directional", "point", "spot"});
+    numbers(light, "color", 3, 0);
+    number(light, "intensity", 0);
+    number(light, "range", 0);
+    object(light, "spot", [&](const Part& spot) {
+      known(spot, {"innerConeAngle", "outerConeAngle"});
+      number(spot, "innerConeAngle", 0, 1.5708);
+      number(spot, "outerConeAngle", 0, 1.5708);
+      const double inner = spot.value.value("innerConeAngle", 0.0),
+                   outer = spot.value.value("outerConeAngle", 0.7853981633974483);
+      if (inner > outer)
+        warn(spot.path + ": expected an innerConeAngle below the outerConeAngle, found " + toText(inner) +
+                 " and " + toText(outer),
+             {}, "inner above outer");
+    });
+  }
+
+  void checkWhatIsNotRead() {
+    if (const std::size_t n = countOf("animations")) warn("animations are not played: " + std::to_string(n));
+    if (const std::size_t n = countOf("skins"))
+      warn("skins are not applied, meshes stand as they were modelled: " + std::to_string(n));
+    if (morphs_ > 0) warn("morph targets are left out: " + std::to_string(morphs_));
+  }
+
+  Messages& messages_;
+  std::size_t morphs_ = 0;  ///< primitives that have some
+};
+
+}  // namespace
+
+void checkGltf(const json& root, const Place& place, Messages& messages) {
+  GltfCheck(root, place, messages).check();
+}
+
+}  // namespace trace

@@ -135,6 +135,7 @@ class SettingsChange {
  public:
   SettingsChange(TextEdits& edits, const Scene& from, const Scene& to)
       : edits_(edits),
+        folder_(std::filesystem::absolute(from.file.empty() ? "." : from.file).parent_path()),
         blocks_(blocksOf(edits.syntax(), kSettings)),
         choices_(from.choices),
         to_(resolve({to.choices})) {}
@@ -147,12 +148,19 @@ class SettingsChange {
   }
 
  private:
+  /// What lies below the scene's folder goes where that goes.
+  std::string seenFromScene(const std::string& file) const {
+    const std::filesystem::path below =
+        std::filesystem::path(file).lexically_relative(folder_.lexically_normal());
+    return below.empty() || *below.begin() == ".." ? file : below.string();
+  }
   void change(const Option& option) {
     if (sameValue(option, resolve({choices_}), to_)) return;
     std::string value = option.get(to_);
     if (option.kind == Option::Kind::file && value != "none")
       value = std::filesystem::absolute(value).lexically_normal().string();
     choices_.push_back({std::string(option.name), value, {}});
+    if (option.kind == Option::Kind::file && value != "none") value = seenFromScene(value);
     std::optional<Item> field;
     for (const Item& block : blocks_)
       for (const Item item : block)
@@ -166,6 +174,7 @@ class SettingsChange {
   }
 
   TextEdits& edits_;
+  std::filesystem::path folder_;  // of the scene
   std::vector<Item> blocks_;
   std::vector<Choice> choices_;  ///< of the text so far
   Settings to_;

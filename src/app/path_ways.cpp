@@ -1,0 +1,70 @@
+#include "app/path_ways.h"
+
+#include <algorithm>
+
+namespace trace {
+namespace {
+
+const RayNode& rayAt(const RayTree& tree, int index) { return tree.nodes[static_cast<std::size_t>(index)]; }
+
+/// The rays of the path from a light, in order: the first reaches its second place.
+std::vector<int> lightPath(const RayTree& tree) {
+  std::vector<int> rays;
+  for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i)
+    if (rayAt(tree, i).kind == RayKind::light && rayAt(tree, i).parent == (rays.empty() ? -1 : rays.back()))
+      rays.push_back(i);
+  return rays;
+}
+
+}  // namespace
+
+std::vector<PathWay> pathWays(const RayTree& tree) {
+  const std::vector<int> fromLight = lightPath(tree);
+  std::vector<PathWay> ways;
+  for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i) {
+    const RayNode& node = rayAt(tree, i);
+    for (const Term& term : node.terms) {
+      if (!term.connection) continue;
+      PathWay way{term.connection->light,
+                  term.connection->camera,
+                  i,
+                  -1,
+                  term.ray,
+                  term.connection->share,
+                  node.weight * node.through * term.factor * term.value};
+      const auto before = static_cast<std::size_t>(std::max(0, way.light - 2));
+      if (way.light > 1 && before < fromLight.size()) way.start = fromLight[before];
+      ways.push_back(way);
+    }
+  }
+  std::stable_sort(ways.begin(), ways.end(), [](const PathWay& a, const PathWay& b) {
+    return a.places() != b.places() ? a.places() < b.places() : a.light < b.light;
+  });
+  return ways;
+}
+
+std::vector<int> raysOf(const RayTree& tree, const PathWay& way) {
+  std::vector<int> rays;
+  for (int i = way.end; i >= 0; i = rayAt(tree, i).parent) rays.push_back(i);
+  std::reverse(rays.begin(), rays.end());
+  if (way.between >= 0) rays.push_back(way.between);
+  for (int i = way.start; i >= 0; i = rayAt(tree, i).parent) rays.push_back(i);
+  return rays;
+}
+
+std::string sentence(const PathWay& way, const RayTree& tree, const Scene& scene) {
+  if (way.light == 0) {
+    const RayNode& end = rayAt(tree, way.end);
+    return end.hit ? "met " + objectName(scene, end.hit->object) + ", which shines" : "met the background";
+  }
+  std::string text = way.light == 1 ? "asked a light" : "joined both paths";
+  if (way.between < 0) return text;
+  const RayNode& ray = rayAt(tree, way.between);
+  if (const Term* term = termOf(tree, way.between); term && !isBlack(term->factor * term->value)) {
+    const bool lamp = ray.kind == RayKind::lamp && ray.hit;
+    return lamp ? "asked " + objectName(scene, ray.hit->object) : text;
+  }
+  return text + ": " + sentence(ray, scene);
+}
+
+}  // namespace trace

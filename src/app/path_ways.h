@@ -1,0 +1,36 @@
+// The paths that a sample of `bdpt` put together from both ends (Veach 1997, section 10.2), read from its
+// tree of rays: which places each has, what it counts and what it brings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/ray_tree.h"
+
+namespace trace {
+
+/// One path: `light` places from the light's end and `camera` from the camera's, which is one of them. The
+/// straight way to the camera (camera = 1) is not here: its light lands in other pixels.
+struct PathWay {
+  int light = 0, camera = 0;
+  int end = 0;       ///< the ray to the last place from the camera's end
+  int start = -1;    ///< the ray to the last place from the light's end, of light > 1
+  int between = -1;  ///< the ray that joins the two, or asks a light; -1: none was sent
+  Real share = 1;    ///< what it counts among all ways that find such paths
+  Color brings;      ///< to the pixel
+  int places() const { return light + camera; }
+  /// What it would bring if it were the only way.
+  Color alone() const { return share > 0 ? brings / share : Color(); }
+};
+
+/// The shortest paths first, of these the ones with fewer places from the light's end. Empty of a tree that
+/// no path from a light belongs to, and of none of `bdpt`.
+std::vector<PathWay> pathWays(const RayTree& tree);
+
+/// The rays of the path, from the camera to the light.
+std::vector<int> raysOf(const RayTree& tree, const PathWay& way);
+
+/// "asks a lamp: blocked by bowl".
+std::string sentence(const PathWay& way, const RayTree& tree, const Scene& scene);
+
+}  // namespace trace

@@ -1,0 +1,81 @@
+// The tab Chain of the panel Rays: a chain of `mlt`, move by move.
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "studio/landmarks.h"
+#include "studio/ray_rows.h"
+#include "studio/rays_view.h"
+
+namespace trace::studio {
+namespace {
+
+void chooseMove(RaysView& view, int index, int count) {
+  view.chainMove = std::clamp(index, 0, count - 1);
+  view.revealMove = true;
+}
+
+void row(RaysView& view, const ChainMove& move, int index, const ImVec4& muted) {
+  ImGui::PushID(index);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const bool chosen = index == view.chains.index();
+  const std::string name = move.number < 0 ? "start" : std::to_string(move.number);
+  if (ImGui::Selectable(name.c_str(), chosen, ImGuiSelectableFlags_SpanAllColumns)) view.chainMove = index;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", sentence(move).c_str());
+  if (!move.made) ImGui::PushStyleColor(ImGuiCol_Text, muted);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(move.anywhere ? "anywhere" : "nearby");
+  ImGui::TableNextColumn();
+  ImGui::Text("%d, %d", move.x, move.y);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.4g", move.light);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.3g", move.chance);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(move.made ? "made" : "not made");
+  if (!move.made) ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void drawChain(Studio& studio, const TracedPixel&) {
+  RaysView& view = studio.rays;
+  const ChainWalk& walk = *view.chains.walk();
+  const auto count = static_cast<int>(walk.moves.size());
+  if (ImGui::ArrowButton("move back", ImGuiDir_Left)) chooseMove(view, view.chains.index() - 1, count);
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  if (ImGui::ArrowButton("move on", ImGuiDir_Right)) chooseMove(view, view.chains.index() + 1, count);
+  landmark("move on");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  cutText(std::to_string(walk.made()) + " of " + std::to_string(count - 1) + " moves were made");
+  if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(7));
+  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("was", ImGuiTableColumnFlags_WidthStretch);
+  columnHeads({"its number in the chain",
+               "each of the path's numbers changes a little, or all are thrown anew",
+               "that the offered path goes through", "how bright it is",
+               "with which the move is made: how bright it is beside the path where the chain was",
+               "what came of it"});
+  if (std::exchange(view.revealMove, false)) {
+    const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    ImGui::SetScrollY(
+        std::max(0.0f, static_cast<float>(view.chains.index()) * height - ImGui::GetWindowHeight() / 2));
+  }
+  ImGuiListClipper clipper;
+  clipper.Begin(count);
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+      row(view, walk.moves[static_cast<std::size_t>(i)], i, studio.palette().muted);
+  ImGui::EndTable();
+}
+
+}  // namespace trace::studio

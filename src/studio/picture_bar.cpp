@@ -1,0 +1,101 @@
+// The buttons above the picture, and what stands in its place while there is none.
+#include <cmath>
+
+#include "app/picture_views.h"
+#include "studio/actions.h"
+#include "studio/landmarks.h"
+#include "studio/picture_parts.h"
+
+namespace trace::studio {
+
+void drawBar(Studio& studio) {
+  PictureView& view = studio.picture;
+  const bool open = studio.workspace.document.isOpen();
+  const auto button = [&](const char* name, const char* tip, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(name);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
+    ImGui::SameLine();
+    return pressed;
+  };
+  const bool working = studio.workspace.render.state().working();
+  if (!working && button("Render", "render the scene as it is now (F5)", open))
+    studio.workspace.startRender();
+  if (working && button(" Stop ", "stop; what is done stays (Esc)", true)) studio.workspace.render.stop();
+  const auto runAction = [&](const char* name) {
+    for (const Action& action : actions())
+      if (std::string_view(action.name) == name) action.run(studio);
+  };
+  if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
+    runAction("Export picture...");
+  if (button("Fit", "the whole picture (F)", true)) view.fit = true;
+  if (button("1:1", "one pixel to one of the screen (A)", true)) {
+    view.fit = false;
+    view.zoom = 1;
+  }
+
+  const auto roomFor = [](float wide) {  // else on the next line
+    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+  };
+  roomFor(characters(17));
+  ImGui::SetNextItemWidth(characters(17));
+  ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
+                     view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("stops: powers of two; only what is shown, not what is saved\nright click: 0");
+  if (ImGui::IsItemClicked(1)) view.exposure = 0;
+  ImGui::SameLine();
+  roomFor(characters(17));
+  ImGui::SetNextItemWidth(characters(17));
+  int plane = static_cast<int>(view.plane);
+  if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
+    view.plane = static_cast<FilmPlane>(plane);
+  landmark("plane");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
+        "changed");
+  if (!studio.workspace.reference()) {
+    ImGui::SameLine();
+    roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::Button("Compare...")) runAction("Open reference...");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a picture to compare with (Ctrl+Shift+R)");
+    return;
+  }
+  int index = static_cast<int>(view.view);
+  ImGui::SetNextItemWidth(characters(20));
+  if (ImGui::Combo("##view", &index, kViewNames, static_cast<int>(std::size(kViewNames))))
+    view.view = static_cast<View>(index);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how the two pictures are shown (C)");
+  if (view.view == View::difference || view.view == View::falseColour) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(characters(14));
+    ImGui::SliderFloat("##magnify", &view.magnify, 1, 255, "x %.0f", ImGuiSliderFlags_Logarithmic);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("by which differences are magnified");
+  }
+}
+
+void drawWelcome(Studio& studio, ImVec2 area) {
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + area.y * 0.3f);
+  const auto centred = [&](const char* text) {
+    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(text).x) / 2));
+    ImGui::TextDisabled("%s", text);
+  };
+  centred(studio.workspace.reading() ? "The file is being read." : "Drop a scene here, or");
+  ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
+  if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
+  const auto recent = studio.workspace.recent();
+  if (!recent.empty()) {
+    ImGui::NewLine();
+    centred("Opened lately:");
+  }
+  for (const std::string& file : recent) {
+    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
+    if (ImGui::SmallButton(file.c_str())) studio.workspace.open(file);
+    ImGui::PopStyleColor();
+  }
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,21 @@
+// What the panel Picture has around the picture.
+#pragma once
+
+#include <imgui.h>
+
+#include "studio/studio.h"
+
+namespace trace::studio {
+
+inline bool sameSize(const Picture& a, const Picture& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+/// Buttons and switches above it.
+void drawBar(Studio& studio);
+/// Two lines below it: how far the render is, or the pixel x, y that the cursor is on; and how exact it is.
+void drawStatus(Studio& studio, bool hovered, int x, int y);
+/// In its place, while there is no scene.
+void drawWelcome(Studio& studio, ImVec2 area);
+
+}  // namespace trace::studio

@@ -1,0 +1,96 @@
+// The tab Ways of the panel Rays: in which ways a sample of `bdpt` joined its path from the camera with the
+// one from a light, what each counts, and its path in space.
+#include <imgui.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "studio/landmarks.h"
+#include "studio/ray_rows.h"
+#include "studio/rays_view.h"
+
+namespace trace::studio {
+namespace {
+
+void number(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  ImGui::TextUnformatted(text);
+}
+
+/// One of the table's rows.
+void row(Studio& studio, const TracedPixel& pixel, int index) {
+  const PathWay& way = pixel.ways[static_cast<std::size_t>(index)];
+  ImGui::PushID(index);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  char label[32];
+  std::snprintf(label, sizeof label, "%d + %d", way.light, way.camera);
+  const bool chosen = index == studio.rays.way;
+  if (ImGui::Selectable(label, chosen, ImGuiSelectableFlags_SpanAllColumns))
+    chooseWay(studio, chosen ? -1 : index);
+  if (chosen && std::exchange(studio.rays.revealWay, false)) ImGui::SetScrollHereY();
+  if (index < 16) landmark("way " + std::to_string(index));
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "%d %s chosen from the light's end (s), %d from the camera's, itself among them (t)\nclick: this "
+        "path "
+        "alone in space",
+        way.light, way.light == 1 ? "place" : "places", way.camera);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.1f %%", 100 * way.share);
+  ImGui::TableNextColumn();
+  number("%.4g", maxComponent(way.brings));
+  ImGui::TableNextColumn();
+  number("%.4g", maxComponent(way.alone()));
+  ImGui::TableNextColumn();
+  cutText(sentence(way, pixel.tree(), pixel.scene()));
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void chooseWay(Studio& studio, int way) {
+  RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  view.way = -1;
+  view.wayRays.clear();
+  if (!pixel || way < 0 || static_cast<std::size_t>(way) >= pixel->ways.size()) return;
+  view.way = way;
+  view.revealWay = true;
+  view.wayRays = raysOf(pixel->tree(), pixel->ways[static_cast<std::size_t>(way)]);
+}
+
+void drawWays(Studio& studio, const TracedPixel& pixel) {
+  if (!ImGui::BeginTable("ways", 5, kRayTable)) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("s + t", ImGuiTableColumnFlags_WidthFixed, characters(7));
+  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthStretch);
+  columnHeads({"places from the light's end, and from the camera's",
+               "its weight among all ways to find such a path: the more likely the way, the more it counts",
+               "the largest channel of what it adds to the pixel",
+               "what it would add if no other way found such paths", "how its two ends were joined"});
+  int places = 0;
+  for (int i = 0; i < static_cast<int>(pixel.ways.size()); ++i) {
+    const int now = pixel.ways[static_cast<std::size_t>(i)].places();
+    if (now != places) {
+      Color sum;
+      for (const PathWay& way : pixel.ways)
+        if (way.places() == now) sum += way.brings;
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(studio.palette().accent, "%d places", now);
+      ImGui::TableNextColumn();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(studio.palette().accent, "%.4g", maxComponent(sum));
+      places = now;
+    }
+    row(studio, pixel, i);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,71 @@
+// Chains of mlt that are followed move by move.
+#include "app/chain_walk.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+std::shared_ptr<const Session> chainSession(Chains chains) {
+  Scene scene;
+  Phong shining, grey;
+  shining.emissive = Color(4);
+  grey.diffuse = Color(0.7);
+  addObject(scene, Square{}, Affine::rotation({1, 0, 0}, -kPi / 2) * Affine::scaling({8, 8, 1}), grey);
+  addObject(scene, Sphere{}, Affine::translation({0, 2, 0}) * Affine::scaling({0.3, 0.3, 0.3}), shining);
+  scene.camera.position = {0, 1, 6};
+  Settings settings;
+  settings.width = 32;
+  settings.integrator = IntegratorKind::mlt;
+  settings.chains = chains;
+  settings.chainStarts = 2000;
+  settings.spp = 4;
+  const auto session = std::make_shared<Session>();
+  session->open(scene, settings);
+  session->build();
+  return session;
+}
+
+TEST(ChainWalk, TheRaysOfAMoveAreTheSampleThatWasOffered) {
+  for (const Chains chains : {Chains::path, Chains::bdpt}) {
+    const ChainWalker walker(chainSession(chains), {});
+    const ChainWalk walk = walker.near(16, 16, {});
+    ASSERT_GT(walk.moves.size(), 100u);
+    EXPECT_EQ(walk.moves[0].number, -1);
+    for (const int index : {0, 1, 7, walk.nearest}) {
+      const ChainMove& move = walk.moves[static_cast<std::size_t>(index)];
+      const TracedPixel pixel = walker.offered(walk, index);
+      EXPECT_EQ(pixel.x, move.x);
+      EXPECT_EQ(pixel.y, move.y);
+      EXPECT_TRUE(sumsUp(pixel.tree()));
+      ASSERT_FALSE(pixel.tree().nodes.empty());
+      if (chains == Chains::path) {
+        EXPECT_EQ(isBlack(pixel.explanation.pixel), move.light == 0);
+      }
+    }
+  }
+}
+
+TEST(ChainWalk, EachMoveStartsWhereTheLastOneThatWasMadeLed) {
+  const ChainWalker walker(chainSession(Chains::path), {});
+  const ChainWalk walk = walker.near(16, 16, {});
+  int kept = 0;
+  for (int i = 1; i < static_cast<int>(walk.moves.size()); ++i) {
+    const ChainMove& move = walk.moves[static_cast<std::size_t>(i)];
+    EXPECT_EQ(move.number, i - 1);
+    EXPECT_EQ(move.before, walk.moves[static_cast<std::size_t>(walk.before(i))].light);
+    EXPECT_EQ(move.chance, move.before > 0 ? std::min(1.0, move.light / move.before) : 1);
+    EXPECT_TRUE(move.made || move.chance < 1);
+    EXPECT_TRUE(!move.made || move.chance > 0);
+    kept += move.made;
+  }
+  EXPECT_EQ(kept, walk.made());
+  EXPECT_GT(kept, 10);
+}
+
+}  // namespace
+}  // namespace trace::test
