@@ -142,7 +142,7 @@ void zoomAndPan(PictureView& view, const FrameArea& frame) {
 }
 
 /// The pixels where the chain that is followed was, up to its chosen move: small moves are joined.
-void drawChainWay(const Studio& studio, const Frame& frame, int width, int height) {
+void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int height) {
   const ChainInspector& chains = studio.rays.chains;
   if (!chains.offered()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -9,7 +9,7 @@
 #include "shading/materials/conductor.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::distribution_test {
 namespace {
 
 Phong ofColor(Real diffuse, Real emissive) {
@@ -154,4 +154,4 @@ TEST(GlossyReflection, TheEdgeOfALampIsHalfAsBrightAsItsMiddle) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::distribution_test

@@ -9,7 +9,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::irradiance_cache_test {
 namespace {
 
 /// The record at the origin of a plane whose normal is z, of what `see` tells of directions.
@@ -162,4 +162,4 @@ TEST(IrradianceCache, IsTheSameForAnyNumberOfThreadsAndExplained) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::irradiance_cache_test

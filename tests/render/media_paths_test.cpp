@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::media_paths_test {
 namespace {
 
 Phong diffuse(const Color& albedo, Real emissive = 0) {
@@ -270,4 +270,4 @@ TEST(MediaPaths, AreExplainedAndHaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::media_paths_test

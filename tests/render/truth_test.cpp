@@ -9,7 +9,7 @@
 #include "scene/conventions.h"
 #include "support/scenes.h"
 
-namespace trace::test {
+namespace trace::test::truth_test {
 namespace {
 
 Phong diffuse(const Color& albedo, Real emissive = 0) {
@@ -163,4 +163,4 @@ TEST(Truth, ConventionsChangeNoLight) {
 }
 
 }  // namespace
-}  // namespace trace::test
+}  // namespace trace::test::truth_test
