@@ -187,8 +187,15 @@ Texel MipMap::bilinear(const Level& level, const Vec2& place, const Lookup& look
     if (lookup.filter == TexelFilter::nearest) return texels.at(floorOf(x + 0.5), floorOf(y + 0.5));
     const int left = wrapped(i, level.width, lookup.u), right = wrapped(i + 1, level.width, lookup.u),
               top = wrapped(j, level.height, lookup.v), bottom = wrapped(j + 1, level.height, lookup.v);
-    return mixed(t, mixed(s, texels.stored(left, top), texels.stored(right, top)),
-                 mixed(s, texels.stored(left, bottom), texels.stored(right, bottom)));
+    if ((left | right | top | bottom) < 0)
+      return mixed(t, mixed(s, texels.stored(left, top), texels.stored(right, top)),
+                   mixed(s, texels.stored(left, bottom), texels.stored(right, bottom)));
+    const auto row = [&](int number) {
+      const std::size_t start = static_cast<std::size_t>(number) * static_cast<std::size_t>(level.width);
+      return mixed(s, texels.at(start + static_cast<std::size_t>(left)),
+                   texels.at(start + static_cast<std::size_t>(right)));
+    };
+    return mixed(t, row(top), row(bottom));
   });
 }
 

@@ -90,7 +90,7 @@ TEST(Motion, HasTheSameBitsForAnyNumberOfThreadsAndIsExplained) {
 
 TEST(Motion, OfNothingIsToldAndChangesNothing) {
   const Folder folder;
-  const std::string file = written(folder, "SBT-raytracer 1.0\nsphere { }\n");
+  const std::string file = written(folder, "SBT-raytracer 1.0\nambient_light { color = 1; }\nsphere { }\n");
   Session session;
   session.open(file, std::vector<Choice>{{"shutter", "1", {}}});
   session.build();

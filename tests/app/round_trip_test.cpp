@@ -87,10 +87,11 @@ TEST(RoundTrip, ScenesWithPicturesInsideLookTheSame) {
   EXPECT_NE(small(readScene(folder / "a.glb", messages)), small(readScene(plain, messages)));
   struct Case {
     const char* file;
-    std::size_t ray, composer;  ///< files that are written; the composer has pictures of diffuse alone
+    std::size_t ray,
+        composer;  ///< files that are written; the composer has pictures of diffuse and color alone
   };
   for (const Case& c :
-       {Case{"a.glb", 4, 1}, {"b.gltf", 4, 1}, {"c.wrl", 3, 2}, {"d.ray", 4, 1}, {"e.glb", 2, 1}}) {
+       {Case{"a.glb", 4, 4}, {"b.gltf", 4, 4}, {"c.wrl", 3, 2}, {"d.ray", 4, 4}, {"e.glb", 2, 2}}) {
     Messages found;
     const Scene scene = readScene(folder / c.file, found);
     for (const std::string suffix : {".ray", ".out"}) {

@@ -3,8 +3,11 @@
 
 #include "base/file.h"
 #include "formats/composer/composer_file.h"
+#include "formats/textures.h"
 #include "geometry/mesh/mesh.h"
+#include "image/codec.h"
 #include "mesh_helpers.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace::composer_format_test {
@@ -128,6 +131,27 @@ TEST(Composer, OtherShapesBecomeTriangles) {
   ASSERT_EQ(again.objects.size(), 1u);
   EXPECT_EQ(bounds(meshOf(again)), (Box3{{0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}}));
   EXPECT_EQ(text.substr(0, 25), "Composer format 2.1 ascii");
+}
+
+TEST(Composer, PicturesAreWrittenOfWhateverModelAndLieOnMadeTriangles) {
+  const test::Folder folder;
+  Picture grey(2, 1);
+  grey.pixels = {Color(1, 1, 1), Color(0, 0, 0)};
+  writePicture(folder / "a.png", grey);
+  Messages messages;
+  const auto written = [&](const std::string& object) {
+    Scene scene = readScene(folder / "s.ray",
+                            "SBT-raytracer 1.0\nambient_light { color = (1, 1, 1); }\n" + object, messages);
+    loadTextures(scene, messages);
+    return sceneIn(writeComposer(scene, folder / "s.out", {}, messages)[0].bytes);
+  };
+  const std::string map = "texture(image { file = \"a.png\"; })";
+  const Scene card = written("square { material = { model = principled; color = " + map + "; } }");
+  ASSERT_NE(textureOf(card.materials.at(card.objects.at(0).material).textures, "diffuse"), nullptr);
+  EXPECT_FALSE(card.objects.at(0).shape.as<Mesh>()->data->uvs.empty());
+  const Scene ball = written("sphere { material = { diffuse = " + map + "; ambient = " + map + "; } }");
+  const Phong phong = phongOf(ball.materials.at(ball.objects.at(0).material).model);
+  EXPECT_NEAR(phong.ambient.g, 0.5, 0.01) << "the mean of the picture";
 }
 
 TEST(Composer, WithoutACameraEverythingIsSeen) {
