@@ -9,7 +9,7 @@
 namespace trace {
 namespace {
 
-constexpr std::int64_t kMostMoves = 60000;  // that are followed to find one at a pixel
+constexpr std::int64_t kMostFollowed = 60000;  // that are followed to find one at a pixel
 
 }  // namespace
 
@@ -54,7 +54,8 @@ ChainWalk ChainWalker::near(int x, int y, const Cancelled& cancelled) const {
   double least = kInfinity;
   std::int64_t followed = 0;
   PixelTracer tracer = chains_.tracer();
-  for (std::int64_t tile = 0; tile < session_->film().tiles() && least > 0 && followed < kMostMoves; ++tile) {
+  for (std::int64_t tile = 0; tile < session_->film().tiles() && least > 0 && followed < kMostFollowed;
+       ++tile) {
     if (cancelled && cancelled()) break;
     const std::int64_t moves = movesOf(tile);
     if (moves == 0) continue;

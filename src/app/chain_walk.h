@@ -20,7 +20,7 @@ struct ChainWalk {
   int made() const;  ///< moves that were made
 };
 
-/// "moved a little, to pixel 3, 4: as bright as 0.2 where it was 0.4; made with a chance of 0.5: not made".
+/// "nearby, to pixel 3, 4: light 0.2 after 0.4, a chance of 0.5: not made".
 std::string sentence(const ChainMove& move);
 
 /// Follows the chains of a session whose integrator is `mlt`.

@@ -94,7 +94,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   } else if (s.denoise && chains) {
     warn("--denoise changes nothing: it does not know how exact a picture by chains is");
   } else if (s.denoise && throws) {
-    warn("--denoise changes nothing: it does not know how exact the light is that paths from lights bring");
+    warn("--denoise changes nothing with bdpt: how exact its light image is is not known");
   } else if (s.denoise && samplesOf(s) < 8) {
     warn(
         "--denoise changes nothing: it compares two halves of a pixel's samples, from 8 on, and --spp "

@@ -94,7 +94,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     console.line(
         LogLevel::info,
         "note: chains make this picture, in no order of pixels; shown are paths of --integrator path, "
-        "to whose mean they tend");
+        "to whose mean they tend, and a chain that comes by");
     choices.push_back({"integrator", "path", {}});
     opened.emplace().open(arguments.files[0], choices, arguments.strict);
   }
@@ -102,15 +102,26 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   console.warnings(session.messages().all());
+  std::optional<ChainWalk> chain;
+  if (byChains) {  // of the whole picture
+    const auto whole = std::make_shared<Session>();
+    whole->open(arguments.files[0], arguments.choices, arguments.strict);
+    whole->build();
+    chain = ChainWalker(whole, {}).near(x, y, {});
+  }
   const Work work("explaining the pixel");
   const Explanation explanation = session.explain(x, y, sample);
   if (const RenderResult result = session.renderPicture();
       result.end != End::finished)  // not the whole pixel
     throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
   const Size size = session.size();
-  const PixelFacts facts{
-      session.scene(),    explanation, size.width, size.height, session.film().ofSamples(x, y),
-      session.settings(), byChains};
+  const PixelFacts facts{session.scene(),
+                         explanation,
+                         size.width,
+                         size.height,
+                         session.film().ofSamples(x, y),
+                         session.settings(),
+                         chain ? &*chain : nullptr};
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {

@@ -295,6 +295,18 @@ std::string explainJson(const PixelFacts& facts) {
                         {"between", way.between < 0 ? Json(nullptr) : Json(way.between)},
                         {"sentence", sentence(way, e.tree, facts.scene)}});
   }
+  if (facts.chain) {
+    json["chain"] = {{"nearest", facts.chain->nearest}, {"moves", Json::list()}};
+    for (const ChainMove& m : facts.chain->moves)
+      json["chain"]["moves"].add({{"number", m.number},
+                                  {"anywhere", m.anywhere},
+                                  {"x", m.x},
+                                  {"y", m.y},
+                                  {"light", m.light},
+                                  {"before", m.before},
+                                  {"chance", m.chance},
+                                  {"made", m.made}});
+  }
   // One ray a line.
   std::string all = json.text();
   all.pop_back();  // the closing brace

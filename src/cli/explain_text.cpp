@@ -1,5 +1,6 @@
 #include "cli/explain_text.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -254,6 +255,22 @@ std::string waysText(const RayTree& tree, const Scene& scene) {
   return lines.empty() ? "" : lines + "\n";
 }
 
+/// The moves of a chain around the one that came nearest to the pixel; "" without a chain.
+std::string chainText(const ChainWalk* chain) {
+  constexpr int kAround = 8;
+  if (!chain || chain->moves.empty()) return "";
+  const auto last = static_cast<int>(chain->moves.size()) - 1;
+  std::string lines = "A chain of the picture, which made " + std::to_string(chain->made()) +
+                      " of its first " + std::to_string(last) +
+                      " moves, and the one that came nearest to the pixel:\n";
+  for (int i = std::max(0, chain->nearest - kAround); i <= std::min(last, chain->nearest + kAround); ++i) {
+    const ChainMove& move = chain->moves[static_cast<std::size_t>(i)];
+    lines += (i == chain->nearest ? "  > " : "    ") +
+             (move.number < 0 ? "" : "move " + std::to_string(move.number) + ": ") + sentence(move) + "\n";
+  }
+  return lines + "\n";
+}
+
 /// What an 8-bit file shows of the light, if that is not the light itself.
 std::string shownText(const PixelFacts& facts) {
   const Development development = developmentOf(facts.settings);
@@ -295,7 +312,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
             std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);
   text += "\n\n";
-  text += TreeText(facts, color).all() + "\n" + waysText(e.tree, facts.scene);
+  text += TreeText(facts, color).all() + "\n" + waysText(e.tree, facts.scene) + chainText(facts.chain);
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +
             (static_cast<int>(i) == e.tree.sample ? "  (above)" : "") +
@@ -308,16 +325,16 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text +=
         "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
         "corner\n";
-  text += "their mean  " + exact(e.pixel) + (facts.byChains ? "\nby `path`   " : "\nthe picture ") +
+  text += "their mean  " + exact(e.pixel) + (facts.chain ? "\nby `path`   " : "\nthe picture ") +
           exact(facts.rendered) + "\n";
-  if (facts.byChains)
+  if (facts.chain)
     text += "            chains make the picture, in no order of pixels: it tends to the same\n";
   if (facts.settings.integrator == IntegratorKind::bdpt)
     text +=
         "Paths from lights, those of all pixels, add to that picture what they bring straight to the camera; "
         "--camera-vertices 1 shows it alone.\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
-  const bool whole = !facts.byChains && !facts.settings.denoise;  // nothing else has a part in the pixel
+  const bool whole = !facts.chain && !facts.settings.denoise;  // nothing else has a part in the pixel
   if (whole && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
   const std::string pixel = whole ? "the picture's pixel" : "the pixel as it was traced";
   text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/chain_walk.h"
 #include "render/explain.h"
 #include "scene/scene.h"
 
@@ -15,8 +16,9 @@ struct PixelFacts {
   int width = 0, height = 0;  ///< of the picture
   Color rendered;             ///< the pixel, from a render
   Settings settings{};
-  bool byChains =
-      false;  ///< chains make the picture that was asked for, and the settings are those of `path`
+  /// Chains make the picture that was asked for: the one that comes nearest to the pixel. Then the settings
+  /// are those of `path`. Else null.
+  const ChainWalk* chain = nullptr;
   /// The tree's sum, the pixel's samples and the render agree bit for bit.
   bool agrees() const;
 };

@@ -67,7 +67,11 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         return "passed through the back of " + objectName(scene, e.object) + " at distance " +
                                shortText(e.t, 6) + ", which --back-faces hides: " + outside(node);
                       },
-                      [](const Opaque&) -> std::string { return "opaque: neither mirror nor glass"; },
+                      [&](const Opaque&) -> std::string {
+                        return node.kind == RayKind::lamp && !isBlack(node.radiance)
+                                   ? "reached the lamp"
+                                   : "opaque: neither mirror nor glass";
+                      },
                       [](const DepthLimit& e) {
                         return "depth limit " + std::to_string(e.limit) + " reached: no " +
                                kindName(e.unsent);

@@ -16,7 +16,7 @@ void chooseMove(RaysView& view, int index, int count) {
   view.revealMove = true;
 }
 
-void row(RaysView& view, const ChainMove& move, int index, const ImVec4& muted) {
+void moveRow(RaysView& view, const ChainMove& move, int index, const ImVec4& muted) {
   ImGui::PushID(index);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -74,7 +74,7 @@ void drawChain(Studio& studio, const TracedPixel&) {
   clipper.Begin(count);
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-      row(view, walk.moves[static_cast<std::size_t>(i)], i, studio.palette().muted);
+      moveRow(view, walk.moves[static_cast<std::size_t>(i)], i, studio.palette().muted);
   ImGui::EndTable();
 }
 

@@ -17,7 +17,7 @@ std::string inNumbers(const Color& c) {
 }
 
 /// "73, 42: 0.3832 0.4087 0.4353; its sample 0: 0.6323 0.6212 0.5947".
-std::string title(const TracedPixel& pixel) {
+std::string pixelTitle(const TracedPixel& pixel) {
   const std::string text = std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ": ";
   const std::vector<Color>& samples = pixel.explanation.samples;
   const auto shown = static_cast<std::size_t>(pixel.sample);
@@ -34,8 +34,8 @@ void drawDifference(Studio& studio, const TracedPixel& traced) {
   if (!pinned) return ImGui::TextDisabled("Pin keeps these rays, to compare others with them");
   const std::vector<RayPair>& pairs = studio.workspace.inspector.pairs();
   const auto differ = std::count_if(pairs.begin(), pairs.end(), [](const RayPair& p) { return p.differs; });
-  cutText("pinned " + title(*pinned));
-  cutText("now " + title(traced));
+  cutText("pinned " + pixelTitle(*pinned));
+  cutText("now " + pixelTitle(traced));
   ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(pairs.size()));
   if (!ImGui::BeginTable("pairs", 3, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);

@@ -156,7 +156,9 @@ void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int h
       list.AddCircle(at, 3 * radius, IM_COL32(255, 210, 60, 255), 0, move.made ? 2.5f : 1.0f);
     }
     if (!move.made) continue;
-    if (last && !move.anywhere) list.AddLine(*last, at, IM_COL32(110, 200, 255, 130), 1);
+    const bool round = last && (std::abs(at.x - last->x) > frame.size.x / 2 ||  // by the picture's other edge
+                                std::abs(at.y - last->y) > frame.size.y / 2);
+    if (last && !move.anywhere && !round) list.AddLine(*last, at, IM_COL32(110, 200, 255, 130), 1);
     list.AddCircleFilled(at, radius, IM_COL32(110, 200, 255, 200));
     last = at;
   }

@@ -14,6 +14,10 @@ inline constexpr ImGuiTableFlags kRayTable = ImGuiTableFlags_RowBg | ImGuiTableF
                                              ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_Resizable |
                                              ImGuiTableFlags_PadOuterX;
 
+inline const RayNode& nodeAt(const RayTree& tree, int node) {
+  return tree.nodes[static_cast<std::size_t>(node)];
+}
+
 ImVec4 rayColour(const Studio& studio, const TracedPixel& pixel, int ray);
 const char* rayName(const TracedPixel& pixel, int ray);
 /// The object, light or medium that the ray came to; "" if none.
@@ -22,5 +26,8 @@ std::string metBy(const TracedPixel& pixel, int ray);
 void columnHeads(std::initializer_list<const char*> help);
 /// A text that may be cut: the cursor on it shows the whole.
 void cutText(const std::string& text);
+
+/// The tab Tree.
+void drawTree(Studio& studio, const TracedPixel& pixel);
 
 }  // namespace trace::studio

@@ -12,14 +12,14 @@
 namespace trace::studio {
 namespace {
 
-void number(const char* format, double value) {
+void wayNumber(const char* format, double value) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   ImGui::TextUnformatted(text);
 }
 
 /// One of the table's rows.
-void row(Studio& studio, const TracedPixel& pixel, int index) {
+void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
   const PathWay& way = pixel.ways[static_cast<std::size_t>(index)];
   ImGui::PushID(index);
   ImGui::TableNextRow();
@@ -40,9 +40,9 @@ void row(Studio& studio, const TracedPixel& pixel, int index) {
   ImGui::TableNextColumn();
   ImGui::Text("%.1f %%", 100 * way.share);
   ImGui::TableNextColumn();
-  number("%.4g", maxComponent(way.brings));
+  wayNumber("%.4g", maxComponent(way.brings));
   ImGui::TableNextColumn();
-  number("%.4g", maxComponent(way.alone()));
+  wayNumber("%.4g", maxComponent(way.alone()));
   ImGui::TableNextColumn();
   cutText(sentence(way, pixel.tree(), pixel.scene()));
   ImGui::PopID();
@@ -88,7 +88,7 @@ void drawWays(Studio& studio, const TracedPixel& pixel) {
       ImGui::TextColored(studio.palette().accent, "%.4g", maxComponent(sum));
       places = now;
     }
-    row(studio, pixel, i);
+    wayRow(studio, pixel, i);
   }
   ImGui::EndTable();
 }

@@ -47,6 +47,25 @@ TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {
   EXPECT_LE(longest, 100u);
 }
 
+TEST_F(Explain, TellsOfWaysAndOfAChain) {
+  const std::vector<std::string> bdpt{
+      "explain", kScenes + "uplight.ray", "--width", "40", "--spp", "4", "--pixel", "20,16"};
+  EXPECT_NE(out(bdpt).find("The paths of the sample, s places from the light's end"), std::string::npos);
+  std::vector<std::string> mlt{
+      "explain", kScenes + "cornell.ray", "--width", "24", "--spp", "4", "--integrator", "mlt", "--pixel",
+      "12,18",   "--chain-starts",        "2000"};
+  const std::string text = out(mlt);
+  EXPECT_NE(text.find("A chain of the picture, which made "), std::string::npos) << text;
+  EXPECT_NE(text.find("  > "), std::string::npos);
+  EXPECT_NE(text.find("sum to the pixel as it was traced, bit for bit"), std::string::npos);
+  mlt.insert(mlt.end(), {"--format", "json"});
+  const json chain = json::parse(out(mlt))["chain"];
+  ASSERT_GT(chain["moves"].size(), 100u);
+  EXPECT_EQ(chain["moves"][0]["number"], -1);
+  const json& nearest = chain["moves"][chain["nearest"].get<std::size_t>()];
+  EXPECT_TRUE(nearest["made"].get<bool>());
+}
+
 /// What the schema promises: each ray's radiance follows from its terms.
 std::array<double, 3> sum(const json& rays, const json& ray) {
   std::array<double, 3> all{};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
@@ -136,6 +137,13 @@ TEST(RayPatch, FilesOfSettingsAreWrittenSoThatTheyAreFound) {
                     s.choices = {{"backdrop", "none", {}}};
                   }),
             "settings { backdrop = none; } sphere { }");
+  // What lies below the scene's folder is named from there, so that both can be moved together.
+  EXPECT_EQ(after("sphere { }",
+                  [](Scene& s) {
+                    const auto below = std::filesystem::absolute("test.ray").parent_path() / "sky" / "b.png";
+                    s.choices = {{"backdrop", below.string(), {}}};
+                  }),
+            "settings { backdrop = \"sky/b.png\"; }\nsphere { }");
   // The same file by the name that the program has for it: the text stays.
   EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
                   [](Scene& s) {

@@ -43,7 +43,6 @@ pressUntil() { # KEY LANDMARK
   fail "step $now: $1 never comes to \"$2\""
 }
 click() { goTo "$@"; xdotool click 1; next; }
-skipTo() { while ((now < $1)); do next; done; }
 
 # Menus.
 press F10

@@ -26,10 +26,6 @@ step 'select material 2' # 40
 step
 start scene.ray
 press() { xdotool key "$@"; next; }
-skipTo() {
-  ((now <= $1)) || fail "more steps than were foreseen: $now"
-  while ((now < $1)); do next; done
-}
 
 # Left and right go from menu to menu, round the bar.
 press alt+f
