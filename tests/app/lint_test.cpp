@@ -226,6 +226,41 @@ TEST(Lint, ASpotLightMayShineOnNothing) {
       "cone of the spot light\n");
 }
 
+TEST(Lint, ObjectsMayNameLightsThatAreNotThere) {
+  const Folder folder;
+  const auto said = [&](const std::string& links) {
+    writeFile(folder / "a.ray",
+              "SBT-raytracer 1.0\ncamera { position = (0, 1, 6); look_at = (0, 0.5, 0); fov = 40; }\n"
+              "directional_light { name = \"key\"; direction = (0, -1, -1); color = (1, 1, 1); }\n"
+              "directional_light { direction = (0, -1, -2); color = (1, 1, 1); }\n"
+              "sphere { material = { diffuse = (0.8, 0.8, 0.8); ambient = (1, 1, 1); } " +
+                  links + " }\n");
+    return names(lintFile(folder / "a.ray"));
+  };
+  EXPECT_EQ(said("lit_by = (\"key\");"), "");
+  EXPECT_EQ(said("not_lit_by = (\"kye\");"),
+            "light-link: not_lit_by names \"kye\", and no light is called so\n");
+}
+
+TEST(Lint, ARoomWhoseFacesLookOutwardIsLitByNoLamp) {
+  const Folder folder;
+  const auto said = [&](const std::string& room) {
+    writeFile(folder / "a.ray",
+              "SBT-raytracer 1.0\ncamera { position = (0, 0, 3); look_at = (0, 0, 0); fov = 60; }\n"
+              "point_light { position = (1, 1, 1); color = (1, 1, 1); }\n"
+              "ambient_light { color = (0.1, 0.1, 0.1); }\n"
+              "material = { diffuse = (0.8, 0.8, 0.8); ambient = (1, 1, 1); }\n" +
+                  room);
+    return names(lintFile(folder / "a.ray"));
+  };
+  EXPECT_NE(said("scale(10, box { name = \"room\"; })")
+                .find("unlit: the camera is inside \"room\", whose faces "
+                      "look outward"),
+            std::string::npos);
+  EXPECT_EQ(said("difference { scale(20, sphere { }) scale(10, box { }) }").find("look outward"),
+            std::string::npos);
+}
+
 TEST(Lint, ACameraThatMaySeeSomethingSmallDoesNotLookAway) {
   const std::string eye = "camera { position = (0, 0, 6); updir = (0, 1, 0.1); viewdir = ";
   const std::string speck = "translate(0.013, 0.017, 0, scale(0.001, " + kBall + "))\n";
