@@ -304,7 +304,7 @@ TEST(Lint, ARoomWhoseFacesLookOutwardIsLitByNoLamp) {
   const Folder folder;
   const auto said = [&](const std::string& room) {
     writeFile(folder / "a.ray",
-              "SBT-raytracer 1.0\ncamera { position = (0, 0, 3); viewdir = (0, 0, -1); fov = 60; }\n"
+              "SBT-raytracer 1.0\ncamera { position = (0, 0, 3); look_at = (0, 0, 0); fov = 60; }\n"
               "point_light { position = (1, 1, 1); color = (1, 1, 1); }\n"
               "ambient_light { color = (0.1, 0.1, 0.1); }\n"
               "material = { diffuse = (0.8, 0.8, 0.8); ambient = (1, 1, 1); }\n" +
