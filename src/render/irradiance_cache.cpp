@@ -65,7 +65,7 @@ IrradianceRecord HemisphereCells::record(const Vec3& point, const Vec3& x, const
 
 IrradianceCache::IrradianceCache(const Box3& box, Real error)
     : middle_(box.center()), half_(maxComponent(box.size()) / 2), error_(std::max(error, 1e-3)), nodes_(1) {
-  constexpr Real kLeast = 1.0 / 400, kMost = 1.0 / 4;  // of the scene's size
+  constexpr Real kLeast = 1.0 / 40, kMost = 1.0 / 4;  // of the scene's size
   const Real size = length(box.size());
   least_ = kLeast * size;
   most_ = kMost * size;

@@ -20,6 +20,15 @@ std::optional<Vec3> startOnLight(const Light& light, const Vec2& u) {
   });
 }
 
+/// The axis of what a spot lights, and the cosine of its angle.
+std::optional<std::pair<Vec3, Real>> coneOfSpot(const Light& light) {
+  return match(light, [&](const auto& l) -> std::optional<std::pair<Vec3, Real>> {
+    if constexpr (requires { l.angle, l.direction, l.radius; })
+      if (!(l.radius > 0)) return std::pair{normalize(l.direction), std::cos(l.angle * kPi / 180)};
+    return {};
+  });
+}
+
 }  // namespace
 
 PhotonEmitter::PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
@@ -54,7 +63,10 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLight(const PhotonSource
   const std::optional<Vec3> point = startOnLight(world_.lights()[light], place);
   std::optional<PhotonAim> aim;
   if (point) {
+    const auto cone = onlyCaustics_ ? std::nullopt : coneOfSpot(world_.lights()[light]);
     aim = aimFrom(*point, targets_, pair(3).x, pair(2));
+    if (aim && cone && 2 * kPi * (1 - cone->second) < aim->share)  // narrower than what there is to light
+      aim = PhotonAim{{*point, toCone(pair(2), cone->first, cone->second)}, 2 * kPi * (1 - cone->second)};
   } else if (const auto arriving = world_.illuminate(light, {}, place)) {
     aim = aimAlong(-arriving->toLight, targets_, world_.bounds(), pair(3).x, pair(2));
   }

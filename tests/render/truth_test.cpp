@@ -1,5 +1,5 @@
-// What integrators agree on beyond rooms: Veach's plates, glass by every Fresnel formula, a disk that shines, and
-// conventions, which are rules of Whitted's tracer and of pictures, not of light.
+// What integrators agree on beyond rooms: Veach's plates, glass by every Fresnel formula, a disk that shines,
+// and conventions, which are rules of Whitted's tracer and of pictures, not of light.
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/cube.h"
@@ -59,7 +59,8 @@ Scene plates() {
               diffuse(Color(0), 0.4 / (radius * radius)));
     ++number;
   }
-  addObject(scene, Square{}, Affine::translation({0, 0, -2}) * Affine::scaling({6, 6, 1}), diffuse(Color(0.4)));
+  addObject(scene, Square{}, Affine::translation({0, 0, -2}) * Affine::scaling({6, 6, 1}),
+            diffuse(Color(0.4)));
   scene.camera.position = {0, 0.4, 4};
   scene.camera.fov = 40;
   return scene;
@@ -103,10 +104,11 @@ TEST(Truth, ManyLightsLookTheSameFromBothEnds) {
   Scene scene = glassRoom();
   scene.objects.resize(5);
   for (int i = 0; i < 60; ++i)
-    scene.lights.push_back({PointLight{.position = {-0.8 + 0.16 * (i % 11), -0.7 + 0.25 * (i % 7), 0.1 * (i % 5)},
-                                       .color = Color(0.02 + 0.01 * (i % 3)),
-                                       .radius = i % 2 ? 0.0 : 0.03},
-                            {}});
+    scene.lights.push_back(
+        {PointLight{.position = {-0.8 + 0.16 * (i % 11), -0.7 + 0.25 * (i % 7), 0.1 * (i % 5)},
+                    .color = Color(0.02 + 0.01 * (i % 3)),
+                    .radius = i % 2 ? 0.0 : 0.03},
+         {}});
   for (const int choices : {0, 3}) {
     Settings path = settingsOf(IntegratorKind::path, 96), bdpt = settingsOf(IntegratorKind::bdpt, 48);
     path.lightChoices = bdpt.lightChoices = choices;
@@ -116,7 +118,8 @@ TEST(Truth, ManyLightsLookTheSameFromBothEnds) {
 
 TEST(Truth, ADiskThatShinesLightsWhatIsUnderItByItsFormFactor) {
   // Of radius 1 and radiance 1 at height 1: pi / 2, of which a white floor gives back a part of pi.
-  for (const IntegratorKind integrator : {IntegratorKind::whitted, IntegratorKind::path, IntegratorKind::bdpt}) {
+  for (const IntegratorKind integrator :
+       {IntegratorKind::whitted, IntegratorKind::path, IntegratorKind::bdpt}) {
     Scene scene;
     addObject(scene, Square{}, turned({1, 0, 0}, -0.5) * Affine::scaling({0.02, 0.02, 1}), diffuse(Color(1)));
     scene.lights.push_back({RectangleLight{.position = {0, 1, 0},
