@@ -6,6 +6,7 @@
 #include "image/srgb.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
+#include "render/parallel_light.h"
 #include "shading/scattering.h"
 
 namespace trace {
@@ -115,10 +116,16 @@ Real LightStarts::powerOf(const World& world, std::size_t light) const {
   });
 }
 
-Ray LightStarts::before(const Vec3& direction, const Vec2& u) const {
+Ray LightStarts::before(Tracer& tracer, const Vec3& direction, const Vec2& u) const {
   const Vec3 x = perpendicularTo(direction), y = cross(direction, x);
   const Vec2 disk = toDisk(u);
-  return {middle_ + (x * disk.x + y * disk.y - direction * 2) * radius_, direction};
+  const Vec3 start = middle_ + (x * disk.x + y * disk.y - direction * 2) * radius_;
+  return {startOfParallel(tracer, start, direction), direction};
+}
+
+Real LightStarts::diskDensity(const Vec3& at, const Vec3& toLight) const {
+  const Vec3 off = cross(at - middle_, toLight);
+  return dot(off, off) <= radius_ * radius_ ? diskDensity() : 0;
 }
 
 void LightStarts::follow(Tracer& tracer, Start& start, const Sampler& sampler) const {
@@ -169,7 +176,7 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
         density = 1 / solidAngle(source.cosine);
       }
     } else if (const auto arriving = l.illuminate({}, world.rules(), u)) {
-      start.ray = before(-arriving->toLight, v);
+      start.ray = before(tracer, -arriving->toLight, v);
       start.parallel = true;
       density = diskDensity();
     }
@@ -235,7 +242,7 @@ std::optional<LightStarts::Start> LightStarts::fromSky(Tracer& tracer, const Sam
   if (!(sky.density > 0)) return {};
   Start start;
   start.parallel = true;
-  start.ray = before(-sky.toLight, sampler.branch(kDirection).next2());
+  start.ray = before(tracer, -sky.toLight, sampler.branch(kDirection).next2());
   start.inside = tracer.interfacesAt(start.ray.origin);
   start.density = skyShare_ * sky.density * diskDensity();
   start.sends = tracer.world().outside().view({{}, sky.toLight}, RayKind::light).color * (1 / start.density);
@@ -260,20 +267,20 @@ Real LightStarts::overAsked(const World& world, std::size_t light, const Illumin
                         ? 1 / (solidAngle(source.cosine) * away2)
                         : 0;
            } else {
-             return diskDensity();
+             return diskDensity(at, arriving.toLight);
            }
          });
 }
 
-Real LightStarts::overAsked(const Lamps::Place& place) const {
-  if (place.distance == kInfinity) return ofSky(place.toLight) / place.density;
+Real LightStarts::overAsked(const Lamps::Place& place, const Vec3& at) const {
+  if (place.distance == kInfinity) return ofSky(at, place.toLight) / place.density;
   return lampShare_ * lamps_->startDensity(place.object, place.part) / (kPi * place.density);
 }
 
 Real LightStarts::ofLamp(const Hit& hit) const { return lampShare_ * lamps_->startDensity(hit) / kPi; }
 
-Real LightStarts::ofSky(const Vec3& toLight) const {
-  return skyShare_ > 0 ? skyShare_ * lamps_->skyStartDensity(toLight) * diskDensity() : 0;
+Real LightStarts::ofSky(const Vec3& at, const Vec3& toLight) const {
+  return skyShare_ > 0 ? skyShare_ * lamps_->skyStartDensity(toLight) * diskDensity(at, toLight) : 0;
 }
 
 }  // namespace trace

@@ -51,11 +51,11 @@ class LightStarts {
   /// With which starts go to a place that has asked for light, over the density with which it asked, but for
   /// the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
   Real overAsked(const World& world, std::size_t light, const Illumination& arriving, const Vec3& at) const;
-  Real overAsked(const Lamps::Place& place) const;
-  /// With which starts go along a ray that met a lamp or the sky: per area and solid angle, but for the
-  /// cosine at a lamp.
+  Real overAsked(const Lamps::Place& place, const Vec3& at) const;
+  /// With which starts go along a ray that met a lamp or, from that place, the sky: per area and solid angle,
+  /// but for the cosine at a lamp.
   Real ofLamp(const Hit& hit) const;
-  Real ofSky(const Vec3& toLight) const;
+  Real ofSky(const Vec3& at, const Vec3& toLight) const;
 
  private:
   /// Of a light of the world, how its starts are spread.
@@ -69,8 +69,10 @@ class LightStarts {
   std::optional<Start> fromSky(Tracer& tracer, const Sampler& sampler) const;
   void follow(Tracer& tracer, Start& start, const Sampler& sampler) const;
   /// Where parallel light starts that runs in the direction.
-  Ray before(const Vec3& direction, const Vec2& u) const;
+  Ray before(Tracer& tracer, const Vec3& direction, const Vec2& u) const;
   Real diskDensity() const { return 1 / (kPi * radius_ * radius_); }
+  /// The same where such light comes to a place; 0 beside the disk, where a plane may go on.
+  Real diskDensity(const Vec3& at, const Vec3& toLight) const;
   Real powerOf(const World& world, std::size_t light) const;
 
   const Lamps* lamps_ = nullptr;

@@ -2,6 +2,7 @@
 
 #include "math/warp.h"
 #include "render/interaction.h"
+#include "render/parallel_light.h"
 #include "shading/lights/panel.h"
 
 namespace trace {
@@ -69,6 +70,7 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLight(const PhotonSource
       aim = PhotonAim{{*point, toCone(pair(2), cone->first, cone->second)}, 2 * kPi * (1 - cone->second)};
   } else if (const auto arriving = world_.illuminate(light, {}, place)) {
     aim = aimAlong(-arriving->toLight, targets_, world_.bounds(), pair(3).x, pair(2));
+    if (aim) aim->ray.origin = startOfParallel(tracer_, aim->ray.origin, aim->ray.direction);
   }
   if (!aim) return {};
   Flight flight{aim->ray, tracer_.interfacesAt(aim->ray.origin), {}, Color(1), !point};
@@ -119,8 +121,9 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromSky(const PhotonSource& 
   const Color light = world_.outside().view({{}, sky.toLight}, RayKind::bounce).color;
   const auto aim = aimAlong(-sky.toLight, targets_, world_.bounds(), pair(3).x, pair(2));
   if (!aim) return {};
+  const Vec3 start = startOfParallel(tracer_, aim->ray.origin, aim->ray.direction);
   const Color power = light * (aim->share / (sky.density * static_cast<Real>(source.count)));
-  Flight flight{aim->ray, tracer_.interfacesAt(aim->ray.origin), {}, power, true, true};
+  Flight flight{{start, aim->ray.direction}, tracer_.interfacesAt(start), {}, power, true, true};
   flight.gathered = true;
   cast(flight);
   return flight;

@@ -106,7 +106,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))  // parallel light starts no path in a medium
       met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray),
-          path.fromMedium ? 0 : starts_.ofSky(ray.direction));
+          path.fromMedium ? 0 : starts_.ofSky(ray.origin, ray.direction));
     seeMedia();
     return sum.radiance();
   }

@@ -77,7 +77,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   if (isBlack(light)) return;
   const bool starts = at.surface() || place->distance < kInfinity;
   const Real others = Partial::power(at.density(at.from(), toLight) / place->density) +
-                      path.partial.others(starts ? starts_.overAsked(*place) * at.cosine(toLight) : 0,
+                      path.partial.others(starts ? starts_.overAsked(*place, at.point()) * at.cosine(toLight) : 0,
                                           at.density(toLight, at.from()));
   const Real counts = share(1, t, others, sample);
   if (!(counts > 0)) return;
