@@ -197,6 +197,12 @@ std::optional<Lamps::Start> Lamps::start(Real which, const Vec2& u) const {
   return Start{part.object, placeOn(part, u), normal, true, std::sqrt(part.size), part.share / part.size};
 }
 
+std::optional<Hit> Lamps::placeOf(Tracer& tracer, const Start& start, const Vec3& normal, RayKind kind) {
+  const Ray down{start.point + normal * start.size, -normal};
+  const auto found = tracer.lookAt(down, kind, start.object, start.size);
+  return found ? std::optional<Hit>(std::in_place, tracer.world(), down, *found) : std::nullopt;
+}
+
 Lamps::SkyStart Lamps::startOfSky(const Vec2& u) const {
   if (sky_.empty()) return {sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y), 1 / kSphere};
   const Vec3 toLight = sky_.choose(u);

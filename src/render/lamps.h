@@ -51,6 +51,9 @@ class Lamps {
   };
   /// By three numbers from 0 up to 1. Nothing where no object shines.
   std::optional<Start> start(Real which, const Vec2& u) const;
+  /// Its place as a ray of that kind finds it on the side of `normal`, so that the rounding error of the
+  /// surface is known; whatever lies close to it. Nothing where such rays do not see that side.
+  static std::optional<Hit> placeOf(Tracer& tracer, const Start& start, const Vec3& normal, RayKind kind);
   /// With which start() gives a place of that part of a lamp, per area and side; 0 for what is no lamp.
   Real startDensity(std::uint32_t object, std::uint64_t part) const;
   /// The same of the place that was hit.

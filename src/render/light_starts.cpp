@@ -217,19 +217,15 @@ std::optional<LightStarts::Start> LightStarts::fromLamp(Tracer& tracer, Real whi
   const Vec3 local = cosineDirection(numbers.next2());
   Vec3 normal = from->normal;
   if (from->twoSided && numbers.next() < 0.5) normal = -normal;
-  // The surface is looked for from a little before it, so that its own rounding error is known.
-  const Vec3 before = from->point + normal * (1e-4 * from->size);
+  const std::optional<Hit> place = Lamps::placeOf(tracer, *from, normal, RayKind::light);
+  if (!place) return {};
   Start start;
-  start.inside = tracer.interfacesAt(before);
-  const Ray down{before, -normal};
-  const auto found = tracer.look(down, RayKind::light);
-  if (!found || found->object != from->object) return {};
-  const Hit place(tracer.world(), down, *found);
-  start.ray = place.leave(Frame{normal}.basis().toWorld(local));
-  const Real density = lampShare_ * lamps_->startDensity(place);
+  start.ray = place->leave(Frame{normal}.basis().toWorld(local));
+  start.inside = tracer.interfacesAt(start.ray.origin);
+  const Real density = lampShare_ * lamps_->startDensity(*place);
   if (!(density > 0)) return {};
-  const PlaceBsdf bsdf = tracer.world().shade(place);
-  start.sends = whitted(*bsdf).emissive * (place.opacity * kPi / density);
+  const PlaceBsdf bsdf = tracer.world().shade(*place);
+  start.sends = whitted(*bsdf).emissive * (place->opacity * kPi / density);
   start.cosine = local.z;
   start.density = density * local.z / kPi;
   start.lamp = place;

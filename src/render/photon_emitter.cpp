@@ -87,7 +87,6 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLamp(const PhotonSource&
   const Vec2 choice = pair(3);
   const auto start = lamps_->start(choice.x, pair(1));
   if (!start) return {};
-  // The surface is looked for from a little before it, so that its own rounding error is known.
   Vec3 normal = start->normal;
   const bool back = start->twoSided && chance() < 0.5;
   if (back) normal = -normal;
@@ -104,13 +103,12 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLamp(const PhotonSource&
     normal = cosine < 0 ? -start->normal : start->normal;
     share = aim->share * std::abs(cosine) / start->density;
   }
-  const Vec3 before = start->point + normal * (1e-4 * start->size);
-  Interfaces inside = tracer_.interfacesAt(before), below = inside;
-  const std::optional<Hit> place = tracer_.cast({before, -normal}, RayKind::bounce, below);
-  if (!place || place->object != start->object) return {};
+  const std::optional<Hit> place = Lamps::placeOf(tracer_, *start, normal, RayKind::bounce);
+  if (!place) return {};
   const PlaceBsdf bsdf = world_.shade(*place);
   const Color power = whitted(*bsdf).emissive * (place->opacity * share / static_cast<Real>(source.count));
-  Flight flight{place->leave(direction), std::move(inside), {}, power};
+  const Ray ray = place->leave(direction);
+  Flight flight{ray, tracer_.interfacesAt(ray.origin), {}, power};
   flight.gathered = true;
   cast(flight);
   return flight;

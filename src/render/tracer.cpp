@@ -88,6 +88,24 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
   return Culled{hidden->object, hidden->t, sharesOf(world_.materialMix(*hidden))};
 }
 
+std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t object, Real t) {
+  count(kind);
+  std::optional<Found> nearest;
+  const auto nearer = [&](const Found& found) {
+    if (!nearest) return true;
+    const Real off = std::abs(found.t - t), most = std::abs(nearest->t - t);
+    return off < most || (off == most && found.before(*nearest));
+  };
+  world_.crossingsOf(
+      object, ray, 2 * t, statistics_,
+      [&](const Found& found) {
+        if (nearer(found)) nearest = found;
+        return false;
+      },
+      facesSeenBy(kind));
+  return nearest;
+}
+
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
 /// so that what lies behind is met where it is met without the surfaces before it.
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,

@@ -43,6 +43,9 @@ class Tracer {
     return behindHoles(ray, kind, statistics_);
   }
 
+  /// Where it meets that object nearest to t, whatever lies before; counted and not recorded, likewise.
+  std::optional<Found> lookAt(const Ray& ray, RayKind kind, std::uint32_t object, Real t);
+
   /// The ray met that place, which was found otherwise: it is recorded as one that was cast.
   Hit meet(const Ray& ray, RayKind kind, const Found& found);
   /// The ray recorded last is drawn from one place to the other.
