@@ -64,11 +64,10 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
         const Real away2 = dot(way, way), sine2 = radius_ * radius_ / away2;
         source.axis = away2 > 0 ? normalize(way) : Vec3{0, 0, 1};
         if (sine2 < 1 && !(l.radius > 0)) source.cosine = std::sqrt(1 - sine2);
-        if constexpr (requires { l.angle; }) {
-          const Real cosine = std::cos(l.angle * kPi / 180);
-          if (cosine > source.cosine && !(l.radius > 0))
-            source.cosine = cosine, source.axis = normalize(l.direction);
-        }
+        // The cone in which it shines, if that is narrower.
+        const LightReach reach = l.reach(world.rules());
+        const Real cosine = std::cos(std::min(reach.around + reach.beyond, kPi));
+        if (cosine > source.cosine && cosine < 1) source.cosine = cosine, source.axis = reach.axis;
       }
     });
     sum += source.share = powerOf(world, i);
@@ -83,6 +82,16 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
     }
   }
   sum += lampShare_ + skyShare_;
+  // Some paths in any case: it may shine past all places that were looked at.
+  constexpr Real kLeast = 0.02;  // of all, for all lights together
+  const Real least = sum > 0 ? kLeast * sum / static_cast<Real>(lights_.size()) : 1;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const bool shines =
+        match(world.lights()[i], [&](const auto& l) { return l.reach(world.rules()).power > 0; });
+    if (!shines || lights_[i].share >= least) continue;
+    sum += least - lights_[i].share;
+    lights_[i].share = least;
+  }
   if (!(sum > 0)) return;
   Real upTo = 0;
   for (Source& source : lights_) sums_.push_back(upTo += source.share /= sum);
