@@ -103,8 +103,6 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
 Real LightStarts::powerOf(const World& world, std::size_t light) const {
   return match(world.lights()[light], [&](const auto& l) -> Real {
     using Kind = std::remove_cvref_t<decltype(l)>;
-    if constexpr (requires { l.extraHighlight; })
-      if (!isBlack(l.extraHighlight)) return 0;
     constexpr std::uint32_t kLooks = 64;
     const Rules& rules = world.rules();
     Real power = 0;

@@ -3,7 +3,7 @@
 // from the other end (Veach 1997, section 10.2; Pharr, Jakob and Humphreys 2023, section 12.1.2).
 //
 // Whitted's lights keep their own rules: the light that arrives at the first surface is what the light says
-// arrives there, whatever its law of distance. Lights with an extra highlight start no paths.
+// arrives there, whatever its law of distance.
 #pragma once
 
 #include <optional>

@@ -34,8 +34,12 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
     const Vec3& toLight = arriving->toLight;
     Ray ray = at.leave(toLight);
     arriving->attenuation *= Fog(tracer.settings()).left(ray, arriving->distance);
+    // No path from the light brings what it adds to highlights: that is found here alone.
+    Illumination more = *arriving;
+    more.color = arriving->extraHighlight = Color(0);
     const Color all = factor * at.scattered(*arriving) * part;
-    if (isBlack(all)) return;
+    const Color extra = isBlack(more.extraHighlight) ? Color(0) : factor * at.scattered(more) * part;
+    if (isBlack(all) && isBlack(extra)) return;
     // Parallel light starts no path in a medium.
     const bool starts = surface || arriving->distance < kInfinity;
     const Real others =
@@ -47,8 +51,10 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
     const Color passed =
         at.visible(tracer, ray, arriving->distance, sampler.branch(kToLamp).branch(asked.branch).branch(n));
     const Real shadow = surface ? surface->material.shadow : 1;
-    sum.addWay(Term::Kind::light, all * (shadow * counts), passed, ConnectionTerm{1, t, counts});
-    if (shadow < 1) sum.addWay(Term::Kind::light, all * (1 - shadow), Color(1), ConnectionTerm{1, t, 1});
+    const Color counted = all * counts + extra * share(1, t, 0, sample);
+    sum.addWay(Term::Kind::light, counted * shadow, passed, ConnectionTerm{1, t, counts});
+    if (shadow < 1)
+      sum.addWay(Term::Kind::light, (all + extra) * (1 - shadow), Color(1), ConnectionTerm{1, t, 1});
   };
   trace::askLights(tracer, from, surface ? &surface->normal : nullptr, sampler, [&](const AskedLight& asked) {
     if (surface && !world.lights(asked.light, surface->hit.object)) return;
