@@ -21,6 +21,9 @@ class LightStarts {
   /// `lamps` must outlive it.
   LightStarts(const World& world, const Lamps& lamps);
 
+  /// Some light of the scene starts paths.
+  bool anyLight() const { return !sums_.empty(); }
+
   static constexpr std::size_t kNoLight = static_cast<std::size_t>(-1);
 
   /// Of a path, and what it meets first.

@@ -35,6 +35,12 @@ bool Bidirectional::allows(const Counts& whole, Last last) const {
   return whole.scatterings < mostScattered_ || (whole.scatterings == mostScattered_ && last == Last::medium);
 }
 
+/// Whether paths from lights bring to a place that scatters what it gets by mirrors and glass: they land there,
+/// or are joined with the place before it, if that scatters, too.
+bool Bidirectional::comesFromLights(const Path& path) const {
+  return starts_.anyLight() && (lands_ || path.kind == RayKind::bounce);
+}
+
 /// The way that the sample's numbers choose: first how many places the path has, few more likely than many.
 Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
   if (!multiplexed_) return ways_;
@@ -69,9 +75,9 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   Gather sum(tracer, path.counts.all());
   const World& world = tracer.world();
   const int t = path.t();
-  const auto lamp = path.kind == RayKind::bounce  // then the light was asked
-                        ? std::nullopt
-                        : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  // A light that was asked, or comes by paths from it, is not seen besides.
+  const bool brought = path.kind == RayKind::bounce || path.fromLights;
+  const auto lamp = brought ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
   const bool onlyShines = path.counts.surfaces > depth_ || mostOften;  // is it sent for
@@ -156,6 +162,7 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
     const Vec3 from = -ray.direction, to = next->direction;
     const bool bounces = next->kind == RayKind::bounce;
     Path onto{next->kind, path.counts + Counts{1, 0}, path.weight * weight * (1 / goes), path.partial};
+    onto.fromLights = path.fromLights || (bounces && comesFromLights(path));
     Footprint widened;
     if (next->kind == RayKind::reflection)
       widened = mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal);
@@ -210,6 +217,7 @@ Color Bidirectional::scattered(Gather& sum, const Ray& ray, const MediumWay& way
   const Color factor = where.weight / goes;
   Path onto{RayKind::bounce, counts, path.weight * factor, path.partial};
   onto.fromMedium = true;
+  onto.fromLights = path.fromLights || comesFromLights(path);
   onto.partial.leave(density, density, 1);
   const Ray onward{place.point(), direction};
   Interfaces there = inside;

@@ -61,6 +61,7 @@ class Bidirectional : public Integrator {
   Ways waysOf(const Sampler& sampler) const;
   Real share(int s, int t, Real others, const Sample& sample) const;
   bool allows(const Counts& whole, Last last) const;
+  bool comesFromLights(const Path& path) const;
 
   // The path from the camera: integrators/bdpt.cpp.
   Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,

@@ -56,6 +56,7 @@ struct Bidirectional::Path {
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
   bool fromMedium = false;                       ///< it was scattered in a medium last
+  bool fromLights = false;                       ///< paths from lights bring what mirrors and glass show it
 
   int t() const { return counts.all() + 2; }  ///< of the place where it arrives
 };
