@@ -266,7 +266,7 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
     };
     const PlaceBsdf bsdf = world_.bsdfAt(ray, found);
     const WhittedTerms& terms = whitted(*bsdf);
-    if (!terms.transmits() || gathers(terms) || settings_.glassShadows == GlassShadows::black) {
+    if (!lightPasses(terms)) {
       if (!(opacity < 1)) return Color(0);
       pass(Color(0));
       continue;

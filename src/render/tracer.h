@@ -78,6 +78,10 @@ class Tracer {
 
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
+  /// Shadow rays pass what looks so: what it lets through is asked for.
+  bool lightPasses(const WhittedTerms& terms) const {
+    return terms.transmits() && !gathers(terms) && settings_.glassShadows != GlassShadows::black;
+  }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
     return world_.filling(hit, terms, settings_);

@@ -68,9 +68,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
                         const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
-  const auto lamp = path.kind == RayKind::bounce || path.within  // then the light was asked
-                        ? std::nullopt
-                        : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  // Photons have brought what shines there.
+  const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
+  const auto lamp = path.asked || path.within || brought ? std::nullopt
+                                                         : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
   std::optional<MediumWay> media;
@@ -89,8 +90,6 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     seeMedia();
     return sum.radiance(inside.passed(end));
   }
-  // Photons have brought what shines there.
-  const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !brought) {
       const ChanceTerm chance = shines(path, path.density > 0 || path.forCache ? lamps_.density(ray) : 0);
@@ -182,8 +181,10 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     if (!stands) return;
     const Color factor = weight * *stands;
     const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
-    const Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
-                    gathers, path.maps,      path.scattered};
+    Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
+              gathers, path.maps,      path.scattered};
+    next.asked = kind == RayKind::bounce ||
+                 (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.material));
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
@@ -253,8 +254,9 @@ Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, c
   }
   const auto [direction, density] = samplePhase(ray.direction, place.forward, lobe.next2());
   const Color factor = place.weight / goes;
-  const Path next{RayKind::bounce, path.depth, path.weight * factor, density, nullptr, 0,
-                  path.gathers,    path.maps,  path.scattered + 1};
+  Path next{RayKind::bounce, path.depth, path.weight * factor, density, nullptr, 0,
+            path.gathers,    path.maps,  path.scattered + 1};
+  next.asked = true;
   const Ray onward{at.point, direction};
   Interfaces there = inside;
   const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));

@@ -17,6 +17,8 @@ struct PathTracer::Path {
   int scattered = 0;                             ///< so often by media
   bool within = false;                           ///< it runs in a body, from where light comes out
   bool forCache = false;                         ///< what shines and is asked for does not count
+  /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
+  bool asked = false;
 };
 
 }  // namespace trace
