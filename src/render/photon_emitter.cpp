@@ -33,7 +33,7 @@ std::optional<std::pair<Vec3, Real>> coneOfSpot(const Light& light) {
 }  // namespace
 
 PhotonEmitter::PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
-                             std::vector<PhotonTarget> targets, bool onlyCaustics, int pass)
+                             std::vector<PhotonTarget> targets, bool onlyCaustics, int texels, int pass)
     : seedOfPass_(mixBits(static_cast<std::uint64_t>(pass)) - mixBits(0)),
       world_(world),
       settings_(settings),
@@ -42,7 +42,7 @@ PhotonEmitter::PhotonEmitter(const World& world, const Settings& settings, const
       onlyCaustics_(onlyCaustics),
       fog_(settings),
       tracer_(world, settings),
-      texels_(onlyCaustics ? settings.causticTexels : 0),
+      texels_(texels),
       rules_(settings, {1, 1}) {}
 
 void PhotonEmitter::send(const PhotonSource& source, std::uint32_t n, LandedPhotons& landed) {

@@ -50,7 +50,7 @@ std::vector<PhotonSource> sourcesOf(const World& world, const Lamps* lamps,
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
 LandedPhotons landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                            const std::vector<PhotonTarget>& targets, bool onlyCaustics, int photons,
+                     const std::vector<PhotonTarget>& targets, bool onlyCaustics, int texels, int photons,
                             Job& job, int pass) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
@@ -67,7 +67,7 @@ LandedPhotons landedPhotons(const World& world, const Settings& settings, const 
   std::atomic<std::int64_t> sent{0};
   parallelChunks(std::ssize(chunks), settings.threads, job, [&](std::int64_t i, int) {
     Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-    PhotonEmitter emitter(world, settings, lamps, targets, onlyCaustics, pass);
+    PhotonEmitter emitter(world, settings, lamps, targets, onlyCaustics, texels, pass);
     for (std::int64_t n = chunk.first; n < chunk.end; ++n)
       emitter.send(chunk.source, static_cast<std::uint32_t>(n), chunk.landed);
     work.reached(++sent);
@@ -93,7 +93,7 @@ std::size_t nearestOfPass(int pass) {
   return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
 }
 
-GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
+GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side, Job& job,
                           int pass) {
   const std::vector<PhotonTarget> targets = photonTargetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
@@ -102,8 +102,8 @@ GatheredCaustics gathered(const World& world, const Settings& settings, const La
   const Real widest =
       settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
   const Real reach = widest * std::sqrt(areaOfPass(pass));
-  LandedPhotons landed = landedPhotons(world, settings, lamps, targets, true, photons, job, pass);
-  IlluminationMap texels(settings.causticTexels);
+  LandedPhotons landed = landedPhotons(world, settings, lamps, targets, true, side, photons, job, pass);
+  IlluminationMap texels(side);
   for (const auto& [place, power] : landed.onMaps) texels.add(place, power);
   return {{std::move(landed.photons), reach, lamps ? kFlatness : 1, nearestOfPass(pass)}, std::move(texels)};
 }
@@ -119,11 +119,11 @@ Real areaOfPass(int pass) {
 
 GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps,
                                   Job& job) {
-  return gathered(world, settings, lamps, job, 0);
+  return gathered(world, settings, lamps, settings.causticTexels, job, 0);
 }
 
 PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job, int pass) {
-  return gathered(world, settings, lamps, job, pass).photons;
+  return gathered(world, settings, lamps, 0, job, pass).photons;
 }
 
 GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps& lamps, Job& job, int pass) {
@@ -133,7 +133,7 @@ GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps&
   constexpr Real kReach = 0.1;  // of the scene's size
   const Real reach = kReach * length(box.size()), area = areaOfPass(pass);
   LandedPhotons landed =
-      landedPhotons(world, settings, &lamps, everything, false, settings.photons, job, pass);
+      landedPhotons(world, settings, &lamps, everything, false, 0, settings.photons, job, pass);
   return {{std::move(landed.photons), reach * std::sqrt(area), kFlatness, nearestOfPass(pass)},
           {std::move(landed.inMedia), reach * std::cbrt(area), 1, nearestOfPass(pass)}};
 }
