@@ -1,0 +1,240 @@
+// Every integrator that follows light finds each light once: on planes without an end, behind glass and in
+// mirrors, from narrow lamps, and what photons gather on maps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/shapes/plane.h"
+#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/square.h"
+#include "support/scenes.h"
+
+namespace trace::test::light_truth_test {
+namespace {
+
+const Affine kUp = Affine::rotation({1, 0, 0}, -0.5 * kPi), kDown = Affine::rotation({1, 0, 0}, 0.5 * kPi);
+
+Phong matt(Real albedo) {
+  Phong phong;
+  phong.diffuse = Color(albedo);
+  return phong;
+}
+/// A sheet that bends nothing.
+Phong pane() {
+  Phong phong;
+  phong.transmissive = Color(1), phong.index = 1;
+  return phong;
+}
+Phong mirror() {
+  Phong phong;
+  phong.reflective = Color(1);
+  return phong;
+}
+
+/// A matt floor, seen from aslant above.
+Scene floorScene() {
+  Scene scene;
+  addObject(scene, Square{}, kUp * Affine::scaling({8, 8, 1}), matt(0.8));
+  scene.camera.position = {0, 0.5, 3};
+  scene.camera.viewdir = {0, -0.4, -3};
+  scene.camera.fov = 30;
+  return scene;
+}
+/// A panel over it that shines downward.
+void addPanel(Scene& scene, Real height, bool visible) {
+  RectangleLight panel;
+  panel.position = {0, height, 0};
+  panel.u = {1, 0, 0}, panel.v = {0, 0, 1};
+  panel.color = Color(1.2);
+  panel.visible = visible;
+  scene.lights.push_back({panel, {}});
+}
+
+Settings settingsOf(IntegratorKind kind, int spp) {
+  Settings settings;
+  settings.integrator = kind;
+  settings.sampling = SampleKind::sobol;
+  settings.width = settings.height = 12;
+  settings.depth = 4, settings.spp = spp;
+  settings.airIndex = 1;
+  settings.chainStarts = 50000;
+  settings.photons = 200000;
+  return settings;
+}
+
+Real mean(const Picture& picture) {
+  Real sum = 0;
+  for (const Color& c : picture.pixels) sum += c.g;
+  return sum / static_cast<Real>(picture.pixels.size());
+}
+Real meanOf(const Scene& scene, IntegratorKind kind, int spp = 64) {
+  return mean(picture(scene, settingsOf(kind, spp)));
+}
+Real byChains(const Scene& scene, Chains chains, int spp = 256) {
+  Settings settings = settingsOf(IntegratorKind::mlt, spp);
+  settings.chains = chains;
+  return mean(picture(scene, settings));
+}
+
+/// A plane without an end, and a small ball far behind the camera: all that is seen lies beside the ball.
+Scene planeScene() {
+  Scene scene;
+  addObject(scene, Plane{}, kUp, matt(0.8));
+  addObject(scene, Sphere{}, Affine::translation({0, 0.5, 40}) * Affine::scaling({0.5, 0.5, 0.5}), matt(0.5));
+  scene.camera.position = {0, 3, 12};
+  scene.camera.viewdir = {0, -3, -4};
+  scene.camera.fov = 20;
+  return scene;
+}
+
+TEST(LightTruth, ASunLightsAPlaneBesideAllElse) {
+  Scene scene = planeScene();
+  const Vec3 way = normalize(Vec3{0.2, -1, -0.1});
+  scene.lights.push_back({DirectionalLight{.direction = way, .color = Color(0.5)}, {}});
+  for (const IntegratorKind kind : {IntegratorKind::path, IntegratorKind::bdpt})
+    EXPECT_NEAR(meanOf(scene, kind, 4), 0.8 * 0.5 * -way.y, 1e-3);
+}
+
+TEST(LightTruth, TheSkyLightsAPlaneBesideAllElse) {
+  Scene scene = planeScene();
+  scene.background.gradient = {{Color(0.5), Color(0.5)}};
+  for (const IntegratorKind kind : {IntegratorKind::path, IntegratorKind::bdpt})
+    EXPECT_NEAR(meanOf(scene, kind), 0.4, 2e-3);
+}
+
+TEST(LightTruth, APlaneFarAboveStopsTheSun) {
+  Scene scene = floorScene();
+  addObject(scene, Plane{}, Affine::translation({0, 60, 0}) * kDown, matt(0.8));
+  scene.lights.push_back({DirectionalLight{.direction = {0.2, -1, -0.1}, .color = Color(0.5)}, {}});
+  for (const IntegratorKind kind : {IntegratorKind::path, IntegratorKind::bdpt, IntegratorKind::photon})
+    EXPECT_EQ(meanOf(scene, kind, 4), 0);
+}
+
+TEST(LightTruth, APlaneOfGlassFarAboveLetsTheSunThrough) {
+  Scene scene = floorScene();
+  addObject(scene, Plane{}, Affine::translation({0, 60, 0}) * kDown, pane());
+  const Vec3 way = normalize(Vec3{0.2, -1, -0.1});
+  scene.lights.push_back({DirectionalLight{.direction = way, .color = Color(0.5)}, {}});
+  EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 1024) / (0.8 * 0.5 * -way.y), 1, 0.03);
+}
+
+TEST(LightTruth, AVisiblePanelBehindAPaneCountsOnce) {
+  const auto scene = [](bool visible) {
+    Scene s = floorScene();
+    addPanel(s, 1.5, visible);
+    addObject(s, Square{}, Affine::translation({0, 1, 0}) * kUp * Affine::scaling({3, 3, 1}), pane());
+    return s;
+  };
+  const Scene hidden = scene(false), seen = scene(true);
+  const Real expected = meanOf(hidden, IntegratorKind::path, 256);
+  ASSERT_GT(expected, 0.01);
+  EXPECT_NEAR(meanOf(seen, IntegratorKind::path, 256) / expected, 1, 1e-9);
+  EXPECT_NEAR(meanOf(seen, IntegratorKind::photon, 256) / expected, 1, 0.03);
+  EXPECT_NEAR(byChains(seen, Chains::path) / expected, 1, 0.03);
+  EXPECT_NEAR(meanOf(seen, IntegratorKind::bdpt, 512) / expected, 1, 0.03);
+}
+
+TEST(LightTruth, WithBlackShadowsOfGlassAVisiblePanelIsSeenThroughIt) {
+  Scene scene = floorScene();
+  addPanel(scene, 1.5, true);
+  const Real open = meanOf(scene, IntegratorKind::path, 256);
+  addObject(scene, Square{}, Affine::translation({0, 1, 0}) * kUp * Affine::scaling({3, 3, 1}), pane());
+  Settings settings = settingsOf(IntegratorKind::path, 2048);
+  settings.glassShadows = GlassShadows::black;
+  EXPECT_NEAR(mean(picture(scene, settings)) / open, 1, 0.03);
+}
+
+TEST(LightTruth, AVisiblePanelInAMirrorCountsOnce) {
+  Scene scene = floorScene();
+  RectangleLight panel;
+  panel.position = {0, 1, 0};
+  panel.u = {1, 0, 0}, panel.v = {0, 0, -1};  // upward
+  panel.color = Color(1.2);
+  panel.visible = true;
+  scene.lights.push_back({panel, {}});
+  addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({3, 3, 1}), mirror());
+  const Real expected = meanOf(scene, IntegratorKind::path, 4096);
+  ASSERT_GT(expected, 0.01);
+  EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 512) / expected, 1, 0.03);
+  EXPECT_NEAR(byChains(scene, Chains::bdpt, 1024) / expected, 1, 0.05);
+  // Where no path from a light lands, the panel is met.
+  Settings bent = settingsOf(IntegratorKind::bdpt, 4096);
+  bent.distortion = 1e-9;
+  EXPECT_NEAR(mean(picture(scene, bent)) / expected, 1, 0.03);
+}
+
+TEST(LightTruth, NarrowLampsShineThroughGlass) {
+  const auto behindPane = [](const Light& light) {
+    Scene scene;
+    addObject(scene, Square{}, kUp * Affine::scaling({20, 20, 1}), matt(0.8));
+    addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kUp * Affine::scaling({3, 3, 1}), pane());
+    scene.lights.push_back({light, {}});
+    scene.camera.position = {0, 1.2, 3};
+    scene.camera.viewdir = {0, -1.1, -3};
+    scene.camera.fov = 30;
+    return scene;
+  };
+  ProjectorLight projector;
+  projector.position = {0, 3, 0}, projector.direction = {0, -1, 0}, projector.up = {0, 0, -1};
+  projector.fov = 8;
+  projector.color = Color(4);
+  WarnLight warn;
+  warn.position = {0, 3, 0}, warn.direction = {0, -1, 0};
+  warn.exponent = 2000;
+  warn.color = Color(4);
+  PointLight point;  // with a highlight of its own, that a matt floor does not show
+  point.position = {0, 3, 0};
+  point.color = Color(1), point.extraHighlight = Color(0.1);
+  for (const Light& light : {Light(projector), Light(warn), Light(point)}) {
+    const Scene scene = behindPane(light);
+    const Real expected = meanOf(scene, IntegratorKind::path, 256);
+    ASSERT_GT(expected, 1e-4) << light.index();
+    EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 1024) / expected, 1, 0.03) << light.index();
+  }
+}
+
+TEST(LightTruth, AnExtraHighlightIsAddedOnce) {
+  Scene scene;
+  Phong shiny;
+  shiny.diffuse = Color(0.4), shiny.specular = Color(0.4), shiny.shininess = 20;
+  addObject(scene, Square{}, kUp * Affine::scaling({8, 8, 1}), shiny);
+  PointLight point;
+  point.position = {0, 0.7, -2};
+  point.color = Color(0.5), point.extraHighlight = Color(0.5);
+  scene.lights.push_back({point, {}});
+  scene.camera.position = {0, 0.5, 3};
+  scene.camera.viewdir = {0, -0.4, -3};
+  scene.camera.fov = 30;
+  const Real expected = meanOf(scene, IntegratorKind::path);
+  EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 256) / expected, 1, 0.02);
+}
+
+TEST(LightTruth, WhatLiesCloseToALampTakesNoLight) {
+  Scene scene;
+  addObject(scene, Square{}, kUp * Affine::scaling({8, 8, 1}), matt(0.8));
+  Phong lamp;
+  lamp.emissive = Color(1);
+  addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({12, 12, 1}), lamp);
+  // A pane nearer to the lamp than 1e-4 of its size.
+  addObject(scene, Square{}, Affine::translation({0, 1.9995, 0}) * kUp * Affine::scaling({13, 13, 1}), pane());
+  scene.camera.position = {0, 0.5, 3};
+  scene.camera.viewdir = {0, -0.4, -3};
+  scene.camera.fov = 30;
+  const Real expected = meanOf(scene, IntegratorKind::path, 512);
+  EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 512) / expected, 1, 0.02);
+}
+
+TEST(LightTruth, CausticTexelsTakeNothingFromPhotons) {
+  Scene scene = floorScene();
+  addPanel(scene, 2, false);
+  Phong glass;
+  glass.transmissive = glass.reflective = Color(1), glass.index = 1.5;
+  addObject(scene, Sphere{}, Affine::translation({0, 0.6, 0}) * Affine::scaling({0.5, 0.5, 0.5}), glass);
+  Settings settings = settingsOf(IntegratorKind::photon, 16);
+  const Picture without = picture(scene, settings);
+  settings.causticTexels = 100;
+  EXPECT_EQ(picture(scene, settings).pixels, without.pixels);
+}
+
+}  // namespace
+}  // namespace trace::test::light_truth_test
