@@ -35,6 +35,7 @@ class Sampling {
     thrown_.clear();
     Stop stop;
     stop.splats.push_back(tracer_.sample(numbers, area_));
+    if (!isFinite(stop.splats.front().value)) ++tracer_.tracer().statistics().badSamples;
     for (const Splat& splat : thrown_)
       if (splat.x >= area_.x0 && splat.x < area_.x1 && splat.y >= area_.y0 && splat.y < area_.y1)
         stop.splats.push_back({splat.x, splat.y, splat.value * (1 / pixels_)});

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -120,6 +122,9 @@ class PixelTracer {
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
     thrown_.clear();
     const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    for (const Thrown& t : thrown_)  // it is a part of the sample, which is as bad as that
+      if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y))
+        return Color(std::numeric_limits<Real>::quiet_NaN());
     for (const Thrown& t : thrown_)
       rules_.spread(t.place, [&](int x, int y, Real share) { splats_->push_back({x, y, t.color * share}); });
     return radiance;

@@ -54,7 +54,7 @@ class TileRenderer {
   Statistics statistics() const {
     Statistics sum = tracer_.statistics();
     if (chainTracer_) sum += chainTracer_->statistics();
-    sum.badSamples = badCount_;
+    sum.badSamples += badCount_;  // of chains they are counted already
     return sum;
   }
   std::vector<BadSample>& badSamples() { return bad_; }

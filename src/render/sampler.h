@@ -65,14 +65,15 @@ class SampleRules {
   template <class Use>
   void spread(const Vec2& place, const Use& use) const {
     const Real x = place.x * size_.width, y = place.y * size_.height, reach = filter_.radius();
-    const auto first = [&](Real at) { return static_cast<int>(std::ceil(std::max(at - reach, -1.0) - 0.5)); };
+    const auto near = [&](Real at, int pixels) { return at > -reach - 1 && at < pixels + reach + 1; };
+    if (!near(x, size_.width) || !near(y, size_.height)) return;  // a place may lie beyond all whole numbers
+    const auto first = [&](Real at) { return std::max(0, static_cast<int>(std::ceil(at - reach - 0.5))); };
     const auto last = [&](Real at, int pixels) {
-      return static_cast<int>(std::floor(std::min(at + reach, pixels + 1.0) - 0.5));
+      return std::min(pixels - 1, static_cast<int>(std::floor(at + reach - 0.5)));
     };
     const Real all = Real{1} * size_.width * size_.height;
-    for (int row = std::max(0, first(y)); row <= std::min(size_.height - 1, last(y, size_.height)); ++row)
-      for (int column = std::max(0, first(x)); column <= std::min(size_.width - 1, last(x, size_.width));
-           ++column)
+    for (int row = first(y); row <= last(y, size_.height); ++row)
+      for (int column = first(x); column <= last(x, size_.width); ++column)
         use(column, size_.height - 1 - row,
             all * filter_.share(x - column - 0.5) * filter_.share(y - row - 0.5));
   }

@@ -2,6 +2,7 @@
 // mirrors, from narrow lamps, and what photons gather on maps.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "geometry/shapes/plane.h"
@@ -234,6 +235,46 @@ TEST(LightTruth, CausticTexelsTakeNothingFromPhotons) {
   const Picture without = picture(scene, settings);
   settings.causticTexels = 100;
   EXPECT_EQ(picture(scene, settings).pixels, without.pixels);
+}
+
+/// Each sample of the left half of the picture throws what is no number.
+struct BadThrower : Integrator {
+  void prepare(const World&, const Settings&, Job&) override {}
+  Color radiance(Tracer&, Sampler, const CameraRay& camera) const override {
+    const bool left = camera.ray.direction.x < 0;
+    camera.thrown->push_back({{0.5, 0.5}, Color(left ? std::nan("") : 1.0)});
+    return Color(1);
+  }
+};
+
+TEST(LightTruth, ASampleThatThrowsNoNumberIsDroppedCountedAndFound) {
+  Scene scene;
+  addObject(scene, Sphere{}, Affine::translation({0, 0, -5}), matt(0.5));
+  const Settings settings = settingsOf(IntegratorKind::bdpt, 4);
+  const World world = build(scene, settings);
+  const BadThrower integrator;
+  Film film = makeFilm(settings, 12, 12);
+  Job job;
+  const RenderResult result = render(std::array{Moment{&world, &integrator}}, settings, film, job);
+  EXPECT_EQ(result.statistics.badSamples, 4u * 12 * 6);
+  ASSERT_FALSE(result.badSamples.empty());
+  EXPECT_EQ(result.badSamples[0], (BadSample{0, 0, 0}));
+  EXPECT_TRUE(isFinite(film.picture().at(5, 6)));
+}
+
+TEST(LightTruth, LightThrownFarBesideThePictureFallsNowhere) {
+  const SampleRules rules({}, {10, 5});
+  const auto pixels = [&](const Vec2& place) {
+    int count = 0;
+    rules.spread(place, [&](int, int, Real) { ++count; });
+    return count;
+  };
+  EXPECT_GT(pixels({0.5, 0.5}), 0);
+  EXPECT_GT(pixels({0, 1}), 0);
+  for (const Real far : {-1e300, -1e16, -1.0, 2.0, 1e16, 1e300, std::nan("")}) {
+    EXPECT_EQ(pixels({far, 0.5}), 0) << far;
+    EXPECT_EQ(pixels({0.5, far}), 0) << far;
+  }
 }
 
 }  // namespace
