@@ -23,9 +23,13 @@ std::pair<Real, Real> stretchIn(const Box3& box, const Ray& ray) {
   Real near = -kInfinity, far = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
     const Real slope = 1 / ray.direction[axis];
+    if (!std::isfinite(slope)) {  // it runs along the faces, or on one
+      if (ray.origin[axis] < box.low[axis] || ray.origin[axis] > box.high[axis]) return {kInfinity, -kInfinity};
+      continue;
+    }
     const Real a = (box.low[axis] - ray.origin[axis]) * slope,
                b = (box.high[axis] - ray.origin[axis]) * slope;
-    near = std::max(near, std::min(a, b));  // NaN, along a face, changes nothing
+    near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
   return {near, far};

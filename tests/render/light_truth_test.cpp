@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/shapes/cube.h"
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
+#include "render/media.h"
 #include "support/scenes.h"
 
 namespace trace::test::light_truth_test {
@@ -235,6 +237,53 @@ TEST(LightTruth, CausticTexelsTakeNothingFromPhotons) {
   const Picture without = picture(scene, settings);
   settings.causticTexels = 100;
   EXPECT_EQ(picture(scene, settings).pixels, without.pixels);
+}
+
+/// A body of a medium without a surface, a cube of that size.
+void addCloud(Scene& scene, const Vec3& place, Real size, Real density) {
+  Material cloud;
+  cloud.opacity = 0;
+  cloud.mediumDensity = density;
+  scene.materials.push_back(cloud);
+  const auto material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+  scene.objects.push_back(
+      {"", Cube{}, Affine::translation(place) * Affine::scaling({size, size, size}), material, {}});
+}
+
+TEST(LightTruth, ARayAlongAFaceOfACloudIsDimmedAlikeOnAllOfThem) {
+  Scene scene;
+  addCloud(scene, {}, 1, 2);
+  const Settings settings;
+  const World world = build(scene, settings);
+  Tracer tracer(world, settings);
+  const SampleRules rules(settings, {1, 1});
+  const auto passes = [&](const Vec3& origin) {
+    return passedByBodies(tracer, {origin, {0, 0, -1}}, 10, Sampler(rules, 0, 0, 0)).g;
+  };
+  EXPECT_NEAR(passes({0, 0, 5}), std::exp(-2), 1e-12);
+  EXPECT_EQ(passes({0.5, 0, 5}), passes({-0.5, 0, 5}));
+  EXPECT_EQ(passes({0, 0.5, 5}), passes({0, -0.5, 5}));
+  EXPECT_EQ(passes({0.6, 0, 5}), 1);
+}
+
+TEST(LightTruth, WhittedsLampsLightFogWhateverElseIsThere) {
+  Scene scene;
+  addObject(scene, Square{}, kUp * Affine::scaling({4, 4, 1}), matt(0.2));
+  Phong lamp;
+  lamp.emissive = Color(4);
+  addObject(scene, Square{}, Affine::translation({0, 1.5, 0}) * kDown, lamp);
+  scene.camera.position = {0, 0.7, 4};
+  scene.camera.viewdir = {0, 0, -1};
+  scene.camera.fov = 40;
+  Settings settings = settingsOf(IntegratorKind::whitted, 64);
+  settings.lampSamples = 4;
+  settings.fog = 0.2;
+  const Real alone = mean(picture(scene, settings));
+  settings.lampSamples = 0;
+  EXPECT_LT(mean(picture(scene, settings)), 0.95 * alone);
+  settings.lampSamples = 4;
+  addCloud(scene, {0, 0, 40}, 0.1, 1);  // behind the camera
+  EXPECT_NEAR(mean(picture(scene, settings)) / alone, 1, 0.02);
 }
 
 /// Each sample of the left half of the picture throws what is no number.

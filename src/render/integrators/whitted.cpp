@@ -207,11 +207,11 @@ void Whitted::addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& 
 void Whitted::seeMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
                        const Sampler& sampler) const {
   const World& world = tracer.world();
+  const Lamps* lamps = lamps_.empty() ? nullptr : &lamps_;
   if (!world.media().empty())
-    addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps_.empty() ? nullptr : &lamps_,
-             sampler.branch(kFog));
+    addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
   else if (tracer.settings().fog > 0)
-    addFog(sum, tracer, ray, t, inside, world.ambient(), nullptr, sampler.branch(kFog));
+    addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
 }
 
 /// Adds what mirrors and glass have gathered there, as the surface scatters it evenly.
