@@ -91,18 +91,13 @@ RayEnd Tracer::hiddenFrom(const Ray& ray, RayKind kind) const {
 std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t object, Real t) {
   count(kind);
   std::optional<Found> nearest;
-  const auto nearer = [&](const Found& found) {
-    if (!nearest) return true;
-    const Real off = std::abs(found.t - t), most = std::abs(nearest->t - t);
-    return off < most || (off == most && found.before(*nearest));
-  };
-  world_.crossingsOf(
-      object, ray, 2 * t, statistics_,
-      [&](const Found& found) {
-        if (nearer(found)) nearest = found;
-        return false;
-      },
-      facesSeenBy(kind));
+  const auto off = [&](const Found& found) { return std::abs(found.t - t); };
+  world_.crossings(ray, 2 * t, facesSeenBy(kind), statistics_, [&](const Found& found) {
+    if (found.object == object && (!nearest || off(found) < off(*nearest) ||
+                                   (off(found) == off(*nearest) && found.before(*nearest))))
+      nearest = found;
+    return false;
+  });
   return nearest;
 }
 

@@ -100,7 +100,7 @@ class World {
 
   /// Calls visit(Found) for every crossing of that object at 0 < t < tMost, in no particular order.
   void crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
-                   VisitFound visit, Faces faces = Faces::both) const;
+                   VisitFound visit) const;
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;

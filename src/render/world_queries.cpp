@@ -184,9 +184,9 @@ bool World::crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>
 }
 
 void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
-                        VisitFound visit, Faces faces) const {
+                        VisitFound visit) const {
   checkBudget();
-  crossObject(object, Across<NodeCount>{ray, tMost, faces, false, statistics, visit});
+  crossObject(object, Across<NodeCount>{ray, tMost, Faces::both, false, statistics, visit});
 }
 
 template bool World::crossAll(const Across<NodeCount>&) const;
