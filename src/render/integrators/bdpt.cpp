@@ -69,10 +69,32 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler, sample);
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
-Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
+/// media it may go on ten thousand times: no call for each.
+Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                            const Interfaces& inside, const Sampler& sampler, const Sample& sample) const {
-  Gather sum(tracer, path.counts.all());
+  std::unique_ptr<Scattering> after;
+  Color light = arrives(tracer, ray, hit, path, inside, sampler, sample, after);
+  if (!after) return light;
+  std::vector<std::unique_ptr<Scattering>> places;
+  while (after) {
+    const Scattering& from = *places.emplace_back(std::move(after));
+    light = arrives(tracer, from.ray, from.hit, from.path, from.inside, from.sampler, sample, after);
+  }
+  for (; !places.empty(); places.pop_back()) {
+    Scattering& at = *places.back();
+    at.sum.add(at.factor * allowedPart(tracer, at.path.weight * light), light, at.how,
+               ChanceTerm{at.density, 0, 1});
+    at.sum.draw(at.ink);
+    light = at.sum.radiance(at.passed);
+  }
+  return light;
+}
+
+/// The same up to where a medium scatters it to `after`.
+Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+                             const Interfaces& inside, const Sampler& sampler, const Sample& sample,
+                             std::unique_ptr<Scattering>& after) const {
   const World& world = tracer.world();
   const int t = path.t();
   // A light that was asked, or comes by paths from it, is not seen besides.
@@ -86,9 +108,10 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
     Sampler numbers = sampler.branch(kMedium);
     media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (const auto where = placeByChance(*media, path.weight, numbers.next()))
-      return scattered(sum, ray, *media, *where, path, inside, sampler, sample);
+      return scattered(tracer, ray, *media, *where, path, inside, sampler, sample, after);
     path.weight *= media->passes;
   }
+  Gather sum(tracer, path.counts.all());
   const auto shines = [&] { return share(0, t, 0, sample); };  // what no other way finds
   const auto seeMedia = [&] {
     if (media) media->glows *= Color(shines());
@@ -187,14 +210,23 @@ Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<H
   return throughMedium();
 }
 
-/// The radiance along the ray where a medium on its way scatters light to it.
-Color Bidirectional::scattered(Gather& sum, const Ray& ray, const MediumWay& way,
+/// The radiance along the ray where a medium on its way scatters light to it; unknown where it goes on.
+Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way,
                                const MediumWay::Place& where, Path path, const Interfaces& inside,
-                               const Sampler& sampler, const Sample& sample) const {
-  Tracer& tracer = sum.tracer();
+                               const Sampler& sampler, const Sample& sample,
+                               std::unique_ptr<Scattering>& after) const {
+  after.reset(new Scattering{.sum = {tracer, path.counts.all()},
+                              .how = {MediumTerm::What::follows, where.object, where.t, where.forward},
+                              .passed = inside.passed(where.t),
+                              .ink = path.ink,
+                              .inside = inside,
+                              .sampler = sampler.branch(kNext)});
+  Gather& sum = after->sum;
   const auto radiance = [&] {
     sum.draw(path.ink);
-    return sum.radiance(inside.passed(where.t));
+    const Color light = sum.radiance(after->passed);
+    after.reset();
+    return light;
   };
   if (!isBlack(way.glows)) {
     const Real counts = share(0, path.t(), 0, sample);
@@ -214,18 +246,16 @@ Color Bidirectional::scattered(Gather& sum, const Ray& ray, const MediumWay& way
     return radiance();
   }
   const auto [direction, density] = samplePhase(ray.direction, where.forward, sampler.branch(kLobe).next2());
-  const Color factor = where.weight / goes;
-  Path onto{RayKind::bounce, counts, path.weight * factor, path.partial};
+  after->factor = where.weight / goes;
+  after->density = density;
+  Path& onto = after->path;
+  onto = {RayKind::bounce, counts, path.weight * after->factor, path.partial};
   onto.fromMedium = true;
   onto.fromLights = path.fromLights || comesFromLights(path);
   onto.partial.leave(density, density, 1);
-  const Ray onward{place.point(), direction};
-  Interfaces there = inside;
-  const auto found = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));
-  const Color arriving = along(tracer, onward, found, onto, there, sampler.branch(kNext), sample);
-  sum.add(factor * allowedPart(tracer, path.weight * factor * arriving), arriving,
-          {MediumTerm::What::follows, where.object, where.t, where.forward}, ChanceTerm{density, 0, 1});
-  return radiance();
+  after->ray = {place.point(), direction};
+  after->hit = tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(kHole)));
+  return {};
 }
 
 }  // namespace trace

@@ -23,6 +23,8 @@
 // light begins no path in a medium; it is asked there.
 #pragma once
 
+#include <memory>
+
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
@@ -48,6 +50,7 @@ class Bidirectional : public Integrator {
   struct Partial;
   struct Counts;
   struct Path;
+  struct Scattering;
   struct Sample;
   struct LightPlace;
   /// What a whole path's place next to the light is.
@@ -64,10 +67,14 @@ class Bidirectional : public Integrator {
   bool comesFromLights(const Path& path) const;
 
   // The path from the camera: integrators/bdpt.cpp.
-  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
               const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
-  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& where, Path path,
-                  const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
+  Color arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
+                const Interfaces& inside, const Sampler& sampler, const Sample& sample,
+                std::unique_ptr<Scattering>& after) const;
+  Color scattered(Tracer& tracer, const Ray& ray, const MediumWay& way, const MediumWay::Place& where,
+                  Path path, const Interfaces& inside, const Sampler& sampler, const Sample& sample,
+                  std::unique_ptr<Scattering>& after) const;
 
   // The one from a light: integrators/bdpt_light.cpp.
   struct Flight;

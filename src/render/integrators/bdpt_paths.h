@@ -61,6 +61,20 @@ struct Bidirectional::Path {
   int t() const { return counts.all() + 2; }  ///< of the place where it arrives
 };
 
+/// A place where a medium scatters a path from the camera, until it is known what the ray from there brings.
+struct Bidirectional::Scattering {
+  Gather sum;
+  MediumTerm how;
+  Color factor{}, passed{};  ///< of what comes, and of the way to the eye
+  Real ink = 0, density = 0;
+  // What goes on.
+  Ray ray{};
+  std::optional<Hit> hit{};
+  Path path{};
+  Interfaces inside{};
+  Sampler sampler;
+};
+
 /// Of a path from a light.
 struct Bidirectional::LightPlace {
   /// On a surface, and in a medium.

@@ -63,10 +63,31 @@ Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& cam
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
+/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
+/// media it may go on ten thousand times: no call for each.
 Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                         const Interfaces& inside, const Sampler& sampler) const {
-  Gather sum(tracer, path.depth);
+  std::unique_ptr<Scattering> after;
+  Color light = arrives(tracer, ray, hit, path, inside, sampler, after);
+  if (!after) return light;
+  std::vector<std::unique_ptr<Scattering>> places;
+  while (after) {
+    const Scattering& from = *places.emplace_back(std::move(after));
+    light = arrives(tracer, from.ray, from.hit, from.path, from.inside, from.sampler, after);
+  }
+  for (; !places.empty(); places.pop_back()) {
+    Scattering& at = *places.back();
+    at.sum.add(at.factor * allowedPart(tracer, at.path.weight * light), light, at.how,
+               ChanceTerm{at.path.density, 0, 1});
+    light = at.sum.radiance(at.passed);
+  }
+  return light;
+}
+
+/// The same up to where a medium scatters it to `after`.
+Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                          const Interfaces& inside, const Sampler& sampler,
+                          std::unique_ptr<Scattering>& after) const {
   const World& world = tracer.world();
   // Photons have brought what shines there.
   const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
@@ -79,8 +100,9 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
     Sampler numbers = sampler.branch(kMedium);
     media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
-      return scattered(sum, ray, *media, *place, path, inside, sampler);
+      return scattered(tracer, ray, *media, *place, path, inside, sampler, after);
   }
+  Gather sum(tracer, path.depth);
   const auto seeMedia = [&] {
     if (media) coverWithMedia(sum, *media);
     sum.draw(path.ink);
@@ -233,10 +255,16 @@ Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>
   return throughMedium();
 }
 
-/// The radiance along the ray where a medium on its way scatters light to it.
-Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
-                            const Path& path, const Interfaces& inside, const Sampler& sampler) const {
-  Tracer& tracer = sum.tracer();
+/// The radiance along the ray where a medium on its way scatters light to it; unknown where it goes on.
+Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
+                            const Path& path, const Interfaces& inside, const Sampler& sampler,
+                            std::unique_ptr<Scattering>& after) const {
+  after.reset(new Scattering{.sum = {tracer, path.depth},
+                              .how = {MediumTerm::What::follows, place.object, place.t, place.forward},
+                              .passed = inside.passed(place.t),
+                              .inside = inside,
+                              .sampler = sampler.branch(kNext)});
+  Gather& sum = after->sum;
   const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
   if (!isBlack(way.glows)) sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows});
   const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
@@ -250,20 +278,19 @@ Color PathTracer::scattered(Gather& sum, const Ray& ray, const MediumWay& way, c
   const Real goes = path.depth + path.scattered < kSurely ? 1 : std::min(1.0, most);
   if (!(most > 0) || !(lobe.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
-    return sum.radiance(inside.passed(place.t));
+    const Color light = sum.radiance(after->passed);
+    after.reset();
+    return light;
   }
   const auto [direction, density] = samplePhase(ray.direction, place.forward, lobe.next2());
-  const Color factor = place.weight / goes;
-  Path next{RayKind::bounce, path.depth, path.weight * factor, density, nullptr, 0,
+  after->factor = place.weight / goes;
+  Path& next = after->path;
+  next = {RayKind::bounce, path.depth, path.weight * after->factor, density, nullptr, 0,
             path.gathers,    path.maps,  path.scattered + 1};
   next.asked = true;
-  const Ray onward{at.point, direction};
-  Interfaces there = inside;
-  const auto met = tracer.cast(onward, RayKind::bounce, there, tracer.chance(sampler.branch(kHole)));
-  const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
-  sum.add(factor * allowedPart(tracer, path.weight * factor * arriving), arriving,
-          {MediumTerm::What::follows, place.object, place.t, place.forward}, ChanceTerm{next.density, 0, 1});
-  return sum.radiance(inside.passed(place.t));
+  after->ray = {at.point, direction};
+  after->hit = tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(kHole)));
+  return {};
 }
 
 /// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is

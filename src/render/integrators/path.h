@@ -15,6 +15,8 @@
 // no place nearby, of those worked out beforehand, tells what it would bring.
 #pragma once
 
+#include <memory>
+
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/irradiance_cache.h"
@@ -36,10 +38,14 @@ class PathTracer : public Integrator {
 
  private:
   struct Path;
+  struct Scattering;
   Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
               const Interfaces& inside, const Sampler& sampler) const;
-  Color scattered(Gather& sum, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
-                  const Path& path, const Interfaces& inside, const Sampler& sampler) const;
+  Color arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                const Interfaces& inside, const Sampler& sampler, std::unique_ptr<Scattering>& after) const;
+  Color scattered(Tracer& tracer, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
+                  const Path& path, const Interfaces& inside, const Sampler& sampler,
+                  std::unique_ptr<Scattering>& after) const;
   static ChanceTerm shines(const Path& path, Real other);
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
 

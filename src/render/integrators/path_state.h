@@ -21,4 +21,17 @@ struct PathTracer::Path {
   bool asked = false;
 };
 
+/// A place where a medium scatters a path, until it is known what the ray from there brings.
+struct PathTracer::Scattering {
+  Gather sum;
+  MediumTerm how;
+  Color factor{}, passed{};  ///< of what comes, and of the way to the eye
+  // What goes on.
+  Ray ray{};
+  std::optional<Hit> hit{};
+  Path path{};
+  Interfaces inside{};
+  Sampler sampler;
+};
+
 }  // namespace trace
