@@ -74,9 +74,13 @@ IrradianceCache::IrradianceCache(const Box3& box, Real error)
 void IrradianceCache::add(const IrradianceRecord& record) {
   const auto number = static_cast<std::uint32_t>(records_.size());
   IrradianceRecord& added = records_.emplace_back(record);
-  // Where the light changes fast the record does not reach far, whatever it sees.
+  // Where the light changes fast the record does not reach far, whatever it sees; and where it has to, it
+  // changes no faster than that it doubles on the way.
   const Real slope = std::max({length(record.moving.r), length(record.moving.g), length(record.moving.b)});
   if (slope > 0) added.distance = std::min(added.distance, maxComponent(record.light) / slope);
+  if (added.distance < least_)
+    for (Vec3* gradient : {&added.moving.r, &added.moving.g, &added.moving.b})
+      *gradient = *gradient * (added.distance / least_);
   added.distance = std::clamp(added.distance, least_, most_);
   insert(0, middle_, half_, number, error_ * added.distance);
 }
