@@ -25,7 +25,10 @@ Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, b
   if (!inward && !at.raised() && dot(toLight, flat) * dot(toEye, flat) < 0) return Color(0);
   const Real below = 1 - coatTo(at, toEye);
   if (!lit) return evaluate(at.bsdf(), at.frame, toEye, toLight, Transport::importance) * below;
-  const Scatter parts = scatter(at.bsdf(), at.frame, toLight, toEye);
+  // As the eye sees it: light from behind is not spread to this side.
+  Frame frame = at.frame;
+  if (side < 0) frame.normal = -frame.normal, frame.inside = !frame.inside;
+  const Scatter parts = scatter(at.bsdf(), frame, toLight, toEye);
   return (parts.diffuse * below + parts.specular) * (at.material.shadow / kPi);
 }
 

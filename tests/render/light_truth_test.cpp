@@ -138,6 +138,17 @@ TEST(LightTruth, AVisiblePanelBehindAPaneCountsOnce) {
   EXPECT_NEAR(meanOf(seen, IntegratorKind::bdpt, 512) / expected, 1, 0.03);
 }
 
+TEST(LightTruth, AMattPaneSpreadsNoLightToItsOtherSide) {
+  Scene scene = floorScene();
+  addPanel(scene, 1.5, false);
+  Phong matt = pane();
+  matt.diffuse = Color(0.6);
+  addObject(scene, Square{}, Affine::translation({0, 1, 0}) * kUp * Affine::scaling({3, 3, 1}), matt);
+  Settings path = settingsOf(IntegratorKind::path, 256), bdpt = settingsOf(IntegratorKind::bdpt, 512);
+  path.depth = bdpt.depth = 12;  // to bdpt the pane is one more surface on the way of the light
+  EXPECT_NEAR(mean(picture(scene, bdpt)) / mean(picture(scene, path)), 1, 0.03);
+}
+
 TEST(LightTruth, WithBlackShadowsOfGlassAVisiblePanelIsSeenThroughIt) {
   Scene scene = floorScene();
   addPanel(scene, 1.5, true);
@@ -222,7 +233,8 @@ TEST(LightTruth, WhatLiesCloseToALampTakesNoLight) {
   lamp.emissive = Color(1);
   addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({12, 12, 1}), lamp);
   // A pane nearer to the lamp than 1e-4 of its size.
-  addObject(scene, Square{}, Affine::translation({0, 1.9995, 0}) * kUp * Affine::scaling({13, 13, 1}), pane());
+  addObject(scene, Square{}, Affine::translation({0, 1.9995, 0}) * kUp * Affine::scaling({13, 13, 1}),
+            pane());
   scene.camera.position = {0, 0.5, 3};
   scene.camera.viewdir = {0, -0.4, -3};
   scene.camera.fov = 30;
