@@ -9,7 +9,9 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ray/ray_format.h"
+#include "image/denoise.h"
 #include "render/passes.h"
+#include "render/photon_map.h"
 #include "scene/picture_size.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -39,7 +41,18 @@ std::uint64_t bytesPerPixel(const Settings& settings) {
   // Two corners and their keys, as many as a picture with edges has.
   const std::size_t layers = layersOf(settings).size();
   const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
-  return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + 2 * sizeof(Color) + 16;
+  const std::uint64_t planes = settings.denoise ? denoisingBytesPerPixel() : 0;
+  return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + planes + 2 * sizeof(Color) + 16;
+}
+
+/// Of the photons that stay until the picture is made, if each comes to rest once.
+std::uint64_t photonBytes(const Settings& settings) {
+  const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
+  const std::int64_t photons = settings.integrator == IntegratorKind::photon
+                                   ? std::int64_t{settings.photons} * settings.photonPasses
+                               : settings.integrator == IntegratorKind::whitted ? settings.caustics
+                                                                                : 0;
+  return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
 }
 
 /// What rays meet is the same in both.
@@ -69,16 +82,18 @@ std::uint64_t allowedMemory(const Settings& settings) {
 }
 
 void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
-                 const Settings& settings) {
+                 const Settings& settings, std::uint64_t photons) {
   const std::uint64_t needed =
-      static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) * bytesPerPixel;
+      static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) * bytesPerPixel +
+      photons;
   const std::uint64_t allowed = allowedMemory(settings);
   if (needed > allowed)
     throw Error(Fault::limit,
-                what + " of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                    " pixels needs " + std::to_string(needed >> 20) + " MiB of memory; allowed are " +
-                    std::to_string(allowed >> 20),
-                "choose a smaller --width, or a larger --max-memory");
+                what + (photons > 0 ? " with its photons, of " : " of ") + std::to_string(size.width) +
+                    " x " + std::to_string(size.height) + " pixels needs " + std::to_string(needed >> 20) +
+                    " MiB of memory; allowed are " + std::to_string(allowed >> 20),
+                photons > needed / 2 ? "choose fewer photons or passes of them, or a larger --max-memory"
+                                     : "choose a smaller --width, or a larger --max-memory");
 }
 
 Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
@@ -129,7 +144,7 @@ void Session::open(Scene scene, const Settings& settings, SceneAt sceneAt) {
 void Session::build(const Session* before) {
   const Stopwatch watch;
   const Size picture = size();
-  checkMemory("a picture", picture, bytesPerPixel(settings_), settings_);
+  checkMemory("a picture", picture, bytesPerPixel(settings_), settings_, photonBytes(settings_));
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_,
                    before ? &before->scene_.surroundings : nullptr);
   if (before) {

@@ -112,8 +112,9 @@ std::uint64_t machineMemory();
 /// Bytes of memory that a scene may take: what --max-memory says, or half of what the machine has.
 std::uint64_t allowedMemory(const Settings& settings);
 
-/// Throws Error(Fault::limit) if `what`, such as "a picture", of this size needs more memory than allowed.
+/// Throws Error(Fault::limit) if `what`, such as "a picture", of this size needs more memory than allowed,
+/// with the bytes that its photons take.
 void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
-                 const Settings& settings);
+                 const Settings& settings, std::uint64_t photons = 0);
 
 }  // namespace trace

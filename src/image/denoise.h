@@ -20,6 +20,11 @@ struct NoiseGuides {
   Picture nearness;  ///< 1 / depth; 0 where nothing is met
 };
 
+/// Bytes that a pixel takes meanwhile: the halves and guides, their planes of floats, and the results.
+constexpr std::uint64_t denoisingBytesPerPixel() {
+  return 8 * sizeof(Color) + 2 * sizeof(double) + 24 * sizeof(float);
+}
+
 /// Pixels without samples in both halves stay black, and count for no other. The same bits for any number of
 /// threads; 0 takes all. Rows that a cancelled job did not come to stay black.
 Picture withoutNoise(const Halves& halves, const NoiseGuides& guides, int threads, Job& job);

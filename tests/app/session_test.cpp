@@ -87,6 +87,29 @@ TEST(Session, RefusesPicturesBeyondItsMemory) {
   }
 }
 
+TEST(Session, RefusesPhotonsAndDenoisingBeyondItsMemory) {
+  const auto fits = [](std::vector<Choice> choices, const char* mebibytes) {
+    Session session;
+    choices.insert(choices.end(),
+                   {{"width", "200", {}}, {"height", "200", {}}, {"max-memory", mebibytes, {}}});
+    session.open(kExamples + "/shapes.ray", choices);
+    try {
+      session.build();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.fault(), Fault::limit);
+      return false;
+    }
+    return true;
+  };
+  const std::vector<Choice> photons{{"integrator", "photon", {}}, {"photons", "2000", {}}, {"spp", "8", {}}};
+  std::vector<Choice> passes = photons;
+  passes.push_back({"photon-passes", "1000", {}});  // 2000 photons of 96 bytes in each
+  EXPECT_TRUE(fits(photons, "30"));
+  EXPECT_FALSE(fits(passes, "30"));
+  EXPECT_TRUE(fits({{"spp", "8", {}}}, "12"));
+  EXPECT_FALSE(fits({{"spp", "8", {}}, {"denoise", "on", {}}}, "12"));  // more than 300 bytes a pixel
+}
+
 /// Resident memory in KiB, or 0 where the system does not tell.
 long residentMemory() {
   long pages = 0, resident = 0;
