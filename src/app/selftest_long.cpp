@@ -11,8 +11,47 @@ namespace trace {
 namespace {
 
 /// A room of coloured walls with an open lamp, 32 pixels wide: with two boxes, a ball that mirrors or one of
-/// glass; and one whose light comes through a door that stands ajar.
-enum class Room { diffuse, mirror, glass, door };
+/// glass; and one whose light comes through a door that stands ajar. And floors whose light is easily lost or
+/// counted twice: one without an end under a sun; below a panel that is seen behind a pane, or in a mirror;
+/// below a narrow projector behind a pane; in fog.
+enum class Room { diffuse, mirror, glass, door, sun, window, panel, projector, fog };
+
+/// What is on such a floor, if it is one.
+const char* floorText(Room room) {
+  switch (room) {
+    case Room::sun:
+      return R"(
+directional_light { direction = (0.2, -1, -0.1); color = (0.5, 0.5, 0.5); }
+translate(0, 0.3, 0.5, scale(0.3, sphere { material = "white"; }))
+rotate(1, 0, 0, -1.5707963267948966, plane { material = "white"; })
+)";
+    case Room::window:
+      return R"(
+rectangle_light { position = (0, 1.5, 0); u = (1, 0, 0); v = (0, 0, 1); color = (1.2, 1.2, 1.2); visible = true; }
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+translate(0, 1.2, 0, rotate(1, 0, 0, -1.5707963267948966, scale(3, 3, 1, square { material = { diffuse = (0, 0, 0); transmissive = (1, 1, 1); index = 1; }; })))
+)";
+    case Room::panel:
+      return R"(
+rectangle_light { position = (0, 0.9, 0); u = (1, 0, 0); v = (0, 0, -1); color = (1.2, 1.2, 1.2); visible = true; }
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+translate(0, 2, 0, rotate(1, 0, 0, 1.5707963267948966, scale(3, 3, 1, square { material = { reflective = (1, 1, 1); }; })))
+)";
+    case Room::projector:
+      return R"(
+projector_light { position = (0, 3, 0); direction = (0, -1, 0); up = (0, 0, -1); fov = 8; color = (4, 4, 4); constant_attenuation_coeff = 0; quadratic_attenuation_coeff = 1; }
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+translate(0, 2, 0, rotate(1, 0, 0, -1.5707963267948966, scale(3, 3, 1, square { material = { diffuse = (0, 0, 0); transmissive = (1, 1, 1); index = 1; }; })))
+)";
+    case Room::fog:
+      return R"(
+settings { fog = 0.4; fog-color = (0.9, 0.8, 0.7); fog-forward = 0.3; medium-depth = 6; }
+point_light { position = (0, 1.2, 0); color = (1, 1, 1); }
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+)";
+    default: return nullptr;
+  }
+}
 
 std::string roomText(Room room) {
   const bool door = room == Room::door;
@@ -26,6 +65,7 @@ translate(0, 1, -1, scale(2, 2, 1, square { material = "white"; }))
 translate(-1, 1, 0, rotate(0, 1, 0, 1.5707963267948966, scale(2, 2, 1, square { material = { diffuse = (0.6, 0.1, 0.1); } })))
 translate(1, 1, 0, rotate(0, 1, 0, -1.5707963267948966, scale(2, 2, 1, square { material = { diffuse = (0.1, 0.5, 0.1); } })))
 )";
+  if (const char* floor = floorText(room)) return text.substr(0, text.find("rotate(")) + floor;
   text += door ? R"(
 translate(-0.5, 1, 0.2, rotate(0, 1, 0, 1.3, scale(0.05, 1.99, 1.2, box { material = "white"; })))
 translate(-0.75, 1.9, -0.6, rotate(1, 0, 0, 1.5707963267948966, scale(0.4, 0.4, 1, square { material = { emissive = (60, 60, 60); diffuse = (0.5, 0.5, 0.5); } })))
@@ -108,6 +148,15 @@ constexpr std::array kLongChecks{
               [] { return alike(Room::glass, kBdpt); }},
     SelfCheck{"bdpt and path: a door ajar", kWelch, kMiddle, kAround,
               [] { return alike(Room::door, kBdpt); }},
+    SelfCheck{"bdpt and path: a plane under a sun", kMeans, 0, kErrors,
+              [] { return brighter(Room::sun, kBdpt); }},
+    SelfCheck{"bdpt and path: a panel behind a pane", kMeans, 0, kErrors,
+              [] { return brighter(Room::window, kBdpt); }},
+    SelfCheck{"bdpt and path: a panel in a mirror", kMeans, 0, kErrors,
+              [] { return brighter(Room::panel, kBdpt); }},
+    SelfCheck{"bdpt and path: a projector behind a pane", kMeans, 0, kErrors,
+              [] { return brighter(Room::projector, kBdpt); }},
+    SelfCheck{"bdpt and path: in fog", kMeans, 0, kErrors, [] { return brighter(Room::fog, kBdpt); }},
     SelfCheck{"mlt and path: a room", kMeans, 0, kErrors, [] { return brighter(Room::diffuse, kMlt); }},
     SelfCheck{"mlt and path: with a mirror", kMeans, 0, kErrors, [] { return brighter(Room::mirror, kMlt); }},
     SelfCheck{"mlt and path: with a ball of glass", kMeans, 0, kErrors,
@@ -121,6 +170,10 @@ constexpr std::array kLongChecks{
               [] { return brighter(Room::glass, kMltBdpt); }},
     SelfCheck{"mlt over bdpt and path: a door ajar", kMeans, 0, kErrors,
               [] { return brighter(Room::door, kMltBdpt); }},
+    SelfCheck{"mlt and path: a panel behind a pane", kMeans, 0, kErrors,
+              [] { return brighter(Room::window, kMlt); }},
+    SelfCheck{"photon and path: a panel behind a pane", kBlur, 1, 0.02,
+              [] { return ratio(Room::window, kPhoton); }},
     SelfCheck{"photon and path: a room", kBlur, 1, 0.02, [] { return ratio(Room::diffuse, kPhoton); }},
     SelfCheck{"photon and path: with a mirror", kBlur, 1, 0.02, [] { return ratio(Room::mirror, kPhoton); }},
     SelfCheck{"photon and path: with a ball of glass", kBlur, 1, 0.02,
