@@ -249,7 +249,8 @@ class LightSearch {
 
 }  // namespace
 
-/// After the checks that know a reason, and not where something is told to be unlit. In fog and smoke the air itself is lit.
+/// After the checks that know a reason, and not where something is told to be unlit. In fog and smoke the air
+/// itself is lit.
 void lightReachesNothing(const LintScene& s, Findings& findings) {
   if (s.settings.fog > 0 || !s.world.media().empty() || s.survey.met == 0) return;
   for (const SilentLight& light : LightSearch(sparseOf(s.settings), s.world).find()) {
@@ -261,8 +262,7 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
     });
     const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
       const Place& place = finding.message.place;
-      return finding.check == "unlit" ||
-             (place.line == source.place.line && place.file == source.place.file);
+      return finding.check == "unlit" || (place.line == source.place.line && place.file == source.place.file);
     });
     if (isOff || isSaid) continue;
     const auto most = mostOf(light.blockedBy);

@@ -10,7 +10,8 @@ namespace trace {
 namespace {
 
 constexpr int kRoomDirections = 400;
-constexpr int kLeast = kRoomDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
+constexpr int kLeast =
+    kRoomDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
 
 /// Spread evenly over the sphere: the golden angle apart, in bands of equal area (Gonzalez, "Measurement of
 /// areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).

@@ -24,7 +24,8 @@ std::pair<Real, Real> stretchIn(const Box3& box, const Ray& ray) {
   for (int axis = 0; axis < 3; ++axis) {
     const Real slope = 1 / ray.direction[axis];
     if (!std::isfinite(slope)) {  // it runs along the faces, or on one
-      if (ray.origin[axis] < box.low[axis] || ray.origin[axis] > box.high[axis]) return {kInfinity, -kInfinity};
+      if (ray.origin[axis] < box.low[axis] || ray.origin[axis] > box.high[axis])
+        return {kInfinity, -kInfinity};
       continue;
     }
     const Real a = (box.low[axis] - ray.origin[axis]) * slope,

@@ -37,8 +37,8 @@ class PhotonEmitter {
  public:
   /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
   /// sent to the targets; with `texels` they lie on maps of so many where a surface has one. Else every
-  /// surface that scatters keeps them, and so do media, but for those that come there straight: their light is
-  /// asked for.
+  /// surface that scatters keeps them, and so do media, but for those that come there straight: their light
+  /// is asked for.
   PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
                 std::vector<PhotonTarget> targets, bool onlyCaustics, int texels, int pass);
 

@@ -50,8 +50,8 @@ std::vector<PhotonSource> sourcesOf(const World& world, const Lamps* lamps,
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
 LandedPhotons landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                     const std::vector<PhotonTarget>& targets, bool onlyCaustics, int texels, int photons,
-                            Job& job, int pass) {
+                            const std::vector<PhotonTarget>& targets, bool onlyCaustics, int texels,
+                            int photons, Job& job, int pass) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     const PhotonSource& source;
@@ -93,8 +93,8 @@ std::size_t nearestOfPass(int pass) {
   return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
 }
 
-GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side, Job& job,
-                          int pass) {
+GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side,
+                          Job& job, int pass) {
   const std::vector<PhotonTarget> targets = photonTargetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};

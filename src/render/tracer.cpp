@@ -93,8 +93,8 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
   std::optional<Found> nearest;
   const auto off = [&](const Found& found) { return std::abs(found.t - t); };
   world_.crossings(ray, 2 * t, facesSeenBy(kind), statistics_, [&](const Found& found) {
-    if (found.object == object && (!nearest || off(found) < off(*nearest) ||
-                                   (off(found) == off(*nearest) && found.before(*nearest))))
+    if (found.object == object &&
+        (!nearest || off(found) < off(*nearest) || (off(found) == off(*nearest) && found.before(*nearest))))
       nearest = found;
     return false;
   });

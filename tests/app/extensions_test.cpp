@@ -38,7 +38,8 @@ TEST(Extensions, EachChangesThePictureOfItsExample) {
     std::vector<Choice> small;
     if (e.view.empty()) small.push_back({"width", "40", {}});
     if (!e.view.empty()) small.push_back({"spp", "1", {}});
-    const Picture off = pictureOf(e, false, kExampleFolder, small), on = pictureOf(e, true, kExampleFolder, small);
+    const Picture off = pictureOf(e, false, kExampleFolder, small),
+                  on = pictureOf(e, true, kExampleFolder, small);
     ASSERT_EQ(off.width, on.width);
     EXPECT_NE(off, on);
     if (!e.view.empty()) {

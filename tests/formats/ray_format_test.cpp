@@ -599,10 +599,11 @@ TEST(RayFormat, RowsCopyTheirObjects) {
 }
 
 TEST(RayFormat, RowsMoveAllThatALightHas) {
-  const Scene scene = load(
-                          "rows { count = (2, 1, 1); step = (3, 0, 0); warn_light { position = (-3, 2, 0); direction = "
-                          "(0, -1, 0); color = (1, 1, 1); x_min = -4; x_max = -2; radius = 0.5; } sphere { } }")
-                          .scene;
+  const Scene scene =
+      load(
+          "rows { count = (2, 1, 1); step = (3, 0, 0); warn_light { position = (-3, 2, 0); direction = "
+          "(0, -1, 0); color = (1, 1, 1); x_min = -4; x_max = -2; radius = 0.5; } sphere { } }")
+          .scene;
   ASSERT_EQ(scene.lights.size(), 2u);
   const auto& second = std::get<WarnLight>(scene.lights[1].light);
   EXPECT_EQ(second.position, (Vec3{0, 2, 0}));
@@ -610,10 +611,11 @@ TEST(RayFormat, RowsMoveAllThatALightHas) {
   EXPECT_EQ(second.xMax, 1);
   EXPECT_EQ(second.yMax, kNoLimit);
   // A copy of another size: the light keeps its place in the lamp.
-  const Scene sizes = load(
-                          "rows { count = (1, 1, 2); step = (0, 0, 9); size_spread = 0.5; rectangle_light { position = (0, "
-                          "2, 0); u = (1, 0, 0); v = (0, 0, 1); color = (1, 1, 1); } translate(0, 2, 0, sphere { }) }")
-                          .scene;
+  const Scene sizes =
+      load(
+          "rows { count = (1, 1, 2); step = (0, 0, 9); size_spread = 0.5; rectangle_light { position = (0, "
+          "2, 0); u = (1, 0, 0); v = (0, 0, 1); color = (1, 1, 1); } translate(0, 2, 0, sphere { }) }")
+          .scene;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& panel = std::get<RectangleLight>(sizes.lights.at(i).light);
     expectNear(panel.position, sizes.objects.at(i).worldFromObject * Vec3{});

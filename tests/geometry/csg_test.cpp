@@ -36,7 +36,8 @@ TEST(Csg, VolumesOfTheCourses) {
   EXPECT_NEAR(volume(Intersection{Operands({cylinder(0), cylinder(1)})}, kUnit, 500), 16.0 / 3, 2e-3);
   EXPECT_NEAR(volume(Intersection{Operands({cylinder(0), cylinder(1), cylinder(2)})}, kUnit, 500),
               8 * (2 - std::sqrt(2.0)), 2e-3);
-  EXPECT_NEAR(volume(Intersection{Operands({operandAt(Sphere{}, movedBy(-0.5, 0, 0)), operandAt(Sphere{}, movedBy(0.5, 0, 0))})},
+  EXPECT_NEAR(volume(Intersection{Operands({operandAt(Sphere{}, movedBy(-0.5, 0, 0)),
+                                            operandAt(Sphere{}, movedBy(0.5, 0, 0))})},
                      kUnit, 500),
               1.30900, 1e-3);
 }
@@ -49,7 +50,8 @@ TEST(Csg, VolumesOfRandomTreesAddUp) {
       for (;;) {
         const Shape& shape = shapes[static_cast<size_t>(random.below(static_cast<int>(shapes.size())))];
         if (isSolid(prepare(shape)))
-          return operandAt(shape, Affine::rotation(random.direction(), 1) * movedBy(random.uniform(-0.5, 0.5), 0, 0));
+          return operandAt(
+              shape, Affine::rotation(random.direction(), 1) * movedBy(random.uniform(-0.5, 0.5), 0, 0));
       }
     };
     const Operand a = any(), b = any(), c = any();
@@ -67,8 +69,8 @@ TEST(Csg, PlanesCutInAnyPlace) {
     const Intersection half{Operands({operandAt(Sphere{}), operandAt(Plane{}, place)})};
     EXPECT_EQ(boundsOf(prepare(Shape(half))), boundsOf(prepare(Shape(Sphere{}))));
     EXPECT_NEAR(volume(half, kUnit, 200), 2 * kPi / 3, 2e-3);
-    EXPECT_NEAR(volume(Difference{Operands({operandAt(Sphere{}), operandAt(Plane{}, place)})}, kUnit, 200), 2 * kPi / 3,
-                2e-3);
+    EXPECT_NEAR(volume(Difference{Operands({operandAt(Sphere{}), operandAt(Plane{}, place)})}, kUnit, 200),
+                2 * kPi / 3, 2e-3);
   }
 }
 
@@ -104,7 +106,8 @@ TEST(Csg, FlushFacesUnderAnyTransform) {
     EXPECT_EQ(crossingsOf(drilled, {start, end - start}).size() % 2, 0u);
     const Vec3 straight = linear(m, {0, 0, -1});
     through += crossingsOf(drilled, {start, straight}).empty();
-    const TracedShape pair = prepare(Shape(Union{Operands({operandAt(Cube{}, m), operandAt(Cube{}, m * movedBy(1, 0, 0))})}));
+    const TracedShape pair =
+        prepare(Shape(Union{Operands({operandAt(Cube{}, m), operandAt(Cube{}, m * movedBy(1, 0, 0))})}));
     const Vec3 left = m * Vec3{-3, random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)};
     EXPECT_EQ(crossingsOf(pair, {left, linear(m, {1, 0, 0})}).size(), 2u);
   }
@@ -115,7 +118,8 @@ TEST(Csg, LargeUnionsMeetWhatTheirPartsMeet) {
   Random random(3);
   std::vector<Operand> all;
   for (std::uint32_t i = 0; i < 200; ++i)
-    all.push_back(operandAt(Sphere{}, Affine::translation(random.inCube(3)) * Affine::scaling({0.3, 0.3, 0.3}), i));
+    all.push_back(
+        operandAt(Sphere{}, Affine::translation(random.inCube(3)) * Affine::scaling({0.3, 0.3, 0.3}), i));
   const Union whole{Operands(all)};
   const TracedShape traced = prepare(Shape(whole));
   for (int i = 0; i < 5000; ++i) {
@@ -140,7 +144,8 @@ TEST(Csg, LargeUnionsMeetWhatTheirPartsMeet) {
 
 TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
   const Difference shape{
-      Operands({operandAt(Cube{}, {}, 1), operandAt(Sphere{}, movedBy(0, 0, 0.5) * Affine::scaling({0.4, 0.4, 0.4}), 2)})};
+      Operands({operandAt(Cube{}, {}, 1),
+                operandAt(Sphere{}, movedBy(0, 0, 0.5) * Affine::scaling({0.4, 0.4, 0.4}), 2)})};
   const Ray down{{0.05, 0, 3}, {0, 0, -1}};
   const auto c = crossingsOf(shape, down);
   ASSERT_EQ(c.size(), 2u);
@@ -150,7 +155,8 @@ TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
 }
 
 TEST(Csg, ClippedObjectsStayOpen) {
-  const Clip shape{Operands({operandAt(Sphere{}), operandAt(Cube{}, movedBy(0, 0, 0.5) * Affine::scaling({3, 3, 1}))})};
+  const Clip shape{
+      Operands({operandAt(Sphere{}), operandAt(Cube{}, movedBy(0, 0, 0.5) * Affine::scaling({3, 3, 1}))})};
   EXPECT_FALSE(isSolid(shape));
   const Ray up{{0.1, 0, -3}, {0, 0, 1}};  // through the open bottom to the inside of the dome
   const auto c = crossingsOf(shape, up);

@@ -180,8 +180,9 @@ TEST(Shapes, VolumeByParallelProjection) {
   EXPECT_NEAR(volumeOver(Ellipsoid{.radii = {1, 2, 3}}, 500), 25.13274, 2e-3);
   EXPECT_NEAR(volumeOver(Paraboloid{}, 500), 1.57080, 2e-4);
   EXPECT_NEAR(volumeOver(EllipticCone{.height = 2}, 500), kPi * 0.5 * 2 / 3, 2e-4);
-  EXPECT_NEAR(volumeOver(Hyperboloid{}, 500), kPi * (0.5 + 0.5 * 1), 5e-4);  // a h + c h^3 / 12, a = 1/4, c = 3/4
-  EXPECT_NEAR(volumeOver(TwoSheets{.gap = 0}, 500), 2 * kPi / 3, 5e-4);      // then a double cone
+  EXPECT_NEAR(volumeOver(Hyperboloid{}, 500), kPi * (0.5 + 0.5 * 1),
+              5e-4);                                                     // a h + c h^3 / 12, a = 1/4, c = 3/4
+  EXPECT_NEAR(volumeOver(TwoSheets{.gap = 0}, 500), 2 * kPi / 3, 5e-4);  // then a double cone
   EXPECT_NEAR(volumeOver(Quadric{.squares = {1, 0, 1}, .products = {}, .linear = {}, .constant = -1}, 500),
               2 * kPi, 5e-4);
   const double r = 0.1, inner = 0.8;
@@ -199,14 +200,15 @@ TEST(Shapes, VolumeByParallelProjection) {
   EXPECT_NEAR(volumeOver(Prism{square, {hole}, Spline::linear, 2, 0}, 400), (4 - 1) * 2 * third, 5e-4);
   EXPECT_NEAR(volumeOver(Prism{square, {hole}, Spline::linear, 2, 0.5, 200}, 150),
               (4 - 1) * 2 * (1 + 0.5 + 0.25) * third, 5e-3);
-  EXPECT_NEAR(volumeOver(SphereSweep{{{0, 0, 0, 1}, {0, 0, 2, 1}}, Spline::linear}, 500), 2 * kPi + 4 * kPi / 3,
-              1e-3);
+  EXPECT_NEAR(volumeOver(SphereSweep{{{0, 0, 0, 1}, {0, 0, 2, 1}}, Spline::linear}, 500),
+              2 * kPi + 4 * kPi / 3, 1e-3);
   for (int level = 0; level < 4; ++level)
     EXPECT_NEAR(volumeOver(Menger{level}, 243), std::pow(20.0 / 27, level), 1e-12);
   for (int level = 0; level < 4; ++level)
     EXPECT_NEAR(volumeOver(Sierpinski{level}, 256), std::pow(0.5, level) / 3, 2e-4);
   EXPECT_NEAR(volumeOver(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 1}, 300), 1.23370, 5e-4);
-  EXPECT_NEAR(volumeOver(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 2}, 300), 2 * kPi * 0.125, 5e-4);
+  EXPECT_NEAR(volumeOver(Supertoroid{.minorRadius = 0.25, .east = 1, .north = 2}, 300), 2 * kPi * 0.125,
+              5e-4);
   for (const bool smooth : {false, true}) {  // a slope, down to z = -0.5
     HeightField slope;
     slope.formula = "0.3 * x - 0.2 * y + 0.1", slope.points = 8, slope.smooth = smooth;
@@ -215,7 +217,8 @@ TEST(Shapes, VolumeByParallelProjection) {
   Isosurface ball;
   ball.formula = "sqrt(x^2 + y^2 + z^2) - 1";
   EXPECT_NEAR(volumeOver(ball, 300), 4.18879, 1e-3);
-  EXPECT_NEAR(volumeOver(Metaballs{0.25, {{0, 0, 0, 1, 1}}, {}}, 500), 4 * kPi / 3 * std::pow(0.5, 1.5), 2e-4);
+  EXPECT_NEAR(volumeOver(Metaballs{0.25, {{0, 0, 0, 1, 1}}, {}}, 500), 4 * kPi / 3 * std::pow(0.5, 1.5),
+              2e-4);
   EXPECT_NEAR(volumeOver(Superellipsoid{.east = 1, .north = 1}, 500), 4.18879, 2e-4);
   EXPECT_NEAR(volumeOver(Superellipsoid{.east = 2, .north = 2}, 500), 4.0 / 3, 2e-4);
   EXPECT_NEAR(volumeOver(Superellipsoid{.east = 1, .north = 2}, 500), 2 * kPi / 3, 1e-3);

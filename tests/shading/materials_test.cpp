@@ -179,8 +179,8 @@ class HitCells {
         std::min(kAround - 1, static_cast<int>((phi < 0 ? phi + 2 * kPi : phi) / (2 * kPi) * kAround));
     ++found_[at(i, j)];
   }
-  /// Pearson's chi-square of n samples, as a standard normal deviate (Wilson and Hilferty 1931). HitCells where
-  /// less than five are expected are taken together.
+  /// Pearson's chi-square of n samples, as a standard normal deviate (Wilson and Hilferty 1931). HitCells
+  /// where less than five are expected are taken together.
   Real deviate(int n) const {
     Real chi = 0, fewExpected = 0, fewFound = 0;
     int cells = 0;

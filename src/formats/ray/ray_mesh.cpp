@@ -18,8 +18,9 @@ namespace trace::rayfile {
 namespace {
 
 constexpr std::array<std::string_view, 17> kMeshFields{
-    "uv",      "shared", "crease", "faces",       "gennormals", "material",   "materials", "name",  "lit_by",
-    "normals", "points", "scheme", "sharp_edges", "subdivide",  "texture_uv", "two_sided", "not_lit_by"};
+    "uv",          "shared",    "crease",     "faces",     "gennormals", "material",
+    "materials",   "name",      "lit_by",     "normals",   "points",     "scheme",
+    "sharp_edges", "subdivide", "texture_uv", "two_sided", "not_lit_by"};
 
 class MeshReader {
  public:

@@ -33,7 +33,9 @@ LightSource moved(LightSource source, const Rows::Copy& copy) {
 }
 
 bool hasPlace(const LightSource& source) {
-  return match(source.light, [](const auto& light) { return requires { light.position; }; });
+  return match(source.light, [](const auto& light) {
+    return requires { light.position; };
+  });
 }
 
 }  // namespace
@@ -90,7 +92,8 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
       for (int z = 0; z < static_cast<int>(n.z); ++z) {
         checkBudget();
         const Rows::Copy copy = rows.copy(x, y, z);
-        const Affine placed = Affine::translation(copy.place) * Affine::scaling({copy.size, copy.size, copy.size});
+        const Affine placed =
+            Affine::translation(copy.place) * Affine::scaling({copy.size, copy.size, copy.size});
         for (const LightSource& source : lights)
           if (hasPlace(source)) scene_.lights.push_back(moved(source, copy));
         for (Object o : copied) {

@@ -35,8 +35,8 @@ bool Bidirectional::allows(const Counts& whole, Last last) const {
   return whole.scatterings < mostScattered_ || (whole.scatterings == mostScattered_ && last == Last::medium);
 }
 
-/// Whether paths from lights bring to a place that scatters what it gets by mirrors and glass: they land there,
-/// or are joined with the place before it, if that scatters, too.
+/// Whether paths from lights bring to a place that scatters what it gets by mirrors and glass: they land
+/// there, or are joined with the place before it, if that scatters, too.
 bool Bidirectional::comesFromLights(const Path& path) const {
   return starts_.anyLight() && (lands_ || path.kind == RayKind::bounce);
 }
@@ -216,11 +216,11 @@ Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& 
                                const Sampler& sampler, const Sample& sample,
                                std::unique_ptr<Scattering>& after) const {
   after.reset(new Scattering{.sum = {tracer, path.counts.all()},
-                              .how = {MediumTerm::What::follows, where.object, where.t, where.forward},
-                              .passed = inside.passed(where.t),
-                              .ink = path.ink,
-                              .inside = inside,
-                              .sampler = sampler.branch(kNext)});
+                             .how = {MediumTerm::What::follows, where.object, where.t, where.forward},
+                             .passed = inside.passed(where.t),
+                             .ink = path.ink,
+                             .inside = inside,
+                             .sampler = sampler.branch(kNext)});
   Gather& sum = after->sum;
   const auto radiance = [&] {
     sum.draw(path.ink);

@@ -82,9 +82,10 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   Color light = factor * at.scattered(at.from(), toLight);
   if (isBlack(light)) return;
   const bool starts = at.surface() || place->distance < kInfinity;
-  const Real others = Partial::power(at.density(at.from(), toLight) / place->density) +
-                      path.partial.others(starts ? starts_.overAsked(*place, at.point()) * at.cosine(toLight) : 0,
-                                          at.density(toLight, at.from()));
+  const Real others =
+      Partial::power(at.density(at.from(), toLight) / place->density) +
+      path.partial.others(starts ? starts_.overAsked(*place, at.point()) * at.cosine(toLight) : 0,
+                          at.density(toLight, at.from()));
   const Real counts = share(1, t, others, sample);
   if (!(counts > 0)) return;
   const Ray ray = at.leave(toLight);

@@ -91,8 +91,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const World& world = tracer.world();
   // Photons have brought what shines there.
   const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
-  const auto lamp = path.asked || path.within || brought ? std::nullopt
-                                                         : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  const auto lamp =
+      path.asked || path.within || brought ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
   std::optional<MediumWay> media;
@@ -256,14 +256,14 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
 }
 
 /// The radiance along the ray where a medium on its way scatters light to it; unknown where it goes on.
-Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way, const MediumWay::Place& place,
-                            const Path& path, const Interfaces& inside, const Sampler& sampler,
-                            std::unique_ptr<Scattering>& after) const {
+Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way,
+                            const MediumWay::Place& place, const Path& path, const Interfaces& inside,
+                            const Sampler& sampler, std::unique_ptr<Scattering>& after) const {
   after.reset(new Scattering{.sum = {tracer, path.depth},
-                              .how = {MediumTerm::What::follows, place.object, place.t, place.forward},
-                              .passed = inside.passed(place.t),
-                              .inside = inside,
-                              .sampler = sampler.branch(kNext)});
+                             .how = {MediumTerm::What::follows, place.object, place.t, place.forward},
+                             .passed = inside.passed(place.t),
+                             .inside = inside,
+                             .sampler = sampler.branch(kNext)});
   Gather& sum = after->sum;
   const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
   if (!isBlack(way.glows)) sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows});
@@ -286,7 +286,7 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
   after->factor = place.weight / goes;
   Path& next = after->path;
   next = {RayKind::bounce, path.depth, path.weight * after->factor, density, nullptr, 0,
-            path.gathers,    path.maps,  path.scattered + 1};
+          path.gathers,    path.maps,  path.scattered + 1};
   next.asked = true;
   after->ray = {at.point, direction};
   after->hit = tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(kHole)));
