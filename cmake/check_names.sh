@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Checks that every file and folder that ARCHITECTURE.md names is there. Usage: check_names.sh [checkout]
+# Checks names: every file and folder that ARCHITECTURE.md names is there; and functions that are local to a file are called
+# differently in every file of a folder, for these are compiled together (together.cmake), where one might take the other's calls.
+# Usage: check_names.sh [checkout]
 set -euo pipefail
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
@@ -8,5 +10,20 @@ while read -r name; do
   names=$((names + 1))
   [[ -e "$name" || -e "src/$name" ]] || { echo "ARCHITECTURE.md: there is no $name"; wrong=$((wrong + 1)); }
 done < <(grep -oE '`[a-z_.]+(/[a-z_]+)*/[a-z_]*(\.(h|cpp|sh))?`|docs/[a-z-]+\.md' ARCHITECTURE.md | tr -d '`' | sort -u)
-echo "$names names, $wrong wrong"
+
+mapfile -t files < <(find src -name '*.cpp' ! -name '*_avx*' ! -path 'src/render/integrators/*' | sort)
+locals="$(awk '
+  FNR == 1 { local = 0; folder = FILENAME; sub(/\/[^\/]*$/, "", folder) }
+  /^namespace \{/ { local = 1 }
+  /^}  \/\/ namespace/ { local = 0 }
+  local && /^[A-Za-z_\[][^=(]*[ &*>][A-Za-z_0-9]+\(/ && !/^(using|struct|class|return|void main)/ {
+    sub(/\(.*/, ""); sub(/.*[ &*>]/, ""); print folder, $0, FILENAME
+  }' "${files[@]}" | sort -u)"
+while read -r folder name; do
+  echo "$folder: several files have a local function $name:" \
+    "$(awk -v f="$folder" -v n="$name" '$1 == f && $2 == n { print $3 }' <<<"$locals" | tr '\n' ' ')"
+  wrong=$((wrong + 1))
+done < <(awk '{ print $1, $2 }' <<<"$locals" | uniq -d)
+
+echo "$names names of files, $(wc -l <<<"$locals") local functions, $wrong wrong"
 ((names > 0 && wrong == 0))

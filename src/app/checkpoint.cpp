@@ -77,7 +77,7 @@ std::string hashOf(std::string_view bytes) {
   return hexText(hash.value());
 }
 
-std::string nameOf(const std::string& picture, int number) {
+std::string checkpointName(const std::string& picture, int number) {
   return picture + ".checkpoint" + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
@@ -132,7 +132,7 @@ Checkpoint::Checkpoint(const std::string& picture, const Metadata& metadata, con
 bool Checkpoint::load(Film& film) {
   std::error_code ignored;
   for (int number = 1;; ++number) {
-    path_ = nameOf(picture_, number);
+    path_ = checkpointName(picture_, number);
     if (!fs::exists(path_, ignored)) return false;
     try {
       fill(film, path_, identity_);
@@ -153,7 +153,7 @@ void Checkpoint::save(const Film& film) {
     const bool ours = head && head->identity == identity_;
     if (ours && head->done >= done) return;  // another process is ahead
     if (ours) break;
-    path_ = nameOf(picture_, number);
+    path_ = checkpointName(picture_, number);
   }
   const std::string state = film.saved();
   writeFile(path_, std::string(kBegin) + identity_ + "Done: " + std::to_string(done) +
@@ -162,17 +162,17 @@ void Checkpoint::save(const Film& film) {
 
 bool Checkpoint::exists() const {
   std::error_code ignored;
-  for (int number = 1; fs::exists(nameOf(picture_, number), ignored); ++number)
-    if (const auto head = headOf(nameOf(picture_, number)); head && head->identity == identity_) return true;
+  for (int number = 1; fs::exists(checkpointName(picture_, number), ignored); ++number)
+    if (const auto head = headOf(checkpointName(picture_, number)); head && head->identity == identity_) return true;
   return false;
 }
 
 void Checkpoint::remove(const Film& film) {
   std::error_code ignored;
-  for (int number = 1; fs::exists(nameOf(picture_, number), ignored); ++number) {
-    const std::optional<Head> head = headOf(nameOf(picture_, number));
+  for (int number = 1; fs::exists(checkpointName(picture_, number), ignored); ++number) {
+    const std::optional<Head> head = headOf(checkpointName(picture_, number));
     if (head && head->identity == identity_ && head->done <= film.samplesDone())
-      fs::remove(nameOf(picture_, number), ignored);
+      fs::remove(checkpointName(picture_, number), ignored);
   }
 }
 

@@ -38,7 +38,7 @@ std::string colorOf(const char* name, const Color& c) {
   return text;
 }
 
-std::string escaped(const std::string& words) {
+std::string xmlText(const std::string& words) {
   std::string text;
   for (char c : onOneLine(words)) {  // XML allows neither control characters nor bytes that are no letters
     if (c == '&')
@@ -75,7 +75,7 @@ std::string toSvg(const Drawing& drawing) {
               [&](const DrawnWords& w) {
                 text += "<text" + attribute("x", w.at.x) + attribute("y", w.at.y + 0.8 * w.height) +
                         attribute("font-size", w.height) + " font-family=\"sans-serif\"" +
-                        colorOf("fill", w.color) + ">" + escaped(w.words) + "</text>\n";
+                        colorOf("fill", w.color) + ">" + xmlText(w.words) + "</text>\n";
               },
               [&](const DrawnPicture& p) {
                 const std::string png = encodePicture(pictureFormatFor(".png"), p.picture, Rounding::nearest);

@@ -25,7 +25,7 @@ const Vec3* positionOf(const Light& light) {
   });
 }
 
-Color colorOf(const Light& light) {
+Color lightColor(const Light& light) {
   return match(light, [](const auto& l) {
     if constexpr (requires { l.color; }) return l.color;
     return Color(0);
@@ -73,7 +73,7 @@ void lightTooWeak(const LintScene& s, Findings& findings) {
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Survey::Lamp& lamp = s.survey.lights[i];
     const LightSource& source = s.scene.lights[i];
-    const Real color = maxComponent(colorOf(source.light));
+    const Real color = maxComponent(lightColor(source.light));
     if (color == 0) continue;  // it is switched off
     if (lamp.places < kFew || lamp.strongest >= kHalfALevel) continue;
     const Vec3* position = positionOf(source.light);
@@ -122,7 +122,7 @@ void lightBlocked(const LintScene& s, Findings& findings) {
 /// Lights that are shut by what they say themselves.
 void lightCut(const LintScene& s, Findings& findings) {
   for (const LightSource& source : s.scene.lights) {
-    if (maxComponent(colorOf(source.light)) == 0) continue;  // it is switched off
+    if (maxComponent(lightColor(source.light)) == 0) continue;  // it is switched off
     if (const auto* measured = std::get_if<GoniometricLight>(&source.light)) {
       if (measured->file.data && measured->file.data->brightest() == 0)
         warn(findings, "light-cut", source.place,

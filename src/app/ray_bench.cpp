@@ -46,7 +46,7 @@ std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool
   return hits;
 }
 
-RayBench::Kind measure(const World& world, std::string_view name, const std::vector<Query>& queries,
+RayBench::Kind measureKind(const World& world, std::string_view name, const std::vector<Query>& queries,
                        bool anyHit, int passes) {
   constexpr double kLeastSeconds = 0.1;  // of a pass, which repeats the queries if they are few
   const Work work("measuring");
@@ -116,7 +116,7 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   }
   work.reset();
   const auto add = [&](std::string_view name, const std::vector<Query>& queries, bool anyHit) {
-    if (!queries.empty()) bench.kinds.push_back(measure(world, name, queries, anyHit, passes));
+    if (!queries.empty()) bench.kinds.push_back(measureKind(world, name, queries, anyHit, passes));
   };
   add("primary", primary, false);
   add("bounce", bounce, false);

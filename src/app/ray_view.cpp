@@ -31,7 +31,7 @@ std::vector<std::vector<int>> childrenOf(const RayTree& tree) {
 }
 
 /// What a ray is for, seen from its parent: rays of two trees with the same name correspond.
-std::pair<RayKind, std::uint32_t> nameOf(const RayTree& tree, int node) {
+std::pair<RayKind, std::uint32_t> rayIdentity(const RayTree& tree, int node) {
   return {at(tree, node).kind, lightOf(tree, node).value_or(0)};
 }
 
@@ -58,7 +58,7 @@ class Differ {
     std::vector<int> right = childrenB_[static_cast<std::size_t>(j)];
     for (const int child : left) {
       const auto same = std::find_if(right.begin(), right.end(),
-                                     [&](int other) { return nameOf(b_, other) == nameOf(a_, child); });
+                                     [&](int other) { return rayIdentity(b_, other) == rayIdentity(a_, child); });
       if (same == right.end()) {
         alone(child, true, depth + 1);
       } else {

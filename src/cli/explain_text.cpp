@@ -335,7 +335,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
         "--camera-vertices 1 shows it alone.\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   const bool whole = !facts.chain && !facts.settings.denoise;  // nothing else has a part in the pixel
-  if (whole && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
+  if (!facts.chain && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
   const std::string pixel = whole ? "the picture's pixel" : "the pixel as it was traced";
   text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
                          : "The rays above do NOT sum to " + pixel + ": please report this.\n";

@@ -18,7 +18,7 @@
 namespace trace::cli {
 namespace {
 
-std::string row(std::string_view name, std::string_view help) {
+std::string featureRow(std::string_view name, std::string_view help) {
   std::string text = "  " + std::string(name);
   text.resize(std::max<size_t>(text.size() + 2, 20), ' ');
   return text + std::string(help) + "\n";
@@ -28,35 +28,35 @@ std::string featuresText() {
   std::string text = "extras (off by default; --enable NAME)\n";
   for (const Option& option : options())
     if (option.extra)
-      text += row(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
+      text += featureRow(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
   text += "extensions, with their examples (docs/features shows each off and on)\n";
   for (const Extension& e : extensions()) {
     std::string words(e.adds);
     words += "; scenes/" + std::string(e.scene);
     if (!e.off.empty()) words += "; off: " + std::string(e.off);
     if (!e.on.empty()) words += "; on: " + std::string(e.on);
-    text += row(e.name, words);
+    text += featureRow(e.name, words);
   }
   text += "integrators\n";
-  for (const IntegratorRow& integrator : integrators()) text += row(integrator.name, integrator.help);
+  for (const IntegratorRow& integrator : integrators()) text += featureRow(integrator.name, integrator.help);
   text += "passes (--passes NAME,NAME)\n";
-  for (const PassRow& pass : passRows()) text += row(pass.name, pass.help);
+  for (const PassRow& pass : passRows()) text += featureRow(pass.name, pass.help);
   text += "shading models (material = { model = NAME; ... })\n";
-  forEachType<MaterialModel>([&]<class Model>(Model*) { text += row(Model::kKeyword, Model::kHelp); });
+  forEachType<MaterialModel>([&]<class Model>(Model*) { text += featureRow(Model::kKeyword, Model::kHelp); });
   text += "materials of the library (material = { library = NAME; })\n";
   for (const Finish& finish : finishes())
-    text += row(finish.name, std::string(finish.group) + ", " + std::string(finish.looks));
+    text += featureRow(finish.name, std::string(finish.group) + ", " + std::string(finish.looks));
   for (const Substance& substance : substances())
-    text += row(substance.name, std::string(substance.group) + ", index " + toText(substance.index));
+    text += featureRow(substance.name, std::string(substance.group) + ", index " + toText(substance.index));
   text += "scene formats\n";
   for (const SceneFormat& format : sceneFormats())
-    text += row(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
+    text += featureRow(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
   text += "picture formats\n";
   for (const PictureFormat& format : pictureFormats()) {
     std::string suffixes;
     for (std::string_view suffix : format.suffixes)
       suffixes += (suffixes.empty() ? "" : " ") + std::string(suffix);
-    text += row(suffixes, format.help);
+    text += featureRow(suffixes, format.help);
   }
   return text;
 }

@@ -45,7 +45,7 @@ std::string countsText(const Counts& counts, const std::string& title, std::size
   return text;
 }
 
-std::string optionsText(const std::vector<OptionFact>& facts) {
+std::string chosenOptionsText(const std::vector<OptionFact>& facts) {
   std::string text;
   for (const OptionFact& fact : facts) {
     std::string value = fact.value;
@@ -76,8 +76,8 @@ std::string infoText(const Facts& facts) {
   const Size size = finished(facts.session.size(), facts.session.settings());
   text += line("picture", std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   text += "conventions: " + std::string(convention(facts.session.settings().like).help) + "\n" +
-          optionsText(facts.conventions);
-  text += "options changed (" + std::to_string(facts.changed.size()) + ")\n" + optionsText(facts.changed);
+          chosenOptionsText(facts.conventions);
+  text += "options changed (" + std::to_string(facts.changed.size()) + ")\n" + chosenOptionsText(facts.changed);
   if (!scene.unrendered.empty()) {
     text += "not rendered yet (" + std::to_string(scene.unrendered.size()) + ")\n";
     for (const Unrendered& left : scene.unrendered) text += line(left.kind, placeText(left.place));

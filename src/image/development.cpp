@@ -106,7 +106,7 @@ Color transferred(const Color& c, Transfer transfer) {
 }
 
 /// One direction of a Gaussian blur; beyond the border the picture is left out of the mean.
-Picture blurred(const Picture& picture, double sigma, bool across) {
+Picture bloomBlurred(const Picture& picture, double sigma, bool across) {
   const int reach = std::max(1, static_cast<int>(std::ceil(3 * sigma)));
   std::vector<double> weights;
   for (int i = 0; i <= reach; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigma * sigma)));
@@ -137,7 +137,7 @@ Picture bloomed(const Picture& picture, double share) {
   for (Color& c : result.pixels) c = c * (1 - share);
   for (const double size : {0.005, 0.02, 0.06}) {
     const Picture around =
-        blurred(blurred(picture, size * picture.height, true), size * picture.height, false);
+        bloomBlurred(bloomBlurred(picture, size * picture.height, true), size * picture.height, false);
     for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] += around.pixels[i] * (share / 3);
   }
   return result;

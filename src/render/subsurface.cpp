@@ -20,7 +20,7 @@ PerColor shares(const Color& counts) {
   const Real all = counts.r + counts.g + counts.b;
   return all > 0 ? channels(counts / all) : PerColor{1. / 3, 1. / 3, 1. / 3};
 }
-std::size_t chosen(const PerColor& shares, Real u) {
+std::size_t chosenChannel(const PerColor& shares, Real u) {
   return u < shares[0] ? 0 : u < shares[0] + shares[1] ? 1 : 2;
 }
 
@@ -59,7 +59,7 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   const Real u = numbers.next();
   const std::size_t axis = u < 0.7 ? 0 : u < 0.85 ? 1 : 2;
   const Vec3 &along = axes[axis], &across = axes[(axis + 1) % 3], &aside = axes[(axis + 2) % 3];
-  const std::size_t channel = chosen(share, numbers.next());
+  const std::size_t channel = chosenChannel(share, numbers.next());
   const Vec2 disk = numbers.next2();
   const Real r = profiles[channel].distance(disk.x), phi = 2 * kPi * disk.y;
   const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
@@ -144,7 +144,7 @@ std::optional<Entrance> byWalk(const Interaction& at, const Subsurface& said, co
     });
     if (!wall) return {};  // the body is open there
     const PerColor share = shares(importance * weight);
-    const std::size_t channel = chosen(share, numbers.next());
+    const std::size_t channel = chosenChannel(share, numbers.next());
     const Real s = -std::log1p(-numbers.next()) / loses[channel], t = std::min(s, wall->t);
     PerColor passes;
     Real all = 0;

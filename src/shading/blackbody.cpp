@@ -33,7 +33,7 @@ struct BlackbodyRow {
   Color color;
 };
 
-std::array<BlackbodyRow, kBlackbodySteps + 1> table() {
+std::array<BlackbodyRow, kBlackbodySteps + 1> blackbodyTable() {
   std::array<BlackbodyRow, kBlackbodySteps + 1> rows;
   const Real candle = brightness(summed(kCandle));
   for (int i = 0; i <= kBlackbodySteps; ++i) {
@@ -46,7 +46,7 @@ std::array<BlackbodyRow, kBlackbodySteps + 1> table() {
 }  // namespace
 
 Color blackbodyColor(Real kelvin) {
-  static const auto kRows = table();
+  static const auto kRows = blackbodyTable();
   if (!(kelvin >= kColdest)) return {};
   const Real place =
       std::log(std::min(kelvin, kHottest) / kColdest) / std::log(kHottest / kColdest) * kBlackbodySteps;

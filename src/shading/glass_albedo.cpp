@@ -76,7 +76,7 @@ class GlassTable {
   std::vector<WidthRow> rows_ = std::vector<WidthRow>((kIndices + 1) * (kWidths + 1));
 };
 
-GlassTable& table(Distribution kind) {
+GlassTable& glassTable(Distribution kind) {
   static GlassTable ggx(Distribution::ggx), beckmann(Distribution::beckmann);
   return kind == Distribution::ggx ? ggx : beckmann;
 }
@@ -85,12 +85,12 @@ GlassTable& table(Distribution kind) {
 
 Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta) {
   const Between c(std::sqrt(max(0, cosine)), kCosines);
-  return table(kind).at(width, eta,
+  return glassTable(kind).at(width, eta,
                         [&](const WidthRow& row) { return c.of([&](int i) { return row.at[i]; }); });
 }
 
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta) {
-  return table(kind).at(width, eta, [](const WidthRow& row) { return row.mean; });
+  return glassTable(kind).at(width, eta, [](const WidthRow& row) { return row.mean; });
 }
 
 GlassLoss::GlassLoss(Distribution kind, Real width, Real index)

@@ -13,7 +13,7 @@ using Level = Workspace::LogEntry::Level;
 constexpr ImGuiTableFlags kLogTable =
     ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
 
-void row(std::initializer_list<std::string> cells) {
+void tableRow(std::initializer_list<std::string> cells) {
   ImGui::TableNextRow();
   for (const std::string& cell : cells) {
     ImGui::TableNextColumn();
@@ -81,7 +81,7 @@ void drawBadSamples(Studio& studio) {
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const BadSample& bad = result.badSamples[static_cast<std::size_t>(i)];
-      row({std::to_string(bad.x) + ", " + std::to_string(bad.y), std::to_string(bad.sample)});
+      tableRow({std::to_string(bad.x) + ", " + std::to_string(bad.y), std::to_string(bad.sample)});
       ImGui::TableNextColumn();
       ImGui::PushID(i);
       if (ImGui::SmallButton("Show its rays")) showBadSample(studio, bad);
@@ -101,12 +101,12 @@ void drawStatistics(Studio& studio) {
   ImGui::TableSetupColumn("hits");
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < s.rays.size(); ++i)
-    row({std::string(kRayLooks[i].kind) + " rays", std::to_string(s.rays[i]), ""});
+    tableRow({std::string(kRayLooks[i].kind) + " rays", std::to_string(s.rays[i]), ""});
   for (const ShapeType& type : shapeTypes())
     if (s.tests[type.index] > 0)
-      row({std::string(type.keyword) + " tests", std::to_string(s.tests[type.index]),
+      tableRow({std::string(type.keyword) + " tests", std::to_string(s.tests[type.index]),
            std::to_string(s.hits[type.index])});
-  row({"hierarchy nodes visited", std::to_string(s.nodes.count), ""});
+  tableRow({"hierarchy nodes visited", std::to_string(s.nodes.count), ""});
   ImGui::EndTable();
 }
 

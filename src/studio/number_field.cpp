@@ -42,7 +42,7 @@ Settled<Value> settle(ImGuiID id, const Value& shown, bool changed, bool typing)
   return {typed.update(id, ImGui::GetFrameCount(), typing, escaped, std::move(now)), true};
 }
 
-std::string rangeText(const NumberLook& look, bool whole) {
+std::string numberRange(const NumberLook& look, bool whole) {
   const std::string number = whole ? "a whole number" : "a number";
   const bool below = look.least > -kNoLimit && look.clamped, above = look.most < kNoLimit && look.clamped;
   if (below && above) return toText(look.least) + " to " + toText(look.most);
@@ -52,7 +52,7 @@ std::string rangeText(const NumberLook& look, bool whole) {
 
 void remark(const NumberLook& look, bool whole, const std::string& found, const std::string& became) {
   remarks().push_back(std::string(look.name) + (look.name.empty() ? "" : ": ") + "expected " +
-                      rangeText(look, whole) + ", found " + found + "; " + became);
+                      numberRange(look, whole) + ", found " + found + "; " + became);
 }
 
 /// The typed number as it is taken, with a remark if that is not as it was typed; nothing if it is not.
@@ -108,7 +108,7 @@ std::string fitting(const std::string& format, double value, float width) {
   return shorter;
 }
 
-bool edit(const char* label, double& value, const NumberLook& look, bool whole) {
+bool editNumberField(const char* label, double& value, const NumberLook& look, bool whole) {
   const ImGuiID id = ImGui::GetID(label);
   const auto take = [&](const std::optional<double>& now) {
     if (!now || *now == value || !std::isfinite(*now)) return false;
@@ -140,7 +140,7 @@ bool edit(const char* label, double& value, const NumberLook& look, bool whole) 
 }  // namespace
 
 bool editNumber(const char* id, double& value, const NumberLook& look) {
-  return edit(id, value, look, false);
+  return editNumberField(id, value, look, false);
 }
 
 bool editNumber(const char* id, int& value, const NumberLook& look) {
@@ -149,7 +149,7 @@ bool editNumber(const char* id, int& value, const NumberLook& look) {
   inRange.least = std::max(look.least, -kMost);
   inRange.most = std::min(look.most, kMost);
   double number = value;
-  if (!edit(id, number, inRange, true)) return false;
+  if (!editNumberField(id, number, inRange, true)) return false;
   const int now = static_cast<int>(std::lround(number));
   return std::exchange(value, now) != now;
 }

@@ -47,7 +47,7 @@ constexpr unsigned kPrivateUse = 0xE000;
 constexpr double kDoubleClick = 0.3;  // seconds between its clicks, at most
 constexpr double kLeastFrame = 1e-4;  // seconds: Dear ImGui's clock must not stand still
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void failToOpen(const std::string& what) {
   const char* reason = nullptr;
   glfwGetError(&reason);
   const std::string because = reason ? std::string(": ") + reason : "";
@@ -67,14 +67,14 @@ void limitToMonitor(int& width, int& height) {
 
 Window::Window(const std::string& title, int width, int height) : state_(std::make_unique<State>()) {
   glfwSetErrorCallback(nullptr);
-  if (!glfwInit()) fail("cannot open a window");
+  if (!glfwInit()) failToOpen("cannot open a window");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   limitToMonitor(width, height);
   state_->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (!state_->window) fail("cannot open a window");
+  if (!state_->window) failToOpen("cannot open a window");
   glfwMakeContextCurrent(state_->window);
   glfwSwapInterval(1);
   listen();

@@ -290,7 +290,6 @@ TEST(Lint, ObjectsMayNameLightsThatAreNotThere) {
     writeFile(folder / "a.ray",
               "SBT-raytracer 1.0\ncamera { position = (0, 1, 6); look_at = (0, 0.5, 0); fov = 40; }\n"
               "directional_light { name = \"key\"; direction = (0, -1, -1); color = (1, 1, 1); }\n"
-              "directional_light { direction = (0, -1, -2); color = (1, 1, 1); }\n"
               "sphere { material = { diffuse = (0.8, 0.8, 0.8); ambient = (1, 1, 1); } " +
                   links + " }\n");
     return names(lintFile(folder / "a.ray"));

@@ -554,6 +554,12 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
             std::string::npos)
       << "it has a roughness, and no exponent";
   EXPECT_EQ(read("Ns 30\nmap_Ns a.tga").warnings(), "");
+  const Read pane = read("illum 6\nTf 1 0.5 1\nNi 1.45\nPr 0.25");
+  const auto& glass = std::get<RoughGlass>(pane.material().model);
+  EXPECT_EQ(glass.color, Color(1, 0.5, 1)) << "what says glass is not lost beside a roughness";
+  EXPECT_EQ(glass.index, Real(1.45f));
+  EXPECT_EQ(glass.roughness, 0.25);
+  EXPECT_TRUE(std::holds_alternative<Principled>(read("illum 6\nTf 1 1 1\nPr 0.25\nPm 1").material().model));
 }
 
 // --- PLY ----------------------------------------------------------------------------------------------

@@ -629,7 +629,7 @@ TEST(RayFormat, RowsMoveAllThatALightHas) {
 
 TEST(RayFormat, RowsOfNothingEnd) {
   EXPECT_EQ(warningsOf("rows { count = (2000000, 2000000, 2000000); rows { } }"),
-            "2:52: rows without objects are empty");
+            "2:45: rows without objects are empty");
 }
 
 TEST(RayFormat, ReadsTheSpotLightsOfStudents) {

@@ -290,7 +290,7 @@ TEST(LightTruth, WhittedsLampsLightFogWhateverElseIsThere) {
   scene.camera.position = {0, 0.7, 4};
   scene.camera.viewdir = {0, 0, -1};
   scene.camera.fov = 40;
-  Settings settings = settingsOf(IntegratorKind::whitted, 64);
+  Settings settings = settingsOf(IntegratorKind::whitted, 400);
   settings.lampSamples = 4;
   settings.fog = 0.2;
   const Real alone = mean(picture(scene, settings));

@@ -10,7 +10,7 @@ namespace {
 
 using Model = PaintedPicture::Model;
 
-TextureTransform moved(const Vec2& by) { return {1, 0, by.x, 0, 1, by.y}; }
+TextureTransform placementMoved(const Vec2& by) { return {1, 0, by.x, 0, 1, by.y}; }
 TextureTransform turned(Real angle) {
   if (angle == 0) return kUnmoved;
   const Real c = std::cos(angle), s = std::sin(angle);
@@ -103,16 +103,16 @@ TextureTransform product(const TextureTransform& a, const TextureTransform& b) {
 TextureTransform textureTransform(const Values& v) {
   const Vec2 center = pair(v, "center", {0, 0});
   const TextureTransform shape = product(scaled(pair(v, "scale", {1, 1})), turned(v.number("rotation", 0)));
-  return product(product(moved({-center.x, -center.y}), shape),
-                 product(moved(center), moved(pair(v, "translation", {0, 0}))));
+  return product(product(placementMoved({-center.x, -center.y}), shape),
+                 product(placementMoved(center), placementMoved(pair(v, "translation", {0, 0}))));
 }
 
 TextureTransform texture2Transform(const Values& v) {
   const Vec2 center = pair(v, "center", {0, 0});
   const TextureTransform shape =
       product(turned(v.number("rotation", 0)), scaled(pair(v, "scaleFactor", {1, 1})));
-  return product(product(moved(pair(v, "translation", {0, 0})), moved(center)),
-                 product(shape, moved({-center.x, -center.y})));
+  return product(product(placementMoved(pair(v, "translation", {0, 0})), placementMoved(center)),
+                 product(shape, placementMoved({-center.x, -center.y})));
 }
 
 }  // namespace trace::inventor

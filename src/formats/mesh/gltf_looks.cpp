@@ -237,7 +237,7 @@ struct GltfLooks::Reader {
     if (info.index < 0) return {};
     const auto& all = info.extensions;
     const auto own =
-        static_cast<int>(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
+        wholeOf(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
     const int image = imageOf(info.index);
     if (image < 0 || set.value_or(own) != own) {
       note(info.index);
@@ -260,11 +260,11 @@ struct GltfLooks::Reader {
     int source = from.source;
     for (const char* other :
          {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
-      if (source < 0) source = static_cast<int>(extension(from.extensions, other, "source", -1));
+      if (source < 0) source = wholeOf(extension(from.extensions, other, "source", -1));
     return isIndex(source, gltf.images.size()) ? source : -1;
   }
 
-  /// Of a file, which are loaded later, or of the bytes in this one.
+  /// The pixels of a file are loaded later; those of the bytes in this one are decoded now.
   Pixels pixelsOf(int number) {
     const tinygltf::Image& image = gltf.images[static_cast<std::size_t>(number)];
     if (!image.uri.empty()) return {fileOf(image), nullptr, place};
@@ -287,7 +287,7 @@ struct GltfLooks::Reader {
     return view.byteOffset <= all.size() ? all.substr(view.byteOffset, view.byteLength) : std::string_view();
   }
 
-  /// Of one that is not rendered: by the name of its file, or, if it is in this one, by its own.
+  /// Notes a texture that is not rendered, by the name of its file or, where it is in this one, by its own.
   void note(int texture) {
     if (texture < 0) return;
     const int number = imageOf(texture);

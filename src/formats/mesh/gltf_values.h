@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <fstream>  // for tinygltf, which forgets it
+#include <limits>
 #include <vector>
 
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -37,6 +38,11 @@ inline double extension(const tinygltf::ExtensionMap& all, const char* name, con
                         double otherwise) {
   const tinygltf::Value* value = extensionValue(all, name, field);
   return value && value->IsNumber() ? value->GetNumberAsDouble() : otherwise;
+}
+
+/// As a number of something in the file; -1 for what is no such number.
+inline int wholeOf(double number) {
+  return number >= 0 && number <= std::numeric_limits<int>::max() ? static_cast<int>(number) : -1;
 }
 
 /// The first `count` numbers of the list `field` of an extension; none if it is shorter.

@@ -40,6 +40,18 @@ struct Part {
   bool hasNormals = false, hasUvs = false;
 };
 
+/// What white is in the colours of points: 255 where all are whole numbers and one is beyond what rounding
+/// and bright light make of 1.
+float whiteOf(const std::vector<Vec3f>& colors) {
+  float most = 0;
+  for (const Vec3f& c : colors)
+    for (const float x : {c.x, c.y, c.z}) {
+      if (x != std::floor(x)) return 1;
+      most = std::max(most, x);
+    }
+  return most > 2 ? 255 : 1;
+}
+
 class ObjReader {
  public:
   ObjReader(const std::string& file, std::string_view bytes, Messages& messages)
@@ -49,8 +61,7 @@ class ObjReader {
     std::string room;
     const std::string_view lines = joinedLines(bytes_, room);
     names_ = checkObjLines(file_, bytes_, lines, warnings_);
-    for (const Vec3f& c : names_.colors)
-      if (std::max(c.x, std::max(c.y, c.z)) > 1) colorScale_ = 255;
+    colorScale_ = whiteOf(names_.colors);
     tinyobj::callback_t calls;
     calls.vertex_cb = [](void* self, float x, float y, float z, float) {
       of(self).points_.push_back({x, y, z});
@@ -126,7 +137,7 @@ class ObjReader {
   }
   static std::int32_t optional(int index, std::size_t count) { return absolute(index, count).value_or(-1); }
 
-  /// Of the point's colour, times that of the part's material.
+  /// The number of the point's colour times that of the part's material.
   std::uint32_t colorNumber(const Part& part, std::size_t point) {
     const bool hasMaterial = part.material != Model::kNoMaterial;
     const Color base = hasMaterial ? paintedColor(model_.materials[part.material].model) : Color(1);

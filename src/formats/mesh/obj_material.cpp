@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "formats/model_textures.h"
+#include "shading/materials/rough_glass.h"
 
 namespace trace {
 namespace {
@@ -23,7 +24,7 @@ bool isPhysical(const tinyobj::material_t& mtl) {
          !mtl.sheen_texname.empty();
 }
 /// Where only a picture says it, the number that it scales is 1.
-Principled toPrincipled(const tinyobj::material_t& mtl) {
+Principled mtlPrincipled(const tinyobj::material_t& mtl) {
   const auto scaled = [](double number, const std::string& picture) {
     return number == 0 && !picture.empty() ? 1 : std::clamp(number, 0.0, 1.0);
   };
@@ -40,6 +41,16 @@ Principled toPrincipled(const tinyobj::material_t& mtl) {
   model.anisotropy = std::clamp<double>(mtl.anisotropy, 0, 1);
   model.angle = std::isfinite(mtl.anisotropy_rotation) ? 360 * mtl.anisotropy_rotation : 0;
   return model;
+}
+
+/// What the statements of glass say, with the roughness that others add.
+RoughGlass mtlGlass(const tinyobj::material_t& mtl) {
+  RoughGlass glass;
+  glass.color = color(mtl.transmittance);
+  glass.emissive = color(mtl.emission);
+  glass.index = mtl.ior > 1 ? mtl.ior : 1.5;
+  glass.roughness = std::clamp<double>(mtl.roughness, 0, 1);
+  return glass;
 }
 
 /// Illumination models: 1 has no highlight; from 3 on (but 8 and 9) rays are mirrored; 4, 6, 7, 9 are glass.
@@ -65,8 +76,11 @@ Material plainOf(const tinyobj::material_t& mtl) {
     phong.transmissive = color(mtl.transmittance);
 
   Material material{mtl.name, phong, {}};
-  if (isPhysical(mtl)) {
-    material.model = toPrincipled(mtl);
+  const bool metal = mtl.metallic > 0 || !mtl.metallic_texname.empty();
+  if (isPhysical(mtl) && opacity == 1 && !metal && !isBlack(phong.transmissive)) {
+    material.model = mtlGlass(mtl);
+  } else if (isPhysical(mtl)) {
+    material.model = mtlPrincipled(mtl);
     material.opacity = opacity;
   }
   return material;
@@ -132,6 +146,10 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     put("specular", mtl.specular_texname, mtl.specular_texopt);
     put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
     if (!isBlack(phong->reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
+  } else if (std::holds_alternative<RoughGlass>(material.model)) {
+    put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
+    for (const std::string* other : {&mtl.sheen_texname, &mtl.specular_texname, &mtl.specular_highlight_texname})
+      if (!other->empty()) pictures.unused(*other);
   } else {
     put("metallic", mtl.metallic_texname, mtl.metallic_texopt);
     put("roughness", mtl.roughness_texname, mtl.roughness_texopt);

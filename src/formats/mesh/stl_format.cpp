@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kHeader = 84, kFacet = 50;  // bytes of a binary file
 
-std::uint32_t littleInt(const char* from) {
+std::uint32_t littleIntAt(const char* from) {
   std::uint32_t value = 0;
   for (int i = 3; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(from[i]);
   return value;
 }
 
 float littleFloat(const char* from) {
-  const std::uint32_t bits = littleInt(from);
+  const std::uint32_t bits = littleIntAt(from);
   float value;
   std::memcpy(&value, &bits, sizeof value);
   return value;
@@ -29,7 +29,7 @@ float littleFloat(const char* from) {
 
 bool isBinary(std::string_view bytes) {
   return bytes.size() >= kHeader && (bytes.size() - kHeader) % kFacet == 0 &&
-         (bytes.size() - kHeader) / kFacet == littleInt(bytes.data() + kHeader - 4);
+         (bytes.size() - kHeader) / kFacet == littleIntAt(bytes.data() + kHeader - 4);
 }
 
 /// Collects the facets of one solid.

@@ -120,7 +120,7 @@ void changeBackground(TextEdits& edits, const Background& from, const Background
 // --- settings -------------------------------------------------------------------------------------------
 
 /// As a person writes it: numbers and words bare.
-std::string choiceText(const std::string& value) {
+std::string patchedChoice(const std::string& value) {
   const std::optional<ParsedNumber> number = parseNumber(value);
   if (number && number->length == value.size()) return value;
   const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -166,11 +166,11 @@ class SettingsChange {
       for (const Item item : block)
         if (item.keyed() && item.key() == option.name) field.emplace(item);
     if (field)
-      edits_.replace(field->value(), choiceText(value));
+      edits_.replace(field->value(), patchedChoice(value));
     else if (!blocks_.empty())
-      edits_.addField(blocks_.back(), fieldText(option.name, choiceText(value)));
+      edits_.addField(blocks_.back(), fieldText(option.name, patchedChoice(value)));
     else
-      lines_ += " " + fieldText(option.name, choiceText(value)) + ";";
+      lines_ += " " + fieldText(option.name, patchedChoice(value)) + ";";
   }
 
   TextEdits& edits_;

@@ -15,7 +15,7 @@ namespace trace::rayfile {
 namespace {
 
 /// A copy of a light, which has a place: its flaps go along, and what it lights from grows with its size.
-LightSource moved(LightSource source, const Rows::Copy& copy) {
+LightSource movedLight(LightSource source, const Rows::Copy& copy) {
   match(source.light, [&](auto& light) {
     if constexpr (requires { light.position; }) light.position = copy.place + copy.size * light.position;
     if constexpr (requires { light.radius; }) light.radius *= copy.size;
@@ -95,7 +95,7 @@ void ObjectReader::rows(const Item& call, const Affine& worldFromObject) {
         const Affine placed =
             Affine::translation(copy.place) * Affine::scaling({copy.size, copy.size, copy.size});
         for (const LightSource& source : lights)
-          if (hasPlace(source)) scene_.lights.push_back(moved(source, copy));
+          if (hasPlace(source)) scene_.lights.push_back(movedLight(source, copy));
         for (Object o : copied) {
           o.worldFromObject = worldFromObject * placed * o.worldFromObject;
           add(call, std::move(o));

@@ -33,7 +33,7 @@ SurfacePoint meshSurface(const MeshTree& mesh, const Ray& ray, const Crossing& c
   return surface(mesh.data(), triangle, hit);
 }
 
-std::shared_ptr<const MeshTree> treeOf(std::shared_ptr<const MeshData> data) {
+std::shared_ptr<const MeshTree> meshTreeOf(std::shared_ptr<const MeshData> data) {
   if (data->generateNormals) data = std::make_shared<const MeshData>(withGeneratedNormals(*data, true));
   return std::make_shared<const MeshTree>(data, false);
 }
@@ -49,7 +49,7 @@ Placed::Placed(const Shape& shape, const Affine& outFromIn, const MeshTrees& mad
     : shape_(prepare(shape, made)), placement_(outFromIn) {
   if (const auto data = shape_.mesh()) {
     const auto known = made.find(data.get());
-    mesh_ = known == made.end() ? treeOf(data) : known->second;
+    mesh_ = known == made.end() ? meshTreeOf(data) : known->second;
   }
   bounds_ = placedBounds(mesh_ ? trace::bounds(mesh_->data()) : shape_.bounds(), outFromIn);
 }

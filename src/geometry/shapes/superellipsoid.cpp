@@ -35,7 +35,7 @@ Real norm2(Real a, Real b, Real p, Real& byA, Real& byB) {
 }
 
 /// The norm whose unit ball is the superellipsoid.
-Real norm(const Superellipsoid& shape, const Vec3& p, Vec3& slopes) {
+Real surfaceNorm(const Superellipsoid& shape, const Vec3& p, Vec3& slopes) {
   const Vec3 q = abs(p);
   Real byX, byY, byRho, byZ;
   const Real rho = norm2(q.x, q.y, ellipsoidExponent(shape.east), byX, byY);
@@ -54,7 +54,7 @@ void Superellipsoid::crossings(const Ray& ray, const Range& range, VisitCrossing
       span, range,
       [&](Real t) {
         Vec3 slopes;
-        const Real size = norm(*this, ray.at(t), slopes);
+        const Real size = surfaceNorm(*this, ray.at(t), slopes);
         return Jet{size - 1, dot(slopes, ray.direction)};
       },
       [&](Real t, int end) {
@@ -64,9 +64,9 @@ void Superellipsoid::crossings(const Ray& ray, const Range& range, VisitCrossing
 
 SurfacePoint Superellipsoid::surface(const Ray& ray, const Crossing& crossing) const {
   Vec3 p = ray.at(crossing.t), slopes;
-  const Real size = norm(*this, p, slopes);
+  const Real size = surfaceNorm(*this, p, slopes);
   if (size > 0) p = p / size;
-  norm(*this, p, slopes);
+  surfaceNorm(*this, p, slopes);
   const Vec3 n = normalize(slopes);
   const Real error = gammaError(80);
   return {p, {error, error, error}, n, n, SurfaceUv::toward(normalize(p))};

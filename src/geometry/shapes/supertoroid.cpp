@@ -19,15 +19,15 @@ Real norm(Real a, Real b, Real p) {
   return most * std::pow(1 + std::pow(least / most, p), 1 / p);
 }
 /// How the norm changes with a: (a / norm)^(p - 1).
-Real slopeOf(Real a, Real b, Real p) {
+Real powerSlope(Real a, Real b, Real p) {
   const Real l = norm(a, b, p);
   return p == 1 ? 1 : l > 0 ? std::pow(a / l, p - 1) : 0;
 }
 
 Along<Real> norm(const Along<Real>& a, const Along<Real>& b, Real p) {
   const Real x = std::abs(a.value), y = std::abs(b.value);
-  return {norm(x, y, p), std::copysign(slopeOf(x, y, p), a.value) * a.slope +
-                             std::copysign(slopeOf(y, x, p), b.value) * b.slope};
+  return {norm(x, y, p), std::copysign(powerSlope(x, y, p), a.value) * a.slope +
+                             std::copysign(powerSlope(y, x, p), b.value) * b.slope};
 }
 
 /// Widened by more than the rounding of pow.
@@ -36,7 +36,7 @@ Interval loose(Real low, Real high) { return {low * (1 - gammaError(64)), high *
 Along<Interval> norm(const Along<Interval>& a, const Along<Interval>& b, Real p) {
   const Interval x = abs(a.value), y = abs(b.value);
   const auto slope = [p](const Interval& along, const Interval& u, const Interval& v) {
-    const Interval most = loose(slopeOf(u.low, v.high, p), slopeOf(u.high, v.low, p));
+    const Interval most = loose(powerSlope(u.low, v.high, p), powerSlope(u.high, v.low, p));
     if (along.low > 0) return most;
     if (along.high < 0) return -most;
     return Interval{-most.high, most.high};
@@ -78,10 +78,10 @@ SurfacePoint Supertoroid::surface(const Ray& ray, const Crossing& crossing) cons
   const Real across = norm(std::abs(out), std::abs(at.z), q), scale = across > 0 ? r / across : 1;
   const Real grow = rho > 0 ? (R + out * scale) / rho : 1;
   const Vec3 s{at.x * grow, at.y * grow, at.z * scale};
-  const Real byRho = std::copysign(slopeOf(std::abs(out), std::abs(at.z), q), out);
-  const Vec3 gradient{byRho * std::copysign(slopeOf(std::abs(at.x), std::abs(at.y), p), at.x),
-                      byRho * std::copysign(slopeOf(std::abs(at.y), std::abs(at.x), p), at.y),
-                      std::copysign(slopeOf(std::abs(at.z), std::abs(out), q), at.z)};
+  const Real byRho = std::copysign(powerSlope(std::abs(out), std::abs(at.z), q), out);
+  const Vec3 gradient{byRho * std::copysign(powerSlope(std::abs(at.x), std::abs(at.y), p), at.x),
+                      byRho * std::copysign(powerSlope(std::abs(at.y), std::abs(at.x), p), at.y),
+                      std::copysign(powerSlope(std::abs(at.z), std::abs(out), q), at.z)};
   const Real l = length(gradient);
   const Vec3 n = l > 0 ? gradient / l : normalize(-ray.direction);
   const Real error = (R + r) * gammaError(120);
