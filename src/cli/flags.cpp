@@ -382,6 +382,7 @@ std::span<const ShortFlag> shortFlags() {
 std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
   constexpr std::pair<std::string_view, std::string_view> kUseful[] = {{"spp", "9"},
+                                                                       {"irradiance-cache", "0.2"},
                                                                        {"sampling", "stratified"},
                                                                        {"filter", "mitchell"},
                                                                        {"aperture", "0.1"},
