@@ -163,7 +163,8 @@ void Checkpoint::save(const Film& film) {
 bool Checkpoint::exists() const {
   std::error_code ignored;
   for (int number = 1; fs::exists(checkpointName(picture_, number), ignored); ++number)
-    if (const auto head = headOf(checkpointName(picture_, number)); head && head->identity == identity_) return true;
+    if (const auto head = headOf(checkpointName(picture_, number)); head && head->identity == identity_)
+      return true;
   return false;
 }
 

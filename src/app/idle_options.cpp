@@ -145,8 +145,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   if (whitted && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
     warn(
         "--lamp-samples changes nothing: no square, ball or mesh of the scene shines, and its sky is the "
-        "same "
-        "all around",
+        "same all around",
         "give an object an emissive color; other shapes that shine light nothing");
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");

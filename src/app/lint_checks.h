@@ -43,7 +43,7 @@ bool isAroundCamera(const LintScene& s, std::uint32_t object);
 Box3 boxAround(const Object& object);
 /// To three digits, for people.
 Real roundedTo(Real value);
-/// Of objects by how often they are in the way, the one that is most often; the end if none is.
+/// The object that is most often in the way; the end if none is.
 inline std::map<std::uint32_t, int>::const_iterator mostOf(const std::map<std::uint32_t, int>& blockers) {
   return std::max_element(blockers.begin(), blockers.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; });

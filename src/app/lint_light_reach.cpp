@@ -38,7 +38,7 @@ struct SilentLight {
   std::map<std::uint32_t, int> blockedBy{};
 };
 
-/// Of the picture that is asked.
+/// The settings of the sparse picture whose places are asked.
 Settings sparseOf(Settings settings) {
   settings.width = kSeen.width;
   settings.height = kSeen.height;
@@ -48,7 +48,7 @@ Settings sparseOf(Settings settings) {
   settings.region = {};
   return settings;
 }
-/// Of an integrator that has nothing to prepare: its camera rays are all that is asked of it.
+/// The settings of an integrator that prepares nothing: only its camera rays are wanted.
 Settings withoutPhotons(Settings settings) {
   settings.integrator = IntegratorKind::whitted;
   settings.caustics = 0;
@@ -168,7 +168,7 @@ class LightSearch {
     return same;
   }
 
-  /// Of a spot light they are spread over its cone, of others that stand somewhere over the sphere; those of
+  /// Rays of a spot light spread over its cone, those of other lights with a place over the sphere; those of
   /// the sun cross the scene.
   Ray rayOf(const Light& light, int i) const {
     const Vec2 u = sobolPoint(static_cast<std::uint32_t>(i));

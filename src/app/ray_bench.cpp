@@ -47,7 +47,7 @@ std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool
 }
 
 RayBench::Kind measureKind(const World& world, std::string_view name, const std::vector<Query>& queries,
-                       bool anyHit, int passes) {
+                           bool anyHit, int passes) {
   constexpr double kLeastSeconds = 0.1;  // of a pass, which repeats the queries if they are few
   const Work work("measuring");
   RayBench::Kind kind{.name = name, .rays = queries.size()};

@@ -57,8 +57,9 @@ class Differ {
     const std::vector<int>& left = childrenA_[static_cast<std::size_t>(i)];
     std::vector<int> right = childrenB_[static_cast<std::size_t>(j)];
     for (const int child : left) {
-      const auto same = std::find_if(right.begin(), right.end(),
-                                     [&](int other) { return rayIdentity(b_, other) == rayIdentity(a_, child); });
+      const auto same = std::find_if(right.begin(), right.end(), [&](int other) {
+        return rayIdentity(b_, other) == rayIdentity(a_, child);
+      });
       if (same == right.end()) {
         alone(child, true, depth + 1);
       } else {

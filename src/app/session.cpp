@@ -45,7 +45,7 @@ std::uint64_t bytesPerPixel(const Settings& settings) {
   return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + planes + 2 * sizeof(Color) + 16;
 }
 
-/// Of the photons that stay until the picture is made, if each comes to rest once.
+/// The bytes of the photons that stay until the picture is made, if each comes to rest once.
 std::uint64_t photonBytes(const Settings& settings) {
   const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
   const std::int64_t photons = settings.integrator == IntegratorKind::photon

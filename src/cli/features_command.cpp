@@ -28,7 +28,8 @@ std::string featuresText() {
   std::string text = "extras (off by default; --enable NAME)\n";
   for (const Option& option : options())
     if (option.extra)
-      text += featureRow(option.name, std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
+      text += featureRow(option.name,
+                         std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
   text += "extensions, with their examples (docs/features shows each off and on)\n";
   for (const Extension& e : extensions()) {
     std::string words(e.adds);
@@ -50,7 +51,8 @@ std::string featuresText() {
     text += featureRow(substance.name, std::string(substance.group) + ", index " + toText(substance.index));
   text += "scene formats\n";
   for (const SceneFormat& format : sceneFormats())
-    text += featureRow(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
+    text +=
+        featureRow(format.name, std::string(format.help) + (format.write ? "; read and written" : "; read"));
   text += "picture formats\n";
   for (const PictureFormat& format : pictureFormats()) {
     std::string suffixes;

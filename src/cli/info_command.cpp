@@ -77,7 +77,8 @@ std::string infoText(const Facts& facts) {
   text += line("picture", std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   text += "conventions: " + std::string(convention(facts.session.settings().like).help) + "\n" +
           chosenOptionsText(facts.conventions);
-  text += "options changed (" + std::to_string(facts.changed.size()) + ")\n" + chosenOptionsText(facts.changed);
+  text +=
+      "options changed (" + std::to_string(facts.changed.size()) + ")\n" + chosenOptionsText(facts.changed);
   if (!scene.unrendered.empty()) {
     text += "not rendered yet (" + std::to_string(scene.unrendered.size()) + ")\n";
     for (const Unrendered& left : scene.unrendered) text += line(left.kind, placeText(left.place));

@@ -60,7 +60,7 @@ class HemisphereCells {
 class IrradianceCache {
  public:
   IrradianceCache() = default;
-  /// Of a scene in that box; `error` is Ward's a: how far a record may count.
+  /// For a scene in that box; `error` is Ward's a: how far a record may count.
   IrradianceCache(const Box3& box, Real error);
 
   void add(const IrradianceRecord& record);

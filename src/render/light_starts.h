@@ -26,7 +26,7 @@ class LightStarts {
 
   static constexpr std::size_t kNoLight = static_cast<std::size_t>(-1);
 
-  /// Of a path, and what it meets first.
+  /// The start of a path, and what it meets first.
   struct Start {
     Ray ray;
     Interfaces inside;

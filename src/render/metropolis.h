@@ -35,7 +35,7 @@ using ChainWatch = std::function<void(const ChainMove&, PrimarySample&)>;
 
 class Metropolis {
  public:
-  /// Of the chain of a tile's samples from that one on.
+  /// The number of the chain that makes a tile's samples from that one on.
   static std::uint64_t numberOf(std::int64_t tile, int firstSample);
 
   /// Looks for light: takes Settings::chainStarts samples. `interrupt` is asked meanwhile, and may throw
@@ -50,7 +50,7 @@ class Metropolis {
   /// all chains by the number of all moves.
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
                            const ChainWatch& watch = {}) const;
-  /// Of the picture: where chains go.
+  /// The part of the picture where chains go.
   const Tile& area() const { return area_; }
   /// With which their samples are taken.
   const Settings& settings() const { return settings_; }

@@ -53,7 +53,7 @@ class PhotonEmitter {
     std::optional<Hit> hit;
     Color power;
     bool parallel = false, fromSky = false;  ///< it comes straight from beyond all distances
-    /// Of the scene, whose number that is; shadow rays ask for it, which cross panes that bend nothing.
+    /// The number of a light of the scene; shadow rays, which cross panes that bend nothing, ask for it.
     const std::size_t* light = nullptr;
     Vec2 onLight{};               ///< the place on it
     std::optional<Vec3> start{};  ///< which is that point
@@ -96,7 +96,7 @@ class PhotonEmitter {
   IlluminationMap texels_;  // tells where on it a place is
   SampleRules rules_;       // what samplers want
   HashedNumbers numbers_;
-  // Of the photon that is sent.
+  // The photon that is sent now.
   std::uint64_t seed_ = 0;
   std::uint32_t n_ = 0;
   Chances chances_, holes_;

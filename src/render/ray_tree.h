@@ -274,7 +274,7 @@ void weigh(RayTree& tree, Real cameraWeight);
 
 /// The term of the ray's parent that its radiance went into; null for the camera ray.
 const Term* termOf(const RayTree& tree, int node);
-/// Of a ray that asks a light of the scene, that light: its index into Scene::lights.
+/// The light that a ray asks, as an index into Scene::lights; nothing for other rays.
 std::optional<std::uint32_t> lightOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.

@@ -11,9 +11,9 @@ namespace trace {
 class SkyTable {
  public:
   SkyTable() = default;
-  /// Of what bounced rays see. Empty where they see nothing or the same everywhere, and also, unless the sky
-  /// is found `onlyHere`, where it is nowhere much brighter than elsewhere: then there is nothing to be
-  /// gained by a choice.
+  /// The table of what bounced rays see. It is empty where they see nothing or the same everywhere, and also,
+  /// unless the sky is found `onlyHere`, where it is nowhere much brighter than elsewhere: then there is
+  /// nothing to be gained by a choice.
   SkyTable(const Outside& outside, int threads, bool onlyHere = false);
 
   bool empty() const { return rowSums_.empty(); }

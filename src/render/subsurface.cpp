@@ -83,7 +83,7 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   met.erase(std::unique(met.begin(), met.end(),
                         [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); }),
             met.end());
-  // Of the places on the line one is taken as often as it weighs.
+  // One of the places on the line is taken, as often as it weighs.
   struct Place {
     Color weight;
     Real distance, counts;

@@ -22,7 +22,7 @@ class Chosen {
   std::set<std::string_view> only_, none_;
 };
 
-/// Of each object whether the light lights it; none where all are lit.
+/// Whether the light lights each object, by their numbers; empty where all are lit.
 std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& objects) {
   const Chosen byLight(links.lights, links.excludes);
   const auto isLit = [&](const Object& o) {

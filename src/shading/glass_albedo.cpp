@@ -86,7 +86,7 @@ GlassTable& glassTable(Distribution kind) {
 Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta) {
   const Between c(std::sqrt(max(0, cosine)), kCosines);
   return glassTable(kind).at(width, eta,
-                        [&](const WidthRow& row) { return c.of([&](int i) { return row.at[i]; }); });
+                             [&](const WidthRow& row) { return c.of([&](int i) { return row.at[i]; }); });
 }
 
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta) {

@@ -105,7 +105,7 @@ void drawStatistics(Studio& studio) {
   for (const ShapeType& type : shapeTypes())
     if (s.tests[type.index] > 0)
       tableRow({std::string(type.keyword) + " tests", std::to_string(s.tests[type.index]),
-           std::to_string(s.hits[type.index])});
+                std::to_string(s.hits[type.index])});
   tableRow({"hierarchy nodes visited", std::to_string(s.nodes.count), ""});
   ImGui::EndTable();
 }

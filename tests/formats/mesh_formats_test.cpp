@@ -151,7 +151,8 @@ TEST(Obj, ColoursOfPointsMultiplyTheMaterial) {
   EXPECT_EQ(diffuse(scene, 1), Color(0, 1, 0)) << "after a weight";
   EXPECT_EQ(diffuse(scene, 2), Color(0.5, 1, 1)) << "white";
   EXPECT_EQ(diffuse(read("v 0 0 0 255 0 0\nv 1 0 0 0 0 255\nv 0 1 0 0 0 0\nf 1 2 3\n"), 1), Color(0, 0, 1));
-  EXPECT_EQ(diffuse(read("v 0 0 0 1.0001 0.5 0.5\nv 1 0 0 1 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"), 1), Color(0.5, 0, 0))
+  EXPECT_EQ(diffuse(read("v 0 0 0 1.0001 0.5 0.5\nv 1 0 0 1 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"), 1),
+            Color(0.5, 0, 0))
       << "one that was rounded up does not make all dark";
   EXPECT_TRUE(meshOf(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).materials.empty());
 }

@@ -7,28 +7,13 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::agreement_test {
 namespace {
 
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle * kPi); }
-
-/// A cube of two units around the origin, open toward the camera, with a red and a green wall.
 Scene room() {
-  Scene scene;
-  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
-  const Phong white = diffuse(Color(0.7));
-  addObject(scene, Square{}, turned({0, 1, 0}, 1) * wall, white);
-  addObject(scene, Square{}, turned({0, 1, 0}, 0.5) * wall, diffuse({0.6, 0.1, 0.1}));
-  addObject(scene, Square{}, turned({0, 1, 0}, 1.5) * wall, diffuse({0.1, 0.5, 0.1}));
-  addObject(scene, Square{}, turned({1, 0, 0}, 0.5) * wall, white);
-  addObject(scene, Square{}, turned({1, 0, 0}, 1.5) * wall, white);
+  Scene scene = openRoom({0.6, 0.1, 0.1}, {0.1, 0.5, 0.1});
   scene.camera.position = {0, 0, 3.8};
   scene.camera.fov = 36;
   return scene;

@@ -12,17 +12,11 @@
 #include "math/hypothesis.h"
 #include "render/explain.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::bdpt_test {
 namespace {
 
-Phong diffuse(Real albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = Color(albedo), phong.emissive = Color(emissive);
-  return phong;
-}
-Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle * kPi); }
 const Affine kUpward = turned({1, 0, 0}, -0.5), kDownward = turned({1, 0, 0}, 0.5);
 
 /// A floor, a wall and a box-like block, seen from before them.
@@ -50,12 +44,6 @@ Settings settingsOf(int spp, int depth = 3, int width = 12) {
   settings.airIndex = 1;
   settings.fresnel = Fresnel::exact;
   return settings;
-}
-
-Real mean(const Picture& picture) {
-  Real sum = 0;
-  for (const Color& c : picture.pixels) sum += luminanceOf(c) / static_cast<Real>(picture.pixels.size());
-  return sum;
 }
 
 /// Of pictures by several seeds.

@@ -7,7 +7,7 @@
 #include "render/explain.h"
 #include "support/quarters.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::irradiance_cache_test {
 namespace {
@@ -85,24 +85,9 @@ TEST(IrradianceCache, BlendsBetweenItsPlaces) {
   }
 }
 
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-
-/// A cube of two units, open toward the camera, with one red wall, a lamp and a mirror.
+/// A room with a lamp and a mirror.
 Scene room() {
-  Scene scene;
-  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
-  const auto add = [&](const Vec3& axis, Real angle, const Phong& phong) {
-    addObject(scene, Square{}, Affine::rotation(axis, angle * kPi) * wall, phong);
-  };
-  add({0, 1, 0}, 1, diffuse(Color(0.7)));
-  add({0, 1, 0}, 0.5, diffuse({0.8, 0.1, 0.1}));
-  add({0, 1, 0}, 1.5, diffuse(Color(0.7)));
-  add({1, 0, 0}, 0.5, diffuse(Color(0.7)));
-  add({1, 0, 0}, 1.5, diffuse(Color(0.7)));
+  Scene scene = openRoom();
   addObject(scene, Square{},
             Affine::translation({0, 0.98, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
                 Affine::scaling({0.6, 0.6, 1}),
@@ -110,8 +95,6 @@ Scene room() {
   Phong mirror;
   mirror.reflective = Color(0.9);
   addObject(scene, Sphere{}, Affine::translation({0.3, -0.6, 0}) * Affine::scaling({0.4, 0.4, 0.4}), mirror);
-  scene.camera.position = {0, 0, 4};
-  scene.camera.fov = 40;
   return scene;
 }
 
@@ -142,12 +125,8 @@ TEST(IrradianceCache, ShowsARoomAsEveryPlaceByItselfDoes) {
 TEST(IrradianceCache, IsTheSameForAnyNumberOfThreadsAndExplained) {
   const Scene scene = room();
   Settings settings = cached(20, 2);
-  settings.photons = 20000, settings.irradianceRays = 64, settings.threads = 1;
-  const Picture one = picture(scene, settings);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    EXPECT_EQ(picture(scene, settings), one);
-  }
+  settings.photons = 20000, settings.irradianceRays = 64;
+  const Picture one = sameForAnyThreads(scene, settings);
   const World world = build(scene, settings);
   const auto integrator = integratorOf(world, settings);
   std::size_t blended = 0;

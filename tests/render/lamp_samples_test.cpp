@@ -5,24 +5,12 @@
 #include "render/explain.h"
 #include "shading/materials/conductor.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::lamp_samples_test {
 namespace {
 
 const Affine kFlat = Affine::rotation({1, 0, 0}, -kPi / 2);
-
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-
-Color mean(const Picture& picture) {
-  Color sum;
-  for (const Color& c : picture.pixels) sum += c;
-  return sum * (1.0 / static_cast<Real>(picture.pixels.size()));
-}
 
 Settings settingsOf(IntegratorKind integrator, int rays) {
   Settings settings;
@@ -48,24 +36,24 @@ TEST(LampSamples, GiveTheFormFactorOfASquareAndTheSolidAngleOfABall) {
   const Settings settings = settingsOf(IntegratorKind::whitted, 16);
   Scene square = patch(diffuse(Color(1)));
   addObject(square, Square{}, Affine::translation({0, 1, 0}) * kFlat, diffuse(Color(0), 1));
-  EXPECT_NEAR(mean(picture(square, settings)).g, 0.752275 / kPi, 0.001);
+  EXPECT_NEAR(meanColor(picture(square, settings)).g, 0.752275 / kPi, 0.001);
   Scene ball = patch(diffuse(Color(1)));
   addObject(ball, Sphere{}, Affine::translation({0, 2, 0}) * Affine::scaling({0.5, 0.5, 0.5}),
             diffuse(Color(0), 1));
-  EXPECT_NEAR(mean(picture(ball, settings)).g, 1.0 / 16, 0.0002);
-  EXPECT_EQ(mean(picture(ball, settingsOf(IntegratorKind::whitted, 0))), Color(0)) << "off";
+  EXPECT_NEAR(meanColor(picture(ball, settings)).g, 1.0 / 16, 0.0002);
+  EXPECT_EQ(meanColor(picture(ball, settingsOf(IntegratorKind::whitted, 0))), Color(0)) << "off";
 }
 
 TEST(LampSamples, ShadowsAreFilteredByGlass) {
   Scene scene = patch(diffuse(Color(1)));
   addObject(scene, Square{}, Affine::translation({0, 1, 0}) * kFlat, diffuse(Color(0), 1));
   const Settings settings = settingsOf(IntegratorKind::whitted, 16);
-  const Color clear = mean(picture(scene, settings));
+  const Color clear = meanColor(picture(scene, settings));
   Phong pane;
   pane.transmissive = {1, 0.5, 0};
   addObject(scene, Square{}, Affine::translation({0, 0.5, 0}) * kFlat * Affine::scaling({9, 9, 1}), pane);
   scene.camera.position = {3, 0.4, 0}, scene.camera.viewdir = {-3, -0.4, 0};  // under the pane
-  const Color seen = mean(picture(scene, settings));
+  const Color seen = meanColor(picture(scene, settings));
   EXPECT_NEAR(seen.r, clear.r, 1e-3);
   EXPECT_NEAR(seen.g, clear.g / 2, 1e-3);
   EXPECT_EQ(seen.b, 0);
@@ -79,11 +67,11 @@ TEST(LampSamples, WhatALobeMirrorsIsCountedOnce) {
             diffuse(Color(0), 1));
   Settings settings = settingsOf(IntegratorKind::direct, 0);
   settings.spp = 1024;
-  const Real expected = mean(picture(scene, settings)).g;
+  const Real expected = meanColor(picture(scene, settings)).g;
   settings.integrator = IntegratorKind::whitted;
   settings.lampSamples = 4;
   settings.glossy = true;
-  EXPECT_NEAR(mean(picture(scene, settings)).g / expected, 1, 0.03);
+  EXPECT_NEAR(meanColor(picture(scene, settings)).g / expected, 1, 0.03);
 }
 
 TEST(LampSamples, TheSameBitsForAnyNumberOfThreadsAndExplained) {
@@ -94,12 +82,7 @@ TEST(LampSamples, TheSameBitsForAnyNumberOfThreadsAndExplained) {
   Settings settings = settingsOf(IntegratorKind::whitted, 3);
   settings.width = settings.height = 24;
   settings.spp = 4;
-  settings.threads = 1;
-  const Picture one = picture(scene, settings);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    EXPECT_EQ(picture(scene, settings), one);
-  }
+  const Picture one = sameForAnyThreads(scene, settings);
   const World world = build(scene, settings);
   const auto integrator = integratorOf(world, settings);
   std::size_t lamps = 0;

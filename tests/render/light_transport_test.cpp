@@ -8,18 +8,11 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "image/srgb.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::light_transport_test {
 namespace {
 
-Phong diffuse(Real albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = Color(albedo), phong.emissive = Color(emissive);
-  return phong;
-}
-
-Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle * kPi); }
 const Affine kUpward = turned({1, 0, 0}, -0.5), kDownward = turned({1, 0, 0}, 0.5);
 
 struct Row {
@@ -49,24 +42,6 @@ Settings settingsOf(const Row& row, int depth, int spp, int width = 16) {
   settings.chainStarts = 50000;
   settings.photons = 100000;
   return settings;
-}
-
-Real mean(const Picture& picture) {
-  Real sum = 0;
-  for (const Color& c : picture.pixels) sum += c.g;
-  return sum / static_cast<Real>(picture.pixels.size());
-}
-
-/// The inside of a cube of two units around the origin, made of squares.
-void addRoom(Scene& scene, const Phong& phong) {
-  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
-  for (const auto& [axis, angle] : {std::pair{Vec3{0, 1, 0}, 0.0},
-                                    {Vec3{0, 1, 0}, 0.5},
-                                    {Vec3{0, 1, 0}, 1.0},
-                                    {Vec3{0, 1, 0}, 1.5},
-                                    {Vec3{1, 0, 0}, 0.5},
-                                    {Vec3{1, 0, 0}, 1.5}})
-    addObject(scene, Square{}, turned(axis, angle) * wall, phong);
 }
 
 /// A small patch of a floor of albedo 1 at the origin, seen from aslant above.

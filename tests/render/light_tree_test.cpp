@@ -12,7 +12,7 @@
 #include "render/explain.h"
 #include "render/lamps.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::light_tree_test {
 namespace {
@@ -192,12 +192,6 @@ Scene manyLights(int count) {
   return scene;
 }
 
-Color mean(const Picture& picture) {
-  Color sum;
-  for (const Color& c : picture.pixels) sum += c;
-  return sum * (1.0 / static_cast<Real>(picture.pixels.size()));
-}
-
 TEST(LightTree, ChosenLightsGiveThePictureOfAll) {
   Settings settings;
   settings.width = settings.height = 8;
@@ -205,18 +199,18 @@ TEST(LightTree, ChosenLightsGiveThePictureOfAll) {
   settings.mirrorDefault = MirrorDefault::zero;
   settings.spp = 16;
   const Scene scene = manyLights(90);
-  const Color all = mean(picture(scene, settings));
+  const Color all = meanColor(picture(scene, settings));
   for (const IntegratorKind kind : {IntegratorKind::whitted, IntegratorKind::direct}) {
     settings.integrator = kind;
     settings.lightChoices = 1;
     settings.spp = 4096;
-    const Color chosen = mean(picture(scene, settings));
+    const Color chosen = meanColor(picture(scene, settings));
     EXPECT_NEAR(chosen.g / all.g, 1, 0.01);
     EXPECT_NEAR(chosen.r / all.r, 1, 0.01);
   }
   settings.lightChoices = 0;  // direct asks one of that many
   settings.spp = 4096;
-  EXPECT_NEAR(mean(picture(scene, settings)).g / all.g, 1, 0.01);
+  EXPECT_NEAR(meanColor(picture(scene, settings)).g / all.g, 1, 0.01);
 }
 
 TEST(LightTree, FewLightsAreAllAskedUnlessChoicesAreWanted) {
@@ -322,7 +316,7 @@ TEST(LightTree, AMeshOfManyTrianglesLightsAsOneOfFew) {
   settings.sampling = SampleKind::sobol;
   settings.integrator = IntegratorKind::direct;
   settings.spp = 1024;
-  const Color few = mean(picture(globe(2, 6), settings));  // 24 triangles: by their power
+  const Color few = meanColor(picture(globe(2, 6), settings));  // 24 triangles: by their power
   // The same surface of 96 triangles, by the tree: each is cut in four by the middles of its sides.
   Scene finer = globe(2, 6);
   Phong shining;
@@ -343,7 +337,7 @@ TEST(LightTree, AMeshOfManyTrianglesLightsAsOneOfFew) {
     mesh.triangles.push_back({middle[0], middle[1], middle[2]});
   }
   addObject(finer, Mesh{std::make_shared<const MeshData>(mesh)}, lamp.worldFromObject, shining);
-  EXPECT_NEAR(mean(picture(finer, settings)).g / few.g, 1, 0.01);
+  EXPECT_NEAR(meanColor(picture(finer, settings)).g / few.g, 1, 0.01);
 }
 
 }  // namespace

@@ -10,24 +10,12 @@
 #include "render/explain.h"
 #include "render/lamps.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::lights_test {
 namespace {
 
 const Affine kFlat = Affine::rotation({1, 0, 0}, -kPi / 2);
-
-Phong diffuse(Real albedo) {
-  Phong phong;
-  phong.diffuse = Color(albedo);
-  return phong;
-}
-
-Color mean(const Picture& picture) {
-  Color sum;
-  for (const Color& c : picture.pixels) sum += c;
-  return sum * (1.0 / static_cast<Real>(picture.pixels.size()));
-}
 
 Settings settingsOf(IntegratorKind kind, int width, int spp) {
   Settings settings;
@@ -170,7 +158,7 @@ TEST(Portals, GiveTheSameLightWithLessNoise) {
   Settings settings = settingsOf(IntegratorKind::path, 8, 2048);
   settings.depth = 2;
   const Picture exact = picture(roomWithWindow(false), settings);
-  EXPECT_NEAR(mean(picture(roomWithWindow(true), settings)).g / mean(exact).g, 1, 0.01);
+  EXPECT_NEAR(meanColor(picture(roomWithWindow(true), settings)).g / meanColor(exact).g, 1, 0.01);
   const auto error = [&](bool portal) {
     Settings few = settings;
     few.spp = 64;
@@ -232,11 +220,11 @@ TEST(LightPhotons, BringWhatTheLightsGive) {
     settings.depth = 2;
     settings.limitAttenuation = false;
     settings.photons = 3200000;  // of a beam that lights little, few photons are noise
-    const Color path = mean(picture(scene, settings));
+    const Color path = meanColor(picture(scene, settings));
     settings.integrator = IntegratorKind::photon;
     settings.depth = 1;  // where a path's first ray arrives, photons have one bounce more
     settings.spp = 256;
-    const Color photons = mean(picture(scene, settings));
+    const Color photons = meanColor(picture(scene, settings));
     EXPECT_GT(path.g, 0.01);
     EXPECT_NEAR(photons.r / path.r, 1, 0.04) << light.index();
     EXPECT_NEAR(photons.b / path.b, 1, 0.04) << light.index();

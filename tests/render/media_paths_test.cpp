@@ -13,43 +13,14 @@
 #include "render/explain.h"
 #include "render/photons.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::media_paths_test {
 namespace {
 
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle * kPi); }
-Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
-
-/// A cube of two units around the origin, open toward the camera at z = 4, with one red wall.
-Scene room() {
-  Scene scene;
-  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
-  for (const auto& [axis, angle] :
-       {std::pair{Vec3{0, 1, 0}, 1.0}, {Vec3{0, 1, 0}, 1.5}, {Vec3{1, 0, 0}, 0.5}, {Vec3{1, 0, 0}, 1.5}})
-    addObject(scene, Square{}, turned(axis, angle) * wall, diffuse(Color(0.7)));
-  addObject(scene, Square{}, turned({0, 1, 0}, 0.5) * wall, diffuse({0.8, 0.1, 0.1}));
-  scene.camera.position = {0, 0, 4};
-  scene.camera.fov = 40;
-  return scene;
-}
 void addPanel(Scene& scene, Real light) {
   addObject(scene, Square{}, Affine::translation({0.2, 0.9, 0}) * turned({1, 0, 0}, 0.5) * scaled(0.8),
             diffuse(Color(0.2), light));
-}
-/// A body of that shape without a surface.
-Material& addCloud(Scene& scene, const Shape& shape, const Affine& place, Real density) {
-  Material cloud;
-  cloud.opacity = 0;
-  cloud.mediumDensity = density;
-  scene.materials.push_back(cloud);
-  scene.objects.push_back({"", shape, place, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
-  return scene.materials.back();
 }
 TextureNode lumps() {
   TextureNode noise;
@@ -78,7 +49,7 @@ std::vector<Place> places() {
   return {
       {"a lamp in fog",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          addPanel(scene, 6);
          return scene;
        },
@@ -87,14 +58,14 @@ std::vector<Place> places() {
        }},
       {"a bulb in fog that lies on the ground",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          scene.lights.push_back({PointLight{.position = {0.2, 0.3, 0.1}, .color = Color(1)}, {}});
          return scene;
        },
        [](Settings& s) { s.fog = 0.3, s.fogHeight = 0.7; }},
       {"a ball of light in lumps of smoke",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          scene.lights.push_back(
              {PointLight{.position = {0.3, 0.6, 0.4}, .color = Color(1), .radius = 0.15}, {}});
          Material& cloud = addCloud(scene, Sphere{}, Affine::translation({-0.2, -0.1, 0}) * scaled(0.8), 3);
@@ -104,21 +75,21 @@ std::vector<Place> places() {
        }},
       {"a sun on a cloud",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          scene.lights.push_back({DirectionalLight{.direction = {-0.3, -0.6, -1}, .color = Color(1)}, {}});
          addCloud(scene, Cube{}, Affine::translation({0, -0.3, 0.2}) * scaled(0.9), 1.5);
          return scene;
        }},
       {"the sky through mist",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          scene.background.gradient = {{Color(0.2, 0.3, 0.4), Color(0.9, 0.8, 0.7)}};
          addCloud(scene, Cube{}, Affine::translation({0, -0.3, 0.2}) * scaled(1.2), 1);
          return scene;
        }},
       {"a lamp in a block of murky glass",
        [] {
-         Scene scene = room();
+         Scene scene = openRoom();
          addPanel(scene, 6);
          Material glass;
          Phong clear;
@@ -152,7 +123,7 @@ TEST(MediaPaths, FromBothEndsShowWhatPathShows) {
 }
 
 TEST(MediaPaths, EveryWayShowsTheLightInFog) {
-  Scene scene = room();
+  Scene scene = openRoom();
   addPanel(scene, 6);
   const Place place{"", [&] { return scene; },
                     [](Settings& s) {
@@ -238,19 +209,15 @@ TEST(MediaPaths, FogInTheSunScattersWhatFallsOnIt) {
 }
 
 TEST(MediaPaths, AreExplainedAndHaveTheSameBitsForAnyNumberOfThreads) {
-  Scene scene = room();
+  Scene scene = openRoom();
   addPanel(scene, 5);
   scene.lights.push_back({PointLight{.position = {0.3, 0.6, 0.4}, .color = Color(1), .radius = 0.15}, {}});
   Material& cloud = addCloud(scene, Sphere{}, scaled(0.7), 3);
   setTexture(cloud.textures, "medium_density", lumps());
   for (const IntegratorKind integrator : {IntegratorKind::bdpt, IntegratorKind::photon}) {
     Settings settings = settingsOf(integrator, 3, 24);
-    settings.fog = 0.2, settings.photons = 20000, settings.threads = 1;
-    const Picture one = picture(scene, settings);
-    for (const int threads : {2, 7}) {
-      settings.threads = threads;
-      EXPECT_EQ(picture(scene, settings), one);
-    }
+    settings.fog = 0.2, settings.photons = 20000;
+    const Picture one = sameForAnyThreads(scene, settings);
     const World world = build(scene, settings);
     const auto made = integratorOf(world, settings);
     int scattered = 0, photons = 0;

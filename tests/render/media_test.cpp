@@ -12,12 +12,10 @@
 #include "shading/medium.h"
 #include "support/half_space.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::media_test {
 namespace {
-
-Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
 
 Settings small(IntegratorKind integrator, int spp) {
   Settings settings;
@@ -47,15 +45,6 @@ Scene looking() {
   return scene;
 }
 
-/// A body without a surface: what it is filled with is up to the caller.
-Material& addCloud(Scene& scene, const Shape& shape, const Affine& place, Real density) {
-  Material cloud;
-  cloud.opacity = 0;
-  cloud.mediumDensity = density;
-  scene.materials.push_back(cloud);
-  scene.objects.push_back({"", shape, place, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
-  return scene.materials.back();
-}
 void addScreen(Scene& scene, Real z, const Phong& phong) {
   addObject(scene, Square{}, Affine::translation({0, 0, z}), phong);
 }

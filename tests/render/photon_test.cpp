@@ -7,33 +7,10 @@
 #include "render/photons.h"
 #include "support/quarters.h"
 #include "support/random.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::photon_test {
 namespace {
-
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-
-/// A cube of two units around the origin, open toward the camera at z = 4, with one red wall.
-Scene room() {
-  Scene scene;
-  const Affine wall = Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1});
-  const auto add = [&](const Vec3& axis, Real angle, const Phong& phong) {
-    addObject(scene, Square{}, Affine::rotation(axis, angle * kPi) * wall, phong);
-  };
-  add({0, 1, 0}, 1, diffuse(Color(0.7)));
-  add({0, 1, 0}, 0.5, diffuse({0.8, 0.1, 0.1}));
-  add({0, 1, 0}, 1.5, diffuse(Color(0.7)));
-  add({1, 0, 0}, 0.5, diffuse(Color(0.7)));
-  add({1, 0, 0}, 1.5, diffuse(Color(0.7)));
-  scene.camera.position = {0, 0, 4};
-  scene.camera.fov = 40;
-  return scene;
-}
 
 Affine ceiling(Real size) {
   return Affine::translation({0, 0.98, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
@@ -62,19 +39,19 @@ void expectAlike(const Scene& scene, Real tolerance, int spp = 64) {
 }
 
 TEST(Photon, APointLightLightsARoomAsPathsSay) {
-  Scene scene = room();
+  Scene scene = openRoom();
   scene.lights.push_back({PointLight{.position = {0.2, 0.3, 0.1}, .color = Color(1)}, {}});
   expectAlike(scene, 0.03);
 }
 
 TEST(Photon, ASunInARoomToo) {
-  Scene scene = room();
+  Scene scene = openRoom();
   scene.lights.push_back({DirectionalLight{.direction = {-0.4, -1, -2}, .color = Color(1)}, {}});
   expectAlike(scene, 0.03);
 }
 
 TEST(Photon, LampsOfEveryKindDo) {
-  Scene scene = room();
+  Scene scene = openRoom();
   addObject(scene, Square{}, ceiling(0.6), diffuse(Color(0.5), 6));
   addObject(scene, Sphere{}, Affine::translation({0.5, -0.5, 0.3}) * Affine::scaling({0.2, 0.2, 0.2}),
             diffuse(Color(0), 3));
@@ -87,7 +64,7 @@ TEST(Photon, LampsOfEveryKindDo) {
 
 TEST(Photon, ALampCloseUnderTheCeilingShinesThroughNeither) {
   // Between the two, photons are very dense: none of them may count below the lamp.
-  Scene scene = room();
+  Scene scene = openRoom();
   addObject(scene, Square{},
             Affine::translation({0, 0.995, 0}) * Affine::rotation({1, 0, 0}, kPi / 2) *
                 Affine::scaling({0.5, 0.5, 1}),
@@ -96,13 +73,13 @@ TEST(Photon, ALampCloseUnderTheCeilingShinesThroughNeither) {
 }
 
 TEST(Photon, WhatIsAroundDoes) {
-  Scene scene = room();
+  Scene scene = openRoom();
   scene.background.gradient = {{Color(0.2, 0.3, 0.4), Color(0.9, 0.8, 0.7)}};
   expectAlike(scene, 0.03);
 }
 
 TEST(Photon, GlassAndMirrorsThrowTheLightOfALamp) {
-  Scene scene = room();
+  Scene scene = openRoom();
   Phong glass, mirror;
   glass.transmissive = glass.reflective = Color(1), glass.index = 1.5;
   mirror.reflective = Color(0.9);
@@ -115,7 +92,7 @@ TEST(Photon, GlassAndMirrorsThrowTheLightOfALamp) {
 
 TEST(Photon, ARoomThatShinesHasTheSumOfItsBounces) {
   // Closed, and all of it sends out 1 and scatters half: 2 everywhere.
-  Scene scene = room();
+  Scene scene = openRoom();
   addObject(scene, Square{}, Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1}), {});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) scene.materials[i].model = diffuse(Color(0.5), 1);
   scene.camera.position = {0, 0, 0};
@@ -126,7 +103,7 @@ TEST(Photon, ARoomThatShinesHasTheSumOfItsBounces) {
 
 TEST(Photon, TheMapHoldsThePowerOfItsLights) {
   // All that a point light in a closed black room sends lands once: 4 pi times pi times its colour.
-  Scene scene = room();
+  Scene scene = openRoom();
   addObject(scene, Square{}, Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1}), {});
   for (Material& material : scene.materials) material.model = diffuse(Color(1e-9));
   scene.lights.push_back(
@@ -148,12 +125,7 @@ TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
   addObject(scene, Square{}, ceiling(1), diffuse(Color(0.5), 4));
   Settings settings = settingsOf(IntegratorKind::photon, 4);
   settings.photons = 20000;
-  settings.threads = 1;
-  const Picture one = picture(scene, settings);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    EXPECT_EQ(picture(scene, settings), one);
-  }
+  const Picture one = sameForAnyThreads(scene, settings);
   const World world = build(scene, settings);
   const auto integrator = integratorOf(world, settings);
   std::size_t photons = 0;
@@ -169,7 +141,7 @@ TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
 }
 
 TEST(Photons, APaneThatBendsNothingDoesNotCountTwice) {
-  Scene scene = room();
+  Scene scene = openRoom();
   scene.materials.push_back({"", ThinGlass{}, {}});
   scene.objects.push_back({"",
                            Square{},
@@ -182,7 +154,7 @@ TEST(Photons, APaneThatBendsNothingDoesNotCountTwice) {
 }
 
 TEST(Photons, WhatLiesUnderWaterIsAsBrightAsPathsShowIt) {
-  Scene scene = room();
+  Scene scene = openRoom();
   Phong water;
   water.transmissive = water.reflective = Color(1), water.index = 1.33;
   addObject(scene, Cube{}, Affine::translation({0, -0.5, 0}) * Affine::scaling({2.5, 0.6, 2.5}), water);
@@ -226,7 +198,7 @@ TEST(Photons, TheBlurOfManyMapsIsLess) {
 }
 
 TEST(Photons, EachSampleTakesTheNextMap) {
-  Scene scene = room();
+  Scene scene = openRoom();
   addObject(scene, Square{}, ceiling(0.5), diffuse(Color(0), 8));
   Settings settings = settingsOf(IntegratorKind::photon, 1);
   settings.photons = 5000;

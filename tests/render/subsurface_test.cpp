@@ -7,14 +7,12 @@
 #include "geometry/shapes/sphere.h"
 #include "render/explain.h"
 #include "support/half_space.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::subsurface_test {
 namespace {
 
 constexpr std::array kWays{Spreading::dipole, Spreading::diffusion, Spreading::walk};
-
-Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
 
 Settings small(IntegratorKind integrator, int spp) {
   Settings settings;

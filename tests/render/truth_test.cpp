@@ -7,18 +7,10 @@
 #include "geometry/shapes/square.h"
 #include "render/agreement.h"
 #include "scene/conventions.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace trace::test::truth_test {
 namespace {
-
-Phong diffuse(const Color& albedo, Real emissive = 0) {
-  Phong phong;
-  phong.diffuse = albedo, phong.emissive = Color(emissive);
-  return phong;
-}
-Affine turned(const Vec3& axis, Real angle) { return Affine::rotation(axis, angle * kPi); }
-Affine scaled(Real factor) { return Affine::scaling({factor, factor, factor}); }
 
 Settings settingsOf(IntegratorKind integrator, int spp, int width = 16) {
   Settings settings;

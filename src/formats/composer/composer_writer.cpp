@@ -154,7 +154,7 @@ class Writer {
     if (m.ktran > 0 && p.index != cf::kGlass) say(name, "ior=" + toText(p.index));
     return m;
   }
-  /// Of all of the picture.
+  /// The mean of the whole picture.
   static Color meanOf(ImageMap image) {
     image.filter = TexelFilter::trilinear;
     image.transform = ImageMap{}.transform;

@@ -236,8 +236,7 @@ struct GltfLooks::Reader {
   std::optional<ImageMap> pictureOf(const Info& info, std::optional<int>& set) {
     if (info.index < 0) return {};
     const auto& all = info.extensions;
-    const auto own =
-        wholeOf(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
+    const auto own = wholeOf(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
     const int image = imageOf(info.index);
     if (image < 0 || set.value_or(own) != own) {
       note(info.index);

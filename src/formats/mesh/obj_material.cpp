@@ -148,7 +148,8 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     if (!isBlack(phong->reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
   } else if (std::holds_alternative<RoughGlass>(material.model)) {
     put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
-    for (const std::string* other : {&mtl.sheen_texname, &mtl.specular_texname, &mtl.specular_highlight_texname})
+    for (const std::string* other :
+         {&mtl.sheen_texname, &mtl.specular_texname, &mtl.specular_highlight_texname})
       if (!other->empty()) pictures.unused(*other);
   } else {
     put("metallic", mtl.metallic_texname, mtl.metallic_texopt);

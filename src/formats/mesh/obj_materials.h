@@ -38,7 +38,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
   /// Reads the file of that name.
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string*, std::string*) override;
-  /// Of Model::materials; `number` is tinyobj's, below 0 where it knows none of that name.
+  /// An index into Model::materials; `number` is tinyobj's, below 0 where it knows none of that name.
   std::uint32_t numberOf(const std::string& name, int number);
   /// Warns of pictures that are not rendered and of materials that no file defines.
   void report();

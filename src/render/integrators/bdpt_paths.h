@@ -75,7 +75,7 @@ struct Bidirectional::Scattering {
   Sampler sampler;
 };
 
-/// Of a path from a light.
+/// A place of a path from a light.
 struct Bidirectional::LightPlace {
   /// On a surface, and in a medium.
   LightPlace(Tracer& tracer, const Ray& ray_, Interfaces inside_, const Hit& hit_, Real choice)

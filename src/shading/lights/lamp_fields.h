@@ -5,7 +5,7 @@
 
 namespace trace {
 
-/// Of 1 / (a + b d + c d^2), by which it fades (faded() in illumination.h).
+/// The fields of 1 / (a + b d + c d^2), by which a lamp fades (faded() in illumination.h).
 template <class L>
 constexpr auto fadingFields() {
   return Fields{Field{"constant_attenuation_coeff", &L::constant, "", 0, kNoLimit, "a"},
@@ -13,14 +13,14 @@ constexpr auto fadingFields() {
                 Field{"quadratic_attenuation_coeff", &L::quadratic, "", 0, kNoLimit, "c"}};
 }
 
-/// Of the ball that it is (towardBall() in illumination.h).
+/// The field of the ball that a lamp is (towardBall() in illumination.h).
 template <class L>
 constexpr auto ballField() {
   return Field{"radius", &L::radius, "units",
                0,        kNoLimit,   "of the ball that shines; more than 0 makes shadows soft"};
 }
 
-/// Of a lamp that shines to one side.
+/// The fields of a lamp that shines to one side.
 template <class L>
 constexpr auto beamFields(const char* whereTo) {
   return Fields{Field{"position", &L::position, "", -kNoLimit, kNoLimit, "where it is"},
