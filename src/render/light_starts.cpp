@@ -6,7 +6,9 @@
 #include "image/srgb.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
+#include "render/light_kinds.h"
 #include "render/parallel_light.h"
+#include "shading/lights/panel.h"
 #include "shading/scattering.h"
 
 namespace trace {
@@ -14,15 +16,6 @@ namespace {
 
 /// Branches of the sampler.
 constexpr std::uint32_t kChoice = 0, kPlace = 1, kDirection = 2, kHole = 3;
-
-template <class L>
-constexpr bool kIsPoint = requires(const L& l) {
-  l.position, l.radius;
-};
-template <class L>
-constexpr bool kIsPanel = requires(const L& l) {
-  l.twoSided;
-};
 
 Real solidAngle(Real cosine) { return 2 * kPi * (1 - cosine); }
 
@@ -40,7 +33,7 @@ struct Ball {
 };
 std::optional<Ball> ballOf(const Light& light) {
   return match(light, [](const auto& l) -> std::optional<Ball> {
-    if constexpr (kIsPoint<std::remove_cvref_t<decltype(l)>>)
+    if constexpr (PointOrBall<std::remove_cvref_t<decltype(l)>>)
       if (l.radius > 0) return Ball{l.position, l.radius};
     return {};
   });
@@ -59,7 +52,7 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     Source& source = lights_[i];
     match(world.lights()[i], [&](const auto& l) {
-      if constexpr (kIsPoint<std::remove_cvref_t<decltype(l)>>) {
+      if constexpr (PointOrBall<std::remove_cvref_t<decltype(l)>>) {
         const Vec3 way = middle_ - l.position;
         const Real away2 = dot(way, way), sine2 = radius_ * radius_ / away2;
         source.axis = away2 > 0 ? normalize(way) : Vec3{0, 0, 1};
@@ -106,10 +99,10 @@ Real LightStarts::powerOf(const World& world, std::size_t light) const {
     constexpr std::uint32_t kLooks = 64;
     const Rules& rules = world.rules();
     Real power = 0;
-    if constexpr (kIsPoint<Kind> || kIsPanel<Kind>) {
+    if constexpr (PointOrBall<Kind> || PanelLight<Kind>) {
       Vec3 axis{0, 0, 1};
       Real cosine = -1;
-      if constexpr (kIsPoint<Kind>) axis = lights_[light].axis, cosine = lights_[light].cosine;
+      if constexpr (PointOrBall<Kind>) axis = lights_[light].axis, cosine = lights_[light].cosine;
       const Real away = std::clamp(length(middle_ - l.position), radius_ / 2, 4 * radius_);
       for (std::uint32_t n = 0; n < kLooks; ++n) {
         const auto arriving = l.illuminate(l.position + toCone(sobolPoint(n, 0), axis, cosine) * away, rules);
@@ -163,16 +156,14 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   Real density = 0;  // of the direction, or of the place across parallel light
   match(world.lights()[light], [&](const auto& l) {
     using Kind = std::remove_cvref_t<decltype(l)>;
-    if constexpr (kIsPanel<Kind>) {
-      const Vec2 disk = toDisk(u);
-      const Vec2 at = l.round ? Vec2{disk.x / 2, disk.y / 2} : Vec2{u.x - 0.5, u.y - 0.5};
+    if constexpr (PanelLight<Kind>) {
       Vec3 normal = normalize(cross(l.u, l.v));
       const bool back = l.twoSided && sampler.branch(kChoice).branch(0).next() < 0.5;
       if (back) normal = -normal;
       const Vec3 local = cosineDirection(v);
-      start.ray = {l.position + l.u * at.x + l.v * at.y, Frame{normal}.basis().toWorld(local)};
+      start.ray = {placeOn(l, u), Frame{normal}.basis().toWorld(local)};
       density = cosineDensity(local) * (l.twoSided ? 0.5 : 1);
-    } else if constexpr (kIsPoint<Kind>) {
+    } else if constexpr (PointOrBall<Kind>) {
       if (l.radius > 0) {
         const Vec3 normal = sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y), local = cosineDirection(v);
         start.ray = {l.position + normal * l.radius, Frame{normal}.basis().toWorld(local)};
@@ -261,10 +252,10 @@ Real LightStarts::overAsked(const World& world, std::size_t light, const Illumin
   const Real away2 = arriving.distance * arriving.distance;
   return source.share * match(world.lights()[light], [&](const auto& l) -> Real {
            using Kind = std::remove_cvref_t<decltype(l)>;
-           if constexpr (kIsPanel<Kind>) {
+           if constexpr (PanelLight<Kind>) {
              const Real facing = std::abs(dot(arriving.toLight, normalize(cross(l.u, l.v))));
              return facing / (kPi * away2) * (l.twoSided ? 0.5 : 1);
-           } else if constexpr (kIsPoint<Kind>) {
+           } else if constexpr (PointOrBall<Kind>) {
              if (ball) return ball->angleFrom(at) / (ball->area() * kPi);
              return dot(-arriving.toLight, source.axis) >= source.cosine
                         ? 1 / (solidAngle(source.cosine) * away2)

@@ -2,6 +2,7 @@
 
 #include "math/warp.h"
 #include "render/interaction.h"
+#include "render/light_kinds.h"
 #include "render/parallel_light.h"
 #include "shading/lights/panel.h"
 
@@ -11,9 +12,10 @@ namespace {
 /// The place of a light that two numbers choose, as its illuminate() does; nothing of parallel light.
 std::optional<Vec3> startOnLight(const Light& light, const Vec2& u) {
   return match(light, [&](const auto& l) -> std::optional<Vec3> {
-    if constexpr (requires { l.twoSided; }) {
+    using Kind = std::remove_cvref_t<decltype(l)>;
+    if constexpr (PanelLight<Kind>) {
       return placeOn(l, u);
-    } else if constexpr (requires { l.radius; }) {
+    } else if constexpr (PointOrBall<Kind>) {
       return l.position + sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y) * l.radius;
     } else {
       return {};
