@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trace {
 
@@ -143,6 +144,17 @@ void Film::putCorners(std::int64_t tile, std::size_t level, TileSamples samples)
   corners_->put(static_cast<std::size_t>(tile), level, std::move(taken));
 }
 
+/// How often the pixels of a tile may be divided now: corners of theirs lie in the tiles on the right and
+/// above.
+template <class Waves>
+std::size_t Film::levelsOf(const Tile& area, const Waves& waves) const {
+  std::size_t levels = std::numeric_limits<std::size_t>::max();
+  for (const int y : {area.y0, std::max(0, area.y0 - 1)})
+    for (const int x : {area.x0, std::min(area.x1, width_ - 1)})
+      levels = std::min(levels, waves(corners_->tileOf(x, y)));
+  return levels;
+}
+
 template <class Use>
 void Film::forEachDivided(const Use& use) const {
   std::vector<std::size_t> there(static_cast<std::size_t>(tiles()));
@@ -153,14 +165,27 @@ void Film::forEachDivided(const Use& use) const {
   for (std::size_t i = 0; i < there.size(); ++i) {
     if (there[i] == 0) continue;
     const Tile area = tile(static_cast<std::int64_t>(i));
-    std::size_t levels = there[i];  // corners of this tile's pixels lie in those on the right and above
-    for (const int y : {area.y0, std::max(0, area.y0 - 1)})
-      for (const int x : {area.x0, std::min(area.x1, width_ - 1)})
-        levels = std::min(levels, there[corners_->tileOf(x, y)]);
+    const std::size_t levels = levelsOf(area, [&](std::size_t tile) { return there[tile]; });
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
         if (corners_->level(i, 0).has(x, y)) use(x, y, static_cast<int>(levels));
   }
+}
+
+Color Film::ofCorners(int x, int y, int levels) const {
+  const auto colors = corners_->of(x, y);
+  return levels > 0 ? meanOver(corners_->rules(), levels - 1, colors, colors) : colors(Corner{});
+}
+
+Color Film::ofSamples(int x, int y) const {
+  if (!corners_) return pixels_[index(x, y)].mean();
+  const auto waves = [&](std::size_t tile) {
+    const std::lock_guard lock(states_[tile].mutex);
+    return static_cast<std::size_t>(states_[tile].waves);
+  };
+  const std::size_t own = corners_->tileOf(x, y);
+  if (waves(own) == 0 || !corners_->level(own, 0).has(x, y)) return Color(0);
+  return ofCorners(x, y, static_cast<int>(levelsOf(tile(static_cast<std::int64_t>(own)), waves)));
 }
 
 Picture Film::picture() const {
@@ -172,10 +197,7 @@ Picture Film::picture() const {
 void Film::copyDone(Picture& onto) const {
   const auto splats = lockSplats();
   if (corners_) {
-    forEachDivided([&](int x, int y, int levels) {
-      const auto colors = corners_->of(x, y);
-      onto.at(x, y) = levels > 0 ? meanOver(corners_->rules(), levels - 1, colors, colors) : colors(Corner{});
-    });
+    forEachDivided([&](int x, int y, int levels) { onto.at(x, y) = ofCorners(x, y, levels); });
     return;
   }
   const bool anywhere = splats_ && splats_->paths() > 0;

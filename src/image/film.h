@@ -197,7 +197,7 @@ class Film {
   bool complete() const;
 
   /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
-  Color ofSamples(int x, int y) const { return corners_ ? picture().at(x, y) : pixels_[index(x, y)].mean(); }
+  Color ofSamples(int x, int y) const;
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
   /// The same of a layer, blank elsewhere.
@@ -240,6 +240,9 @@ class Film {
   /// there, in this tile and around it. 0: the pixel has nothing but the corners that it is the home of.
   template <class Use>
   void forEachDivided(const Use& use) const;
+  template <class Waves>
+  std::size_t levelsOf(const Tile& area, const Waves& waves) const;
+  Color ofCorners(int x, int y, int levels) const;
   /// Nobody adds splats while this lives. To be locked before a tile.
   std::unique_lock<std::mutex> lockSplats() const {
     return splats_ ? std::unique_lock(splats_->mutex) : std::unique_lock<std::mutex>();

@@ -87,7 +87,7 @@ std::vector<std::string> valuesOf(const Option& option) {
     case Option::Kind::boolean: return {"on", "off"};
     case Option::Kind::choice: return {option.choices.begin(), option.choices.end()};
     case Option::Kind::integer:
-      return {std::to_string(static_cast<int>(std::clamp(4.0, option.least, option.most)))};
+      return {std::to_string(static_cast<int>(std::clamp(3.0, option.least, option.most)))};
     case Option::Kind::real: return {std::to_string(std::clamp(0.25, option.least, option.most))};
     case Option::Kind::choices:
       return {std::string(option.choices.front()), std::string(option.choices.back())};
