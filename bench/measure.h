@@ -48,7 +48,7 @@ struct Plan {
   std::string embree{};  ///< configuration of its device
 };
 
-/// Of the mesh resized to about so many triangles, if not 0.
+/// Measures the mesh, resized to about so many triangles if that is not 0.
 MeshReport measure(const std::string& path, const Plan& plan, std::size_t triangles = 0);
 
 }  // namespace trace::bench

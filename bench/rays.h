@@ -27,7 +27,7 @@ struct BenchRay {
 };
 
 struct Answer {
-  float t = std::numeric_limits<float>::infinity();  ///< infinite: nothing was hit. Of any-hit rays 0 or that
+  float t = std::numeric_limits<float>::infinity();  ///< infinite: nothing was hit. 0 or infinite for any hit
   std::uint32_t triangle = 0;
   bool hit() const { return t < std::numeric_limits<float>::infinity(); }
 };

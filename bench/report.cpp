@@ -53,7 +53,7 @@ nlohmann::ordered_json toJson(const Samples& samples) {
 }
 
 double ratio(const PerKernel<Samples>& samples) { return samples[world].median() / samples[embree].median(); }
-/// Of the passes that whatever else the machine does disturbed least.
+/// The ratio of each side's best pass, which other work of the machine disturbed least.
 double bestRatio(const PerKernel<Samples>& samples) {
   return samples[world].largest() / samples[embree].largest();
 }

@@ -11,9 +11,9 @@ inline double seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Of this thread: for kernels.
+/// The CPU time of this thread: for kernels.
 inline double threadSeconds() { return seconds(CLOCK_THREAD_CPUTIME_ID); }
-/// Of all threads together: for builds, so that work handed to other threads is counted.
+/// The CPU time of all threads together: for builds, so that work handed to other threads is counted.
 inline double processSeconds() { return seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace trace::bench

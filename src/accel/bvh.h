@@ -43,7 +43,7 @@ class Bvh {
 
   /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
   /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes`, a NodeCount
-  /// or a NodeWatch, hears of the nodes visited. Of trees with single items only; items that are tested
+  /// or a NodeWatch, hears of the nodes visited. For trees with single items only; items that are tested
   /// together have a way of their own (geometry/mesh/mesh_kernel.h). The item `skip` is left out.
   template <class Nodes, class Visit>
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, Nodes& nodes,

@@ -1,4 +1,4 @@
-// A thread for answers that a window must not wait for. Of several jobs only the newest waits: a window asks
+// A thread for answers that a window must not wait for. Only the newest of several jobs waits: a window asks
 // again whenever the mouse moves, and wants the last answer. Jobs that write files are all done instead, one
 // after the other, also when the task goes.
 #pragma once

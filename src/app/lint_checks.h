@@ -53,30 +53,30 @@ inline std::map<std::uint32_t, int>::const_iterator mostOf(const std::map<std::u
 bool isOfArea(const Message& message);
 bool isOfGlass(const Message& message);
 
-// Of meshes (lint_meshes.cpp).
+// Meshes (lint_meshes.cpp).
 void insideOut(const LintScene& s, Findings& findings);
 void turnedFaces(const LintScene& s, Findings& findings);
 void normalsAgainstFaces(const LintScene& s, Findings& findings);
 void zeroArea(const LintScene& s, Findings& findings);
 void coplanarFaces(const LintScene& s, Findings& findings);
-// Of materials (lint_materials.cpp).
+// Materials (lint_materials.cpp).
 void unusedMaterial(const LintScene& s, Findings& findings);
 void inheritedGlass(const LintScene& s, Findings& findings);
 void indexBelowOne(const LintScene& s, Findings& findings);
 void depthTooLow(const LintScene& s, Findings& findings);
 void noMaterial(const LintScene& s, Findings& findings);
 
-// Of lights (lint_lights.cpp).
+// Lights (lint_lights.cpp).
 void lightInside(const LintScene& s, Findings& findings);
 void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
 void lightCut(const LintScene& s, Findings& findings);
 void lightLink(const LintScene& s, Findings& findings);
-// Of light that is not there (lint_unlit.cpp).
+// Light that is not there (lint_unlit.cpp).
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
-// Of the camera (lint_camera.cpp).
+// The camera (lint_camera.cpp).
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
@@ -86,7 +86,7 @@ void lightReachesNothing(const LintScene& s, Findings& findings);
 /// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
-// Of media and bodies in which light spreads (lint_media.cpp).
+// Media, and bodies in which light spreads (lint_media.cpp).
 void mediumUnseen(const LintScene& s, Findings& findings);
 void mediumEmpty(const LintScene& s, Findings& findings);
 void subsurfaceOpen(const LintScene& s, Findings& findings);

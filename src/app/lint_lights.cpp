@@ -17,7 +17,7 @@ namespace {
 
 constexpr Real kHalfALevel = 0.5 / 255;
 
-/// Of a lamp; null for panels and for what is far away.
+/// Where a lamp stands; null for panels and for what is far away.
 const Vec3* positionOf(const Light& light) {
   return match(light, [](const auto& l) -> const Vec3* {
     if constexpr (requires { l.radius; }) return &l.position;

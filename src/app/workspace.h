@@ -2,7 +2,7 @@
 // the log, files opened lately. The window calls update() for every frame and draws what it finds here.
 //
 // Whatever reads or writes a file returns at once and is done in the background; update() takes what came of
-// it. Errors go to the log. Of files to open, moments of the scene and references the last one asked for
+// it. Errors go to the log. The last file to open, moment of the scene and reference asked for
 // counts; what is saved is saved in turn, also when the Workspace goes.
 #pragma once
 

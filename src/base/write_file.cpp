@@ -127,7 +127,8 @@ bool isOurs(std::string_view name) {
 /// Takes the lock that says: a process is writing this. False if another one has it.
 bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
-/// Removes what processes that died have left in the folder. Who holds the lock of a file is alive.
+/// Removes what processes that died have left in the folder. The process that holds the lock of a file is
+/// alive.
 void removeLeftovers(const std::string& folder) {
   DIR* const all = ::opendir(folder.c_str());
   if (!all) return;

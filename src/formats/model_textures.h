@@ -16,7 +16,7 @@ namespace trace {
 ImageMap modelPicture(Pixels pixels);
 ImageMap modelPicture(std::string file, Place place = {});
 
-/// What the head of a picture file tells. Of what cannot be read, or of a format whose head tells nothing,
+/// What the head of a picture file tells. A file that cannot be read, or whose head tells nothing, is
 /// `colored` and not `transparent`.
 struct PictureKind {
   bool colored = true;       ///< false: greys only

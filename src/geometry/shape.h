@@ -1,7 +1,7 @@
 // A shape of whatever type: a row of the table of shapes and constant data that copies share.
 //
-// Any struct of the list (shape_list.h) becomes a Shape; as<Sphere>() gives it back. Who loops over types or
-// fields asks the table, so that no one but the table sees all the structs.
+// Any struct of the list (shape_list.h) becomes a Shape; as<Sphere>() gives it back. Code that loops over
+// types or fields asks the table, so that only the table sees all the structs.
 #pragma once
 
 #include <atomic>

@@ -74,7 +74,7 @@ class MemoryInput : public Imf::IStream {
   uint64_t place_ = 0;
 };
 
-/// The header alone, before OpenEXR allocates what it asks for. Of several parts, the first.
+/// The header alone, before OpenEXR allocates what it asks for. Only the first of several parts counts.
 Imf::Header headerOf(std::string_view bytes) {
   MemoryInput input(bytes);
   char start[kExrMagicAndVersion];

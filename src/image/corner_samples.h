@@ -27,7 +27,7 @@ class CornerSamples {
     bool has(int x, int y) const { return x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1; }
   };
 
-  /// Of a picture in tiles of that size, of which a row has `columns`.
+  /// For a picture in tiles of that size, `columns` in a row.
   CornerSamples(const Subdivision& rules, int tileSize, int columns, std::size_t tiles)
       : rules_(rules), tileSize_(tileSize), columns_(columns), levels_(tiles) {
     clear();
@@ -48,7 +48,7 @@ class CornerSamples {
 
   /// What the corner sees: the colour, or what a layer keeps of it. It has to be there.
   const Color& at(CornerPlace place, std::size_t value = 0) const;
-  /// Whose corners are those of the pixel, for divide().
+  /// The corners of the pixel, for divide().
   auto of(int x, int y, std::size_t value = 0) const {
     return [this, x, y, value](Corner corner) -> const Color& { return at({x, y, corner}, value); };
   }

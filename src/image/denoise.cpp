@@ -100,7 +100,7 @@ struct Feature {
       }
   }
 
-  /// Of two pixels, against the tolerance of the first.
+  /// How far two pixels are apart, in tolerances of the first.
   float apart(int x, int y, int u, int v) const {
     float sum = 0;
     for (int c = 0; c < channels; ++c) {

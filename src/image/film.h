@@ -162,7 +162,7 @@ class Film {
   /// From now on halves() are kept. Before anything is added.
   void keepHalves() { first_.resize(pixels_.size()); }
   bool keepsHalves() const { return !first_.empty(); }
-  /// Of what is there. From any thread while others add.
+  /// The halves of what is there. From any thread while others add.
   Halves halves() const;
 
   int width() const { return width_; }
@@ -206,7 +206,7 @@ class Film {
   Picture sampleCounts() const;
   /// PixelSum::error() of each pixel with two samples or more, 0 elsewhere. From any thread.
   Picture errors() const;
-  /// Of the pixels that have samples. From any thread.
+  /// How far the pixels that have samples have converged. From any thread.
   Convergence convergence() const;
   /// Puts what is there so far over a picture of the same size. From any thread.
   void copyDone(Picture& onto) const;

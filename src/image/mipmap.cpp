@@ -72,7 +72,7 @@ Real nearby(Real x, Real n, Wrap wrap) {
   return std::clamp(x, -kFar, kFar);
 }
 
-/// Reads the texels of a level. Of what does not change from texel to texel there is one for each case.
+/// Reads the texels of a level. It is compiled for each case of what does not change from texel to texel.
 template <class T, int kChannels, bool kDecodes>
 struct Texels {
   const T* samples;

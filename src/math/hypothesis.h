@@ -1,5 +1,5 @@
 // Tests of hypotheses, by which pictures that chance made are compared: a p-value is the chance of what was
-// found, or of more, if there were no difference. Of many such values all are equally likely.
+// found, or of more, if there were no difference. Then all such values are equally likely.
 #pragma once
 
 #include <span>

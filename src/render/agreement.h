@@ -16,7 +16,7 @@ struct Agreement {
   double error = 0;             ///< standard error of the difference of these
 };
 
-/// Of so many pictures of the scene by each of the settings; tiles have that many pixels a side.
+/// Compares so many pictures of the scene by each of the settings; tiles have that many pixels a side.
 Agreement agreement(const Scene& scene, const Settings& a, const Settings& b, int seeds, int tile);
 
 }  // namespace trace

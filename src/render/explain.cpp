@@ -15,7 +15,7 @@ void require(bool good, const std::string& what, int most, const std::string& fo
     throw Error(Fault::usage, "expected " + what + " from 0 to " + std::to_string(most) + ", found " + found);
 }
 
-/// Of a pixel that is divided: its corners take the place of samples.
+/// Explains a pixel that is divided: its corners take the place of samples.
 Explanation explainDivided(std::span<const Moment> moments, const Settings& settings, const Size& size, int x,
                            int y, int sample, const std::function<bool()>& cancelled) {
   const Subdivision rules = subdivisionOf(settings, size);

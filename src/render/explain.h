@@ -20,7 +20,7 @@ struct Explanation {
   Color pixel;                ///< their weighted mean, of those that count: the picture's, bit for bit
 };
 
-/// Of sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
+/// Explains sample `sample` of the pixel (x, y), y = 0 at the top. The picture's size must be pictureSize().
 /// Throws Error(Fault::usage) for a pixel or sample that the picture does not have, such as one after the
 /// pixel settled, Error(Fault::limit) for one with more than kMostRecordedRays rays. `cancelled`, if any, is
 /// asked after every sample; once it is true what has been found so far is returned.

@@ -20,15 +20,15 @@ class Footprint {
   std::optional<Differentials> of_;
 };
 
-/// Of the ray where it has met the surface.
+/// The footprint of the ray where it has met the surface.
 Footprint arrivedAt(const Hit& hit, const Differentials& ray, const Vec3& direction);
 
-/// Of the ray that is mirrored where one has arrived, at the unit normal for shading, on either side. None if
-/// that has none.
+/// The footprint of the ray that is mirrored where one has arrived, at the unit normal for shading, on either
+/// side. None if that has none.
 Footprint mirroredAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
                      const Vec3& normal);
 
-/// Of the ray refracted from `direction` to `out`; `ratio` = index before / index behind.
+/// The footprint of the ray refracted from `direction` to `out`; `ratio` = index before / index behind.
 Footprint refractedAt(const World& world, const Hit& hit, const Differentials* arrived, const Vec3& direction,
                       const Vec3& out, const Vec3& normal, Real ratio);
 

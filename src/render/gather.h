@@ -11,7 +11,7 @@ namespace trace {
 
 class Gather {
  public:
-  /// Of the ray cast last. Rays that are cast while this lives are its children.
+  /// Gathers for the ray cast last. Rays that are cast while this lives are its children.
   Gather(Tracer& tracer, int depth) : tracer_(tracer), node_(tracer.enter()) {
     tracer.statistics().depths += static_cast<std::uint64_t>(depth);
   }

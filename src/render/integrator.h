@@ -67,7 +67,7 @@ struct IntegratorRow {
 std::span<const IntegratorRow> integrators();
 const IntegratorRow& rowOf(const Settings& settings);
 
-/// That of the settings, prepared.
+/// The integrator of the settings, prepared.
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job);
 
 }  // namespace trace

@@ -15,9 +15,9 @@ namespace trace {
 
 class Interaction {
  public:
-  /// Of a ray that met `hit`; `inside` is what it was in there. `footprint` is that of the ray at the hit, if
-  /// textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here. What is
-  /// passed must live longer.
+  /// For a ray that met `hit`; `inside` is what it was in there. `footprint` is that of the ray at the hit,
+  /// if textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here. What
+  /// is passed must live longer.
   Interaction(Tracer& tracer, const Ray& ray, const Hit& hit, const Differentials* footprint,
               const Interfaces& inside, Real spread);
   Interaction(const Interaction&) = delete;

@@ -69,19 +69,19 @@ class Interfaces {
   const Filling& around() const { return around_; }
   /// What of light passes along so much of it: Beer's law.
   Color passed(Real t) const { return around_.passes == Color(1) ? Color(1) : pow(around_.passes, t); }
-  /// Of light of one wavelength, in nanometres; 0 for light of all colours.
+  /// The wavelength of the light, in nanometres; 0 for light of all colours.
   Real wavelength = 0;
 
   /// The two sides of the surface of a body, which the ray leaves or enters. `encloses`: the body is solid.
   Sides at(bool leaving, const Filling& body, bool encloses) const;
   /// What the ray runs in behind that surface.
   void pass(bool leaving, const Filling& body, bool encloses);
-  /// The ray starts inside the body. Of several, the outer ones come first.
+  /// The ray starts inside the body. Outer bodies come before inner ones.
   void startInside(const Filling& body) { pass(false, body, true); }
 
  private:
   Filling air() const;
-  /// Of the bodies but one number, which may be beyond them.
+  /// The body that fills the place, leaving out one number, which may be beyond them.
   Filling winner(std::size_t without) const;
   /// The number of the body in the list; its size if it is not there.
   std::size_t find(const Filling& body) const;

@@ -86,14 +86,14 @@ class Lamps {
     Vec3 edgeA, edgeB;  ///< from the corner
     Real size;          ///< the area, or the radius
     Real share;         ///< of all choices, where they are few
-    /// Of the direction to `at`, which lies on it, if the part is chosen.
+    /// The density of the direction to `at`, which lies on the part, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
     /// Per area and side, of all choices.
     Real perArea() const;
     LightReach reach(Real power) const;
   };
   void add(const Part& part, const Color& emissive);
-  /// That of the number from 0 up to 1.
+  /// The part that a number from 0 up to 1 chooses.
   std::size_t partOf(Real which) const;
   /// Where two numbers from 0 up to 1 lie on a flat part.
   static Vec3 placeOn(const Part& part, const Vec2& u);

@@ -61,7 +61,7 @@ class LightStarts {
   Real ofSky(const Vec3& at, const Vec3& toLight) const;
 
  private:
-  /// Of a light of the world, how its starts are spread.
+  /// How the starts of a light of the world are spread.
   struct Source {
     Real share = 0;  ///< of all starts
     Vec3 axis;       ///< of a point: directions lie in a cone

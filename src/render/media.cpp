@@ -118,7 +118,7 @@ class Walk {
       sum.scatters += m.scatters;
       sum.absorbs += m.absorbs;
       sum.glows += m.glows;
-      // Of several that scatter one is chosen, to say which way.
+      // One of several that scatter is chosen, to say which way.
       const Real part = mean(m.scatters);
       all += part;
       if (part > 0 && (part == all || numbers_.next() * all < part)) {

@@ -41,8 +41,9 @@ struct MediumWay {
   std::vector<Place> places;
 };
 
-/// Of the ray up to t, which may be infinite, in `inside`. So many places are chosen; of light to lamps none
-/// are wanted. `importance` says how much each colour counts. What is in the air counts only with `fog`.
+/// Follows the ray through the media of `inside` up to t, which may be infinite. So many places are chosen;
+/// light to lamps wants none. `importance` says how much each colour counts. What is in the air counts only
+/// with `fog`.
 MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside, int places,
                        const Color& importance, Sampler numbers, bool fog = true);
 

@@ -39,7 +39,7 @@ class Metropolis {
   static std::uint64_t numberOf(std::int64_t tile, int firstSample);
 
   /// Looks for light: takes Settings::chainStarts samples. `interrupt` is asked meanwhile, and may throw
-  /// GivenUp. Of a job that was cancelled the chains are empty. The moments must outlive it.
+  /// GivenUp. A cancelled job leaves no chains. The moments must outlive it.
   Metropolis(std::span<const Moment> moments, const Settings& settings, const Size& size, Job& job,
              const std::function<void()>& interrupt);
 

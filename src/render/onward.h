@@ -33,8 +33,8 @@ class Onward {
     Real ratio = 1;    ///< of the indices before and behind
     Interfaces there;
   };
-  /// Of a path from the camera, or of one `fromLight`, which carries light itself; `lit`: light that
-  /// Whitted's equation knows.
+  /// Chooses where a path from the camera goes on, or one `fromLight`, which carries light itself; `lit`:
+  /// light that Whitted's equation knows.
   std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
   /// It was the choice of a refracted ray that is totally reflected.
   bool totallyReflected(Real choice) const;

@@ -27,8 +27,9 @@ class Outside {
   /// What one ray sees.
   struct View {
     Source source = Source::nothing;
-    /// Of an environment in its picture, (0, 0) at the top left of it or of the face; of a backdrop and bands
-    /// in the picture that is rendered, from the top left; of the rest the elevation in degrees, as y.
+    /// An environment: the place in its picture, (0, 0) at the top left of it or of the face. A backdrop or
+    /// bands: the place in the picture that is rendered, from the top left. The rest: the elevation in
+    /// degrees, as y.
     Vec2 place;
     int face = -1;  ///< of a cube: index into EnvironmentMap::kFaceNames
     Vec3 direction;

@@ -27,7 +27,7 @@ struct PassRow {
   Color background;  ///< where a ray meets nothing that the camera sees, and where nothing is rendered
   Color tooNear;     ///< where it meets something nearer than the camera sees
 
-  /// Of the surface that a camera ray meets. A pass of one number has it in all three channels.
+  /// The value at the surface that a camera ray meets. A pass of one number has it in all three channels.
   /// Null: the pass is made of the finished picture, and is no layer.
   Color (*value)(const PassPlace&);
   /// The pass for the eye: values from 0 to 1 from raw ones.

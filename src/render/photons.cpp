@@ -83,10 +83,11 @@ LandedPhotons landedPhotons(const World& world, const Settings& settings, const 
   return all;
 }
 
-/// Of photons by which whole pictures are made (Jensen 2001, section 7.3: the sphere compressed to a disk).
+/// How flat the region of an estimate is where whole pictures are made of photons (Jensen 2001, section 7.3:
+/// the sphere compressed to a disk).
 constexpr Real kFlatness = 10;
 
-/// Of the estimates of a pass; the fewest that an unbiased estimate takes are 2.
+/// How many photons the estimates of a pass take; the fewest that an unbiased estimate takes are 2.
 std::size_t nearestOfPass(int pass) {
   constexpr std::size_t kFewest = 2;
   const Real count = areaOfPass(pass) * static_cast<Real>(PhotonMap::kNearest);

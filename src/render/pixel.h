@@ -60,8 +60,8 @@ class PixelTracer {
     withCamera(sampler, rules_.middle(x, y), sampler.film(),
                [&](const CameraRay& camera) { look(camera, sampler); });
   }
-  /// Of a sample with these numbers, which choose its place in the area of the picture, too: what it brings,
-  /// times what it counts, and where.
+  /// What a sample with these numbers brings, times what it counts, and where. The numbers choose its place
+  /// in the area of the picture, too.
   Splat sample(SampleNumbers& numbers, const Tile& area) {
     const Sampler sampler(rules_, numbers);
     const auto split = [](Real u, int first, int end) {  // into a pixel and a place in it
@@ -78,9 +78,9 @@ class PixelTracer {
     });
   }
 
-  /// Of the moment of the last sample.
+  /// The tracer of the moment of the last sample.
   Tracer& tracer() { return tracers_[now_]; }
-  /// Of all samples.
+  /// The statistics of all samples.
   Statistics statistics() const {
     Statistics sum;
     for (const Tracer& tracer : tracers_) sum += tracer.statistics();

@@ -14,7 +14,7 @@ namespace trace {
 enum class RayKind { camera, reflection, refraction, bounce, lamp, light, shadow };
 inline constexpr std::size_t kRayKinds = 7;
 
-/// A kind of ray as it is shown. Of shadow rays those that are blocked look different.
+/// A kind of ray as it is shown. Shadow rays that are blocked look different.
 enum class RayLooks { camera, reflection, refraction, bounce, lamp, light, shadowLit, shadowBlocked };
 
 struct RayLook {

@@ -40,7 +40,7 @@ std::vector<MaterialShare> sharesOf(const MaterialMix& mix);
 struct LeftScene {
   static constexpr std::string_view kName = "left-scene";
 };
-/// Of a camera ray: met something where the camera does not see: the background.
+/// A camera ray met something where the camera does not see; it shows the background.
 struct CutOff {
   static constexpr std::string_view kName = "cut-off";
   std::uint32_t object;
@@ -80,7 +80,7 @@ struct Roulette {
 struct TotalInternalReflection {
   static constexpr std::string_view kName = "total-internal-reflection";
 };
-/// Of a shadow ray.
+/// A shadow ray met something that lets no light through.
 struct Blocked {
   static constexpr std::string_view kName = "blocked";
   std::uint32_t object;  ///< the nearest that lets nothing through
@@ -88,7 +88,7 @@ struct Blocked {
   Real t;
   std::vector<MaterialShare> materials;  ///< there
 };
-/// Of a shadow ray.
+/// A shadow ray reached its light.
 struct ReachedLight {
   static constexpr std::string_view kName = "reached-light";
 };

@@ -35,15 +35,15 @@ struct Moment;
 struct Size {
   int width = 0, height = 0;
 };
-/// Of the picture: height 0 in the settings becomes floor(width / aspect ratio + 0.5), at least 1.
+/// The size of the picture: height 0 in the settings becomes floor(width / aspect ratio + 0.5), at least 1.
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
 
 /// The part of the picture that is rendered.
 Tile areaOf(const Region& region, const Size& size);
 
-/// How many samples a pixel has: spp, or the next square number, as the generator has it. Of divided pixels
-/// the most that are one pixel's own.
+/// How many samples a pixel has: spp, or the next square number, as the generator has it. For divided pixels
+/// it is the most that are one pixel's own.
 int samplesOf(const Settings& settings);
 
 /// Pixels are divided where their corners differ, instead of having samples of their own.

@@ -113,17 +113,17 @@ class SampleNumbers {
 
 class Sampler {
  public:
-  /// Of sample 0 <= k < rules.samples(); the rules must outlive it.
+  /// For sample 0 <= k < rules.samples(); the rules must outlive it.
   Sampler(const SampleRules& rules, int x, int y, int k)
       : rules_(&rules), x_(x), y_(y), k_(k), branch_(mixBits(rules.seed())) {
     const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
     pixel_ = mixBits(bits(x) << 32 | bits(y));
   }
 
-  /// Of a sample whose numbers these are; they must outlive it, too.
+  /// For a sample whose numbers these are; they must outlive it, too.
   Sampler(const SampleRules& rules, SampleNumbers& numbers) : Sampler(rules, 0, 0, 0) { numbers_ = &numbers; }
 
-  /// Of a corner, whatever pixel it is said to be of: the numbers of the pixel whose lower left part it is
+  /// For a corner, whatever pixel it is said to be of: the numbers of the pixel whose lower left part it is
   /// in, so that the first samples of a generator are the corners of the larger squares.
   Sampler(const SampleRules& rules, const CornerPlace& place);
 

@@ -25,8 +25,8 @@ struct Entrance {
   BodyTerm how;
 };
 
-/// Of the light that goes to the eye of `at`, whose body that is. `importance` says how much each colour
-/// counts. Nothing where no way was found. The place is the one that the Tracer has met last.
+/// Where the light went in that goes to the eye of `at`, whose body that is. `importance` says how much each
+/// colour counts. Nothing where no way was found. The place is the one that the Tracer has met last.
 std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
                                  Sampler numbers);
 

@@ -13,7 +13,8 @@
 namespace trace {
 
 struct VisitedBox {
-  /// Whose triangles the box holds, as an index into Scene::objects; NodeWatch::kTop: whole objects.
+  /// The object whose triangles the box holds, as an index into Scene::objects; NodeWatch::kTop: whole
+  /// objects.
   std::uint32_t object = NodeWatch::kTop;
   /// In world space; bits 0, 1 and 2 of the index say whether x, y and z of the object's space are high.
   std::array<Vec3, 8> corners;

@@ -229,10 +229,10 @@ class World {
   const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
-  /// Of an object that is a mesh; null for others and for what is left out.
+  /// The tree of an object that is a mesh; null for others and for what is left out.
   const MeshTree* meshTree(std::uint32_t object) const { return objects_[object].mesh.get(); }
   std::size_t triangleCount() const;
-  /// Of the hierarchies, without the meshes' own arrays.
+  /// The size of the hierarchies, without the meshes' own arrays.
   std::size_t bytes() const;
 
  private:
@@ -324,7 +324,7 @@ class World {
     Real opacity = 1;                          ///< where it has no texture
     bool hasHoles = false;                     ///< some of it may not be there
   };
-  /// Of one of the scene's materials, or of MaterialMix::kClear.
+  /// The BSDF of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
     return material == MaterialMix::kClear ? clear() : surfaces_[material].bsdf;
   }

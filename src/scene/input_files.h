@@ -27,7 +27,7 @@ class InputFiles {
   void note(const InputFiles& part);
 
   const std::vector<InputFile>& all() const { return files_; }
-  /// Sixteen digits for everything that was read: the same for the same bytes. Of one file alone they follow
+  /// Sixteen digits for everything that was read: the same for the same bytes. For one file alone they follow
   /// from its bytes; "" if nothing was read.
   std::string fingerprint() const;
 

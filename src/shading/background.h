@@ -63,7 +63,7 @@ struct Background {
   std::array<const Pixels*, 6> faces() const { return {&right, &left, &top, &bottom, &back, &front}; }
   bool operator==(const Background&) const = default;
 
-  /// Of the bands, at a share of the picture's height from the top.
+  /// The colour of the bands at a share of the picture's height from the top.
   Color at(Real fromTop) const {
     if (colors.empty()) return Color(0);
     const auto last = static_cast<Real>(colors.size() - 1);
@@ -74,8 +74,8 @@ struct Background {
     return colors[static_cast<std::size_t>(band > 0 ? std::min(band, last) : 0)];
   }
 
-  /// Of the gradient, at an elevation in degrees. Precondition: there is a gradient, with as many elevations
-  /// as colours or none.
+  /// The gradient's colour at an elevation in degrees. Precondition: there is a gradient, with as many
+  /// elevations as colours or none.
   Color gradientAt(Real elevation) const {
     const auto last = static_cast<Real>(gradient.size() - 1);
     Real place = (elevation + 90) / 180 * last;

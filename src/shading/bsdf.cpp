@@ -106,7 +106,7 @@ WhittedTerms weighedTerms(const MixedParts& parts) {
   return terms;
 }
 
-/// Of one model that says its values.
+/// The mix of three materials of one model that says its values.
 template <class Model>
 requires requires { typename Model::Said; }
 Bsdf mixOf(const Model& a, const Model& b, const Model& c, const Real (&weight)[3]) {

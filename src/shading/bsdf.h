@@ -41,7 +41,7 @@ struct BsdfVariant<std::variant<Model...>> {
 using Bsdf = BsdfVariant<VariantOf<MaterialModel>>::Type;
 
 Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
-/// Of a place on the material, with its textures.
+/// The BSDF at a place on the material, with its textures.
 Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& rules);
 
 inline const WhittedTerms& whitted(const Bsdf& bsdf) {
@@ -56,8 +56,8 @@ inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight
   return scatterOfOthers(bsdf, frame, toLight, toEye);
 }
 
-/// The weight of the mirrored ray, of which and the normal `cosine` is. Of a surface that is not smooth it
-/// stands, where an integrator sends no ray into the lobe around it, for the core of that lobe.
+/// The weight of the mirrored ray at that `cosine` to the normal. On a surface that is not smooth this ray
+/// stands for the core of the lobe around it, where an integrator sends no ray into that lobe.
 Color mirrorWeightOfOthers(const Bsdf& bsdf, Real cosine);
 inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->mirrorWeight(cosine);
@@ -76,7 +76,7 @@ Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Ve
 /// A direction chosen by three numbers from 0 to 1. Nothing where nothing is scattered to the eye.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
                                  Transport transport = Transport::radiance);
-/// Of that choice, per solid angle.
+/// The density of that choice, per solid angle.
 Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
 
 /// Lamps can be seen on it.

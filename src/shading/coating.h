@@ -47,7 +47,7 @@ struct Coating {
     if (!(film.nanometres > 0)) return schlick(cosine, alongNormal);
     return lerp(filmed, schlick(cosine, Color(mirroredAlongNormal(film.behind))), film.mirrored(cosine));
   }
-  /// The share of light that goes to `v`, or comes from there, and is mirrored. Of rough films nearly.
+  /// The share of light that goes to `v`, or comes from there, and is mirrored; nearly, for rough films.
   Color albedo(const Vec3& v) const {
     if (film.nanometres > 0) {
       const Real once = smooth ? 1 : lobe.white(v);

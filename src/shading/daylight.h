@@ -23,7 +23,7 @@ class Daylight {
   Daylight(Real turbidity, const Vec3& sun);
 
   const ColorXyY& zenith() const { return zenith_; }
-  /// Of a direction of length 1; of one below the horizon what is on the horizon above it.
+  /// The colour in a direction of length 1; below the horizon, that of the horizon above it.
   ColorXyY at(const Vec3& direction) const;
 
  private:

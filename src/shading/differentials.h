@@ -12,7 +12,8 @@ struct Differentials {
   Vec3 directionX, directionY;  ///< of its unit direction
 };
 
-/// Of a ray of unit `direction` where it meets a plane of unit `normal` at distance t (10, 12).
+/// The differentials of a ray of unit `direction` where it meets a plane of unit `normal` at distance t (10,
+/// 12).
 inline Differentials arrived(const Differentials& d, const Vec3& direction, Real t, const Vec3& normal) {
   const Real against = dot(direction, normal);
   const auto place = [&](const Vec3& origin, const Vec3& turn) {
@@ -22,7 +23,7 @@ inline Differentials arrived(const Differentials& d, const Vec3& direction, Real
   return {place(d.originX, d.directionX), place(d.originY, d.directionY), d.directionX, d.directionY};
 }
 
-/// Of the ray mirrored at a unit `normal`, which changes by normalX and normalY (14, 15).
+/// The differentials of the ray mirrored at a unit `normal`, which changes by normalX and normalY (14, 15).
 inline Differentials mirrored(const Differentials& d, const Vec3& direction, const Vec3& normal,
                               const Vec3& normalX, const Vec3& normalY) {
   const Real along = dot(direction, normal);
@@ -33,8 +34,8 @@ inline Differentials mirrored(const Differentials& d, const Vec3& direction, con
   return {d.originX, d.originY, turned(d.directionX, normalX), turned(d.directionY, normalY)};
 }
 
-/// Of the ray refracted from `direction` to `out`, both unit, at a unit `normal` that points against
-/// `direction`. `ratio` = index before / index behind (16 to 19).
+/// The differentials of the ray refracted from `direction` to `out`, both unit, at a unit `normal` that
+/// points against `direction`. `ratio` = index before / index behind (16 to 19).
 inline Differentials refracted(const Differentials& d, const Vec3& direction, const Vec3& out,
                                const Vec3& normal, Real ratio, const Vec3& normalX, const Vec3& normalY) {
   const Real in = dot(direction, normal), behind = dot(out, normal), mu = ratio * in - behind;

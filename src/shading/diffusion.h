@@ -19,7 +19,7 @@ namespace trace {
 /// 1973, as in d'Eon and Irving 2011), and from inside (the fit of equation 2 of Jensen and others).
 Real diffuseFresnelInside(Real index);
 
-/// Of one colour.
+/// The dipole of one colour channel.
 struct Dipole {
   Real albedo = 0;            ///< of the surface: all that comes out of all that goes in
   Real reduced = 0;           ///< a', the albedo of one scattering

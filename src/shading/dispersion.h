@@ -39,7 +39,8 @@ class Dispersion {
   Dispersion(Disperses glass, Real abbe, Real index);
 
   bool none() const { return !glass_ && cauchy_ == 0; }
-  /// That of a body with this index at the line d. Wavelength 0 stands for all of them: the index itself.
+  /// The index of a body whose index at the line d is this. Wavelength 0 stands for all of them: the index
+  /// itself.
   Real index(Real atD, Real nanometres) const {
     return nanometres == 0 || none() ? atD : shifted(atD, nanometres);
   }

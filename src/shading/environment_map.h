@@ -41,7 +41,7 @@ class EnvironmentMap {
   explicit EnvironmentMap(std::array<Picture, 6> faces);
 
   EnvironmentKind kind() const { return kind_; }
-  /// Of a direction of any length but 0.
+  /// The spot that a direction of any length but 0 meets.
   Spot spot(const Vec3& direction) const;
   /// The same on a cube.
   static Spot cubeSpot(const Vec3& direction);

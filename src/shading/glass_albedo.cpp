@@ -14,7 +14,7 @@ constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
 constexpr int kSamples = 32;  // along each side of the square of numbers for a facet
 constexpr Real kMostIndex = 4;
 
-/// Of one index and width, by the root of the cosine, where the albedo changes evenly.
+/// The albedo for one index and width, by the root of the cosine, over which it changes evenly.
 struct WidthRow {
   std::once_flag made;
   Real at[kCosines + 1];

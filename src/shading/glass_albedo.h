@@ -17,7 +17,7 @@ Real meanGlassAlbedo(Distribution kind, Real width, Real eta);
 class GlassLoss {
  public:
   GlassLoss() = default;
-  /// Of a body of that index in air. Precondition: the index is above 0, and not 1.
+  /// The loss of a body of that index in air. Precondition: the index is above 0, and not 1.
   GlassLoss(Distribution kind, Real width, Real index);
 
   bool none() const { return !(mean_[0] > 0 && mean_[1] > 0); }

@@ -117,7 +117,7 @@ void changePixels(Material& material, const Change& change) {
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
 Phong phongOf(const MaterialModel& model);
-/// Of one that is not wholly there it lets light through.
+/// The same for a material; one that is not wholly there lets light through.
 Phong phongOf(const Material& material);
 /// The same for formats that have no holes: what a texture makes transparent in places is opaque.
 Phong phongWithoutTextures(const Material& material);

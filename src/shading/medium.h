@@ -36,8 +36,8 @@ inline Real phaseCosine(Real forward, Real u) {
 /// Beyond it nothing is seen from aside.
 inline constexpr Real kMostForward = 0.999;
 
-/// That of a material, with its textures. What textures make of a field lies between 0 and what the material
-/// says, but for what glows: so it is known how dense the medium is at most.
+/// The medium in a body of that material, with its textures. What textures make of a field lies between 0 and
+/// what the material says, but for what glows: so it is known how dense the medium is at most.
 class MediumModel {
  public:
   MediumModel() = default;

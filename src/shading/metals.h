@@ -34,7 +34,7 @@ constexpr ComplexIndex indexOf(Metal metal) {
   return kTable[static_cast<int>(metal) - 1];
 }
 
-/// Of what does not absorb and mirrors so much of light along its normal.
+/// The index of what does not absorb and mirrors so much of light along its normal.
 inline ComplexIndex indexMirroring(const Color& alongNormal) {
   const auto index = [](Real mirrored) {
     constexpr Real kMost = 0.9999;

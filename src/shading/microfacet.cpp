@@ -31,9 +31,9 @@ Real inverseErf(Real y) {
   return x - (std::erf(x) - y) * std::sqrt(kPi) / 2 * std::exp(x * x);
 }
 
-/// Of the slopes of Beckmann's surface of width 1 that are seen at an angle to the normal, that along the
-/// view; u from 0 to 1. The share below slope s is as (1 + erf(s)) cos + exp(-s^2) sin / sqrt(pi), up to
-/// where the facets turn away (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs, EGSR 2014).
+/// Chooses by u from 0 to 1 a slope along the view among those of Beckmann's surface of width 1 that are seen
+/// at an angle to the normal. The share below slope s is as (1 + erf(s)) cos + exp(-s^2) sin / sqrt(pi), up
+/// to where the facets turn away (Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs, EGSR 2014).
 Real visibleSlope(Real cosine, Real u) {
   const Real sine = std::sqrt(max(0, 1 - cosine * cosine));
   if (sine < 1e-7) return inverseErf(2 * u - 1);

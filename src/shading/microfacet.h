@@ -19,8 +19,9 @@ struct Microfacets {
   Distribution kind = Distribution::ggx;
   Real x = 0.25, y = 0.25;  ///< width of the slopes along and across the grain, above 0
 
-  /// Of a person's roughness, which is the root of the width (Burley, Physically-Based Shading at Disney,
-  /// SIGGRAPH 2012 course, section 5.4). `anisotropy` from 0 to 1 draws the highlight out along the grain.
+  /// The facets of a roughness as a person gives it, which is the root of the width (Burley, Physically-Based
+  /// Shading at Disney, SIGGRAPH 2012 course, section 5.4). `anisotropy` from 0 to 1 draws the highlight out
+  /// along the grain.
   static Microfacets of(Distribution kind, Real roughness, Real anisotropy = 0) {
     constexpr Real kLeast = 1e-4;  // narrower lobes would overflow
     const Real width = roughness * roughness, aspect = std::sqrt(1 - 0.9 * min(1, max(0, anisotropy)));
@@ -58,7 +59,7 @@ struct Microfacets {
   Real mirrored(const Vec3& eye, const Vec3& light, const Vec3& half) const {
     return spread(half) * seenAndLit(eye, light) / (4 * eye.z);
   }
-  /// Of the direction in which a chosen mirror sends what comes from `eye`.
+  /// The density of the direction in which a chosen mirror sends what comes from `eye`.
   Real density(const Vec3& eye, const Vec3& light) const {
     const Vec3 half = halfway(eye, light);
     const Real facing = dot(eye, half);
@@ -85,7 +86,7 @@ inline Vec3 refractedAt(const Vec3& half, const Vec3& eye, Real eta) {
 /// weight (1 - cos)^5 makes of it.
 struct MicrofacetAlbedo {
   Real white, schlick;
-  /// Of facets that mirror `alongNormal` of light along their normal.
+  /// The albedo of facets that mirror `alongNormal` of light along their normal.
   Color of(const Color& alongNormal) const { return alongNormal * (white - schlick) + Color(schlick); }
 };
 /// Seen from a unit direction above the surface.

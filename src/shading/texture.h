@@ -109,7 +109,7 @@ struct TextureNode {
   bool operator==(const TextureNode&) const = default;
 };
 
-/// That of the field; null if it has none.
+/// The texture of the field; null if it has none.
 const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field);
 
 /// Gives the field this texture. The list is in the order of the alphabet.

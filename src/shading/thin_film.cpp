@@ -50,7 +50,7 @@ struct Faces {
     }
     return sum / 2;
   }
-  /// Of white light.
+  /// The share of white light that is mirrored.
   Color mirrored() const;
 
  private:

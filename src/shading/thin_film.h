@@ -15,7 +15,7 @@ struct ThinFilm {
   Real nanometres = 0;  ///< its thickness
 
   /// The share that it mirrors of unpolarised light of one wavelength, in nanometres; `cosine` is that of the
-  /// light to the normal. 1 under total internal reflection. Of thickness 0 it is as if there were no film.
+  /// light to the normal. 1 under total internal reflection. A film of thickness 0 changes nothing.
   Real mirrored(Real cosine, Real wavelength) const;
 
   /// The same of white light, in linear Rec. 709: from 400 to 700 nm, by the CIE's observer of 1931

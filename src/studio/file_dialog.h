@@ -17,7 +17,7 @@ class FileDialog {
   void open(const std::string& title, Purpose purpose, const std::string& at,
             std::vector<std::string> suffixes, std::function<void(const std::string&)> chosen);
   bool isOpen() const { return open_; }
-  /// Of this frame: was Esc pressed, or Enter?
+  /// Was Esc or Enter pressed in this frame?
   void draw(bool escape, bool entered);
 
  private:

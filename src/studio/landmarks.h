@@ -20,7 +20,7 @@ void landmark(const std::string& name);
 void landmarksOf(const std::string& field);
 /// The one that the keyboard is at, in the last frame; "" if none.
 const std::string& focusedLandmark();
-/// Of the last frame.
+/// The landmarks of the last frame.
 const std::map<std::string, Landmark>& landmarks();
 
 }  // namespace trace::studio

@@ -199,7 +199,7 @@ void editMaterial(Studio& studio) {
     ImGui::TextDisabled("%s is scaled by a texture: %s", t.field.c_str(), summary(t.texture).c_str());
 }
 
-/// Of what a scene has once.
+/// The editor of a thing that a scene has once.
 template <class Thing>
 void editOnly(Studio& studio, Thing Scene::*member) {
   const Thing before = studio.workspace.document.scene().*member;

@@ -11,7 +11,8 @@ namespace trace::studio {
 
 struct Studio;
 
-/// Of the scene's camera: the eye and the corners of a picture plane before it, from the top left, clockwise.
+/// The view of the scene's camera: the eye and the corners of a picture plane before it, from the top left,
+/// clockwise.
 struct Frustum {
   Vec3 eye;
   std::array<Vec3, 4> corners;

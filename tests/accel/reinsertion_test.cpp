@@ -17,7 +17,7 @@ struct Tree {
   std::vector<Branch> branches;
 };
 
-/// Of boxes that box(i) makes.
+/// A tree over boxes that box(i) makes.
 Tree treeOf(int count, const std::function<Box3(int)>& box) {
   Tree tree;
   for (int i = 0; i < count; ++i) tree.items.push_back(boxedItem(box(i), static_cast<std::uint32_t>(i)));
@@ -25,8 +25,8 @@ Tree treeOf(int count, const std::function<Box3(int)>& box) {
   return tree;
 }
 
-/// Of all inner boxes, as a share of the whole. Checks on the way that boxes hold what is below them, and
-/// that no item lies too deep; adds the items to `found`.
+/// The area of all inner boxes, as a share of the whole. Checks on the way that boxes hold what is below
+/// them, and that no item lies too deep; adds the items to `found`.
 double innerArea(const Tree& tree, std::multiset<std::uint32_t>& found) {
   const std::function<double(std::uint32_t, int)> below = [&](std::uint32_t index, int depth) -> double {
     const Branch& b = tree.branches[index];

@@ -264,7 +264,7 @@ class SlowFile {
     std::filesystem::last_write_time(next(), made_);
     std::filesystem::rename(next(), path_);
   }
-  /// What the reader has been waiting for. Who comes after it must not find the pipe, which has no writer
+  /// What the reader has been waiting for. A later reader must not find the pipe, which has no writer
   /// then.
   void answer(const std::string& text) {
     EXPECT_EQ(::write(pipe_, text.data(), text.size()), static_cast<ssize_t>(text.size()));

@@ -22,7 +22,7 @@ void editOperands(Shape& whole, const EditList& edit) {
   whole.setOperands(Operands(std::move(list)));
 }
 
-/// Of the first object.
+/// Edits the operands of the first object.
 Edit operands(const EditList& edit) {
   return [edit](Scene& scene) { editOperands(scene.objects.at(0).shape, edit); };
 }

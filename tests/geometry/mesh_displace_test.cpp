@@ -19,7 +19,7 @@ HeightOfPoint constant(Real height) {
   return [=](const MeshData&, std::uint32_t) { return height; };
 }
 
-/// Of two triangles, with uv, facing z.
+/// A square of two triangles, with uv, facing z.
 MeshData square() {
   MeshData mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

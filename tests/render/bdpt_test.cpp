@@ -46,7 +46,7 @@ Settings settingsOf(int spp, int depth = 3, int width = 12) {
   return settings;
 }
 
-/// Of pictures by several seeds.
+/// The moments of the means of pictures by several seeds.
 Moments meansOf(const Scene& scene, Settings settings, int seeds = 8) {
   const World world = build(scene, settings);
   const auto integrator = integratorOf(world, settings);

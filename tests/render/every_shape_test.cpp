@@ -89,7 +89,7 @@ bool hasThreads(const ShapeType& type) {
   return false;
 }
 
-/// Of so many rays, how many are sent: a million take these shapes longer than the few seconds that the
+/// How many of so many rays are sent: a million take these shapes longer than the few seconds that the
 /// ordinary tests have for each.
 int sentOf(const Shape& shape, int rays) {
   if (thorough()) return rays;
@@ -213,7 +213,7 @@ void liesWithinItsError(const std::string& keyword, const View& view) {
     const double leaving = dot(out, s.normal);
     EXPECT_FALSE(place.world.convex(0) && leaving > 1e-12) << again->t << " away along " << leaving;
     const double meeting = dot(out, place.world.surface(next, *again).normal);
-    // Of a sheet, whose normal turns to every ray, only the distance tells: one that bends much, stretched
+    // For a sheet, whose normal turns to every ray, only the distance tells: one that bends much, stretched
     // ten times as far one way as another, is truly met again after some 1e-9 of its size.
     const double reach = (place.solid || place.mesh ? 1e-9 : 1e-10) * place.size;
     const bool sameAgain = leaving * meeting >= 0 && again->t <= reach;

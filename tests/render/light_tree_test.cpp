@@ -17,7 +17,7 @@
 namespace trace::test::light_tree_test {
 namespace {
 
-/// Of every kind, of very different strength and size.
+/// Lights of every kind, of very different strength and size.
 std::vector<Light> someLights(int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Light> lights;

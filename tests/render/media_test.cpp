@@ -243,7 +243,7 @@ TEST(Media, FillGlassAndTheEyeInIt) {
       scene.objects.push_back({"", Cube{}, boxAt(0, 8), 1, {}});  // from 4 to -4
       Settings settings = small(integrator, 16);
       settings.nestedGlass = nested;
-      // Of path, a ray in glass of constant Fresnel terms goes straight on.
+      // With path, a ray in glass of constant Fresnel terms goes straight on.
       EXPECT_NEAR(mean(scene, settings), std::exp(-0.2 * 4), 1e-9);
       settings.fog = 0.3, settings.fogColor = Color(0);
       EXPECT_NEAR(mean(scene, settings), std::exp(-0.2 * 4 - 0.3 * 5), 1e-9) << "none of the fog is inside";

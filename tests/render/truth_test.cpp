@@ -109,7 +109,7 @@ TEST(Truth, ManyLightsLookTheSameFromBothEnds) {
 }
 
 TEST(Truth, ADiskThatShinesLightsWhatIsUnderItByItsFormFactor) {
-  // Of radius 1 and radiance 1 at height 1: pi / 2, of which a white floor gives back a part of pi.
+  // A disk of radius 1 and radiance 1 at height 1: pi / 2, of which a white floor gives back a part of pi.
   for (const IntegratorKind integrator :
        {IntegratorKind::whitted, IntegratorKind::path, IntegratorKind::bdpt}) {
     Scene scene;

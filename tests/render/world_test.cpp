@@ -170,7 +170,7 @@ TEST(World, RoundShapesShowOneCornerOfAPictureWhereMapsLieOnFlatOnesOnly) {
 }
 
 TEST(World, AFractalSeenFromTenThousandUnitsDoesNotShadowItself) {
-  // Whose constant is zero is a ball: a light behind the eye reaches all that is seen.
+  // A Julia set whose constant is zero is a ball: a light behind the eye reaches all that is seen.
   Random random(1);
   Julia ball;
   ball.constant = {}, ball.iterations = 30;

@@ -20,7 +20,7 @@ std::vector<Real> steps(Real from, Real to, Real step) {
   return list;
 }
 
-/// Of a function of the vertical and the horizontal angle.
+/// A lamp's list made from a function of the vertical and the horizontal angle.
 Photometry made(Type type, const std::vector<Real>& vertical, const std::vector<Real>& horizontal,
                 const std::function<Real(Real, Real)>& candelas) {
   std::vector<Real> list;
@@ -95,7 +95,7 @@ TEST(Photometry, QuartersAndHalvesAreMirrored) {
       made(Type::c, {0, 90}, steps(0, 360, 90), [](Real, Real h) { return h == 360 ? 100 : 100 + h; });
   EXPECT_NEAR(whole.at(direction(60, 225)), 325, 1e-9);
   EXPECT_NEAR(whole.at(direction(60, 315)), (370 + 100) / 2.0, 1e-9);
-  // Of types A and B the sides are alike if the list begins at 0.
+  // In types A and B the sides are alike if the list begins at 0.
   const auto sides = made(Type::b, {0, 90}, {0, 90}, [](Real v, Real h) { return 180 - v - h / 2; });
   EXPECT_NEAR(sides.at(normalize(Vec3{0, 1, 1})), 180 - 22.5, 1e-9);
   EXPECT_NEAR(sides.at(normalize(Vec3{0, -1, 1})), 180 - 22.5, 1e-9);

@@ -11,7 +11,7 @@ namespace trace::test {
 
 class HalfSpace {
  public:
-  /// Of that albedo of one scattering.
+  /// A half-space of that albedo of one scattering.
   explicit HalfSpace(Real albedo) : albedo_(albedo) {
     h_.fill(1);
     for (int pass = 0; pass < 3000; ++pass) {

@@ -63,7 +63,7 @@ inline Color meanColor(const Picture& picture) {
   for (const Color& c : picture.pixels) sum += c;
   return sum * (1.0 / static_cast<Real>(picture.pixels.size()));
 }
-/// Of the green light.
+/// The mean of the green light.
 inline Real mean(const Picture& picture) {
   Real sum = 0;
   for (const Color& c : picture.pixels) sum += c.g;

@@ -169,7 +169,7 @@ inline std::vector<Shape> analyticShapes() {
   return shapes;
 }
 
-/// Of so many rays, how many a test of the shape sends: fewer where each takes long, so that the tests of a
+/// How many of so many rays a test of the shape sends: fewer where each takes long, so that the tests of a
 /// shape end within a few seconds. `./dev test thorough` sends all.
 inline int raysFor(const Shape& shape, int rays) {
   if (thorough()) return rays;
@@ -211,7 +211,7 @@ inline Box3 closeBoundsOf(const TracedShape& shape) {
 
 inline bool isSolid(const TracedShape& shape) { return shape.solid(); }
 
-/// Of the part of a solid in the box: the sum of the lengths inside, over n x n parallel rays.
+/// The volume of the part of a solid in the box: the sum of the lengths inside, over n x n parallel rays.
 inline double volume(const Shape& plain, const Box3& box, int n) {
   const TracedShape shape = prepare(plain);
   const Vec3 size = box.size();

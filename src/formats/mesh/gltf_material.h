@@ -65,7 +65,7 @@ Phong toPhong(const MetallicRoughness& material);
 ///   principled    everything else
 Material toMaterial(std::string name, const MetallicRoughness& material);
 
-/// That by which colours of points are multiplied.
+/// The colour by which colours of points are multiplied.
 Color baseColorOf(const Material& material);
 
 }  // namespace trace

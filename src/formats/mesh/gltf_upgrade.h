@@ -18,7 +18,7 @@ bool isGltf1(const nlohmann::json& root);
 /// counted. Throws Error(Fault::scene) for a name of something that is not there.
 nlohmann::json upgradedGltf(const nlohmann::json& root, const Place& place);
 
-/// That tree and the body of the binary file `bytes`, if it is one, as a file of version 2.0.
+/// The upgraded tree and the body of the binary file `bytes`, if it is one, as a file of version 2.0.
 std::string upgradedGltfFile(const nlohmann::json& upgraded, std::string_view bytes);
 
 }  // namespace trace

@@ -117,7 +117,7 @@ struct CsgTree::Event {
   }
 };
 
-/// How many of the operands the line is inside of, and whether that is inside of the whole. Of a clip the
+/// How many of the operands the line is inside of, and whether that is inside of the whole. A clip's
 /// first operand counts as everything: the others decide where its surface is kept.
 class CsgTree::State {
  public:

@@ -39,8 +39,8 @@ struct CsgRule {
 class CsgTree {
  public:
   /// Throws Error for an open operand (but the first of a clip), for one squeezed flat, and if solids of
-  /// solids are nested too deeply for their parts to be numbered. Of operands that are meshes it takes over
-  /// the hierarchies that are `made`.
+  /// solids are nested too deeply for their parts to be numbered. Takes over the
+  /// hierarchies of operands that are meshes, as far as they are `made`.
   CsgTree(CsgRule rule, const std::vector<Operand>& operands, const MeshTrees& made = {});
 
   bool solid() const { return rule_.solid; }

@@ -2,9 +2,9 @@
 //
 //   L = Le + sum over lights + lamp + weight * L(one ray, chosen by chance)
 //
-// Lights of the scene are asked one by one, as Whitted's tracer does. Of the objects that shine one place is
+// Lights of the scene are asked one by one, as Whitted's tracer does. One place on the objects that shine is
 // chosen by chance; a bounced ray may also meet them, and the two are weighed by the power heuristic (Veach
-// 1997, section 9.2.4). Of a surface's mirrored ray, its refracted one and what it scatters one is followed.
+// 1997, section 9.2.4). One of a surface's mirrored, refracted and scattered rays is followed.
 // A ray that was bounced as often as the depth allows sends one more, which sees only what shines: so the
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
 //

@@ -11,7 +11,7 @@ namespace trace {
 
 class Aperture {
  public:
-  /// Of a picture that is black everywhere all of it is open.
+  /// A picture that is black everywhere is open everywhere.
   explicit Aperture(const Picture& picture);
 
   /// Where two numbers from 0 up to 1 lie, by the brightness; the longer side of the picture goes from -1 to

@@ -125,7 +125,7 @@ struct CameraFrame {
   /// Where a point is seen in the whole picture, by the left of two eyes; nothing if it is behind.
   std::optional<Vec2> placeOf(const Vec3& point) const;
 
-  /// Of two eyes: the place of the whole picture that is nearest to `place` in the same eye's as `pixel`.
+  /// With two eyes: the place of the whole picture that is nearest to `place` in the same eye's as `pixel`.
   Vec2 inEyeOf(const Vec2& pixel, Vec2 place) const;
 
   /// The distance at which the lens is to be focused for the point to be sharp; not above 0 where it lies
@@ -134,7 +134,7 @@ struct CameraFrame {
 
   /// Something is left to the first surface in the middle of the picture.
   bool wantsMiddle() const;
-  /// That surface is at this distance.
+  /// Tells the distance of that surface.
   void setMiddle(Real distance);
 
  private:

@@ -55,9 +55,9 @@ struct AimFrame {
   }
 };
 
-/// Of a ball of that radius, `distance` away in the unit direction `toMiddle`, the part that `u` chooses of
-/// what is seen; those of its parts are equally likely that cover the same solid angle. From inside it is its
-/// middle.
+/// Chooses by `u` a part of a ball of that radius, `distance` away in the unit direction `toMiddle`, among
+/// those that are seen; parts that cover the same solid angle are equally likely. From inside, its middle is
+/// taken.
 inline void towardBall(Illumination& to, Real radius, const Vec2& u) {
   if (!(radius > 0) || to.distance <= radius) return;
   const Real sine2 = radius * radius / (to.distance * to.distance);

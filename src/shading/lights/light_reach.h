@@ -27,7 +27,7 @@ struct LightReach {
   Real most = kInfinity;    ///< what remains of it is at most that
 };
 
-/// Of a lamp that fades by three coefficients, to all sides.
+/// The reach of a lamp that shines to all sides and fades by three coefficients.
 template <class L>
 LightReach reachOfLamp(const L& light, const Rules& rules) {
   LightReach reach;

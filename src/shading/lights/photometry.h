@@ -36,7 +36,7 @@ class Photometry {
 
  private:
   Real atAngles(Real vertical, Real horizontal) const;
-  /// Of the angle as one that the list has.
+  /// The angle in the list that stands for this one.
   Real folded(Real horizontal) const;
 
   Type type_;

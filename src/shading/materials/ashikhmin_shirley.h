@@ -56,7 +56,7 @@ struct AshikhminShirleyBsdf : LocalBsdf<AshikhminShirleyBsdf, AshikhminShirley> 
     const Real flat = half.x * half.x + half.y * half.y;
     return flat > 0 ? (nu * half.x * half.x + nv * half.y * half.y) / flat : nu;
   }
-  /// Of half-way vectors (equation 7).
+  /// The density of half-way vectors (equation 7).
   Real halfDensity(const Vec3& half) const {
     return std::sqrt((nu + 1) * (nv + 1)) / (2 * kPi) * std::pow(std::abs(half.z), powerAt(half));
   }

@@ -51,7 +51,7 @@ struct Subsurface : SurfaceFields {
   }
   bool operator==(const Subsurface&) const = default;
 
-  /// Of the surface: all that comes out of all that goes in.
+  /// The surface's albedo: the share that comes out of what goes in.
   Color albedo() const {
     return {Dipole(scatters.r, absorbs.r, index).albedo, Dipole(scatters.g, absorbs.g, index).albedo,
             Dipole(scatters.b, absorbs.b, index).albedo};

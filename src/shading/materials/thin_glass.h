@@ -40,7 +40,7 @@ struct ThinGlass : SurfaceFields {
   struct Shares {
     Color mirrored, passed;
   };
-  /// Of light at that cosine to the normal.
+  /// Where light goes that arrives at that cosine to the normal.
   Shares shares(Real cosine) const {
     if (film > 0) {
       const Color r = ThinFilm{index, 1, film}.mirrored(cosine);
