@@ -22,7 +22,7 @@ class Gather {
   Tracer& tracer() const { return tracer_; }
 
   /// sum += factor * value. A ray that was cast for the value is the one cast last.
-  void add(Term::Kind kind, const Color& factor, const Color& value) {
+  [[gnu::always_inline]] void add(Term::Kind kind, const Color& factor, const Color& value) {
     sum_ += factor * value;
     if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value});
   }

@@ -159,6 +159,12 @@ std::optional<Found> Tracer::behindHoles(const Ray& ray, RayKind kind, Statistic
   return found;
 }
 
+/// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
+[[gnu::always_inline]] inline Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
+  if (occluded(ray, distance, statistics_)) return Color(0);
+  return crossed_.empty() && !inside ? Color(1) : filtered(ray, distance, inside);
+}
+
 [[gnu::always_inline]] inline Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside,
                                                          Real wavelength) {
   count(RayKind::shadow);
@@ -235,12 +241,6 @@ void Tracer::sortCrossed() {
   std::sort(crossed_.begin(), crossed_.end(), [](const Found& a, const Found& b) { return a.before(b); });
   const auto same = [](const Found& a, const Found& b) { return !a.before(b) && !b.before(a); };
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
-}
-
-/// The share of light that passes along the ray, which starts inside of `inside`; null without nested glass.
-Color Tracer::passed(const Ray& ray, Real distance, Interfaces* inside) {
-  if (occluded(ray, distance, statistics_)) return Color(0);
-  return crossed_.empty() && !inside ? Color(1) : filtered(ray, distance, inside);
 }
 
 /// What the crossings leave of it.

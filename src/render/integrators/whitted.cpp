@@ -55,6 +55,17 @@ void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
     caustics_ = gatheredCaustics(world, settings, lamps_.empty() ? nullptr : &lamps_, job);
 }
 
+/// Covers the sum with fog and other media that the ray ran through up to t.
+[[gnu::always_inline]] inline void Whitted::seeMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t,
+                                                     const Interfaces& inside, const Sampler& sampler) const {
+  const World& world = tracer.world();
+  const bool bodies = !world.media().empty();
+  if (!bodies && !(tracer.settings().fog > 0)) return;
+  const Lamps* lamps = lamps_.empty() ? nullptr : &lamps_;
+  bodies ? addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog))
+         : addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
+}
+
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
 Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                      const Interfaces& inside, const Sampler& sampler) const {
@@ -201,17 +212,6 @@ void Whitted::addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& 
     }
     sum.add(in->weight * (1.0 / places), light, in->how);
   }
-}
-
-/// Covers the sum with fog and other media that the ray ran through up to t.
-void Whitted::seeMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
-                       const Sampler& sampler) const {
-  const World& world = tracer.world();
-  const Lamps* lamps = lamps_.empty() ? nullptr : &lamps_;
-  if (!world.media().empty())
-    addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
-  else if (tracer.settings().fog > 0)
-    addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
 }
 
 /// Adds what mirrors and glass have gathered there, as the surface scatters it evenly.
