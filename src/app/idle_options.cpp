@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <type_traits>
 
 #include "render/integrator.h"
 #include "render/lamps.h"
@@ -24,6 +25,33 @@ bool isDark(const Scene& scene, const World& world) {
   const bool glow = std::any_of(scene.materials.begin(), scene.materials.end(), glows);
   return scene.lights.empty() && !glow && !world.outside().isSeenBy(RayKind::reflection) &&
          world.media().empty();
+}
+
+bool hasSun(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const LightSource& l) { return std::holds_alternative<DirectionalLight>(l.light); });
+}
+
+/// Some of the camera's rays meet nothing.
+bool seesBeyond(const World& world) {
+  constexpr int kAcross = 8;
+  Statistics uncounted;
+  for (int i = 0; i < kAcross * kAcross; ++i) {
+    const Vec2 place{(i % kAcross + 0.5) / kAcross, (i / kAcross + 0.5) / kAcross};
+    if (!world.closest(world.camera().ray(place), Faces::both, uncounted)) return true;
+  }
+  return false;
+}
+
+/// The first object whose model is a drawing, made for the light of lamps alone; null if none is.
+const Object* firstDrawn(const Scene& scene) {
+  const auto draws = [&](const Object& object) {
+    return match(scene.materials[object.material].model, []<class Model>(const Model&) {
+      return !std::is_same_v<Model, Phong> && !Model::kReciprocal && !Model::kKeepsEnergy;
+    });
+  };
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), draws);
+  return found == scene.objects.end() ? nullptr : &*found;
 }
 
 /// Options that say something of what another one switches on.
@@ -54,12 +82,16 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     messages.warn(Place{.file = scene.file}, what, hint);
   };
   const std::string integrator = findOption("integrator").get(s);
+  std::string meant = findOption("integrator").get({});  // the integrator that the scene is made for
+  for (const Choice& choice : scene.choices)
+    if (choice.option == "integrator") meant = choice.value;
   for (const Option& option : options()) {
     const bool concerned =
         option.integrators == "all" || option.integrators.find(integrator) != option.integrators.npos;
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
-    if ((option.extra || !ofScene) && !concerned && option.get(s) != option.get({}))
+    const bool told = ofScene ? option.extra && integrator == meant : true;
+    if (told && !concerned && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
@@ -190,6 +222,18 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
                      s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
                      s.integrator == IntegratorKind::photon;
+  const bool lastingFog = s.fog > 0 && s.fogHeight == 0 && s.mediumDepth > 1 && !isBlack(s.fogColor);
+  if (paths && s.integrator != IntegratorKind::direct && lastingFog && hasSun(scene) && seesBeyond(world))
+    warn("the sun lights fog without end: with --integrator " + integrator +
+             " the fog is as bright as --medium-depth and the size of the scene let it be",
+         "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
+  if (paths)
+    if (const Object* drawn = firstDrawn(scene))
+      messages.warn(drawn->place,
+                    std::string(keywordOf(scene.materials[drawn->material].model)) +
+                        " draws, and may give back more light than it gets: with --integrator " + integrator +
+                        " its surroundings grow brighter with --depth",
+                    "--integrator whitted is meant for it");
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +

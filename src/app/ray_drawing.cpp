@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "app/ray_segments.h"
+#include "app/room.h"
+#include "app/scene_model.h"
 #include "render/passes.h"
 #include "render/render.h"
 
@@ -126,6 +128,23 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   return {at, std::move(picture)};
 }
 
+/// The same by how much what is met faces the eye, without the light of the scene: of rooms with few samples
+/// by `path` there would be nothing but noise. Walls that hide the place `inside` are left out.
+DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
+                    const Point2& at, double width, double height) {
+  Picture picture(static_cast<int>(width), static_cast<int>(height));
+  picture.pixels.assign(picture.pixels.size(), Color(1));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
+      const auto found = closestShown(world, ray, walls, inside);
+      if (!found) continue;
+      const Real facing = std::abs(dot(world.surface(ray, *found).normal, ray.direction));
+      picture.at(x, y) = Color(0.6 + 0.4 * facing / length(ray.direction));
+    }
+  return {at, std::move(picture)};
+}
+
 /// From the camera's right, far away, so that nothing is foreshortened; the camera looks to the right there,
 /// and what is up for the scene's camera is up.
 Camera sideCamera(const CameraFrame& front, const Vec3& updir, const std::vector<RaySegment>& segments,
@@ -225,12 +244,17 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   const Compiled here{scene, settings, world};
   const World sideWorld = compile(sideScene, sideSettings, ignored, &here);
 
-  const auto panel = [&](const World& w, const Settings& s, double x, const std::string& title) {
+  using Walls = std::vector<std::uint32_t>;
+  const Vec3& eye = scene.camera.position;
+  const auto panel = [&](const World& w, const Settings& s, const Walls& walls, double x,
+                         const std::string& title) {
+    const bool lit = s.integrator == IntegratorKind::whitted && walls.empty();
     drawing.things.push_back(DrawnWords{{x, top - kLine}, title, kInk});
     const Point2 corner{x, top};
     const Panel view(w.camera(), corner, kPanelWidth, height);
     drawing.things.push_back(view.frame());
-    drawing.things.push_back(faint(w, s, corner, kPanelWidth, height));
+    drawing.things.push_back(lit ? faint(w, s, corner, kPanelWidth, height)
+                                 : sketch(w, walls, eye, corner, kPanelWidth, height));
     rays.rays(drawing, view);
     drawing.things.push_back(whole);
   };
@@ -240,8 +264,9 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
                                           std::to_string(tree.nodes.size()) +
                                           (tree.nodes.size() == 1 ? " ray" : " rays"),
                                       kInk});
-  panel(world, settings, kEdge, "from the camera");
-  panel(sideWorld, sideSettings, right, "from the side: the camera looks to the right");
+  panel(world, settings, {}, kEdge, "from the camera");
+  panel(sideWorld, sideSettings, wallsAround(world, eye, frameOf(scene)), right,
+        "from the side: the camera looks to the right");
 
   // The legend, in three columns.
   double x = kEdge, y = top + height + kEdge;

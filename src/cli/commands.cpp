@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cli/commit.h"
 #include "cli/help.h"
 #include "cli/memory_limit.h"
 #include "cli/overseer.h"
@@ -98,7 +99,8 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
       return kDone;
     }
     if (arguments.version) {
-      printResult("Trace " TRACE_VERSION "\n");
+      const std::string from(commit());
+      printResult("Trace " TRACE_VERSION + (from.empty() ? "" : ", commit " + from) + "\n");
       return kDone;
     }
     return runLimited(command, arguments, console, budget);

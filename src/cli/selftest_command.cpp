@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/commit.h"
 
 namespace trace::cli {
 namespace {
@@ -23,7 +24,9 @@ std::string lineOf(const SelfCheck& check, double found, bool holds, double seco
 }
 
 std::string about() {
-  return "Trace " TRACE_VERSION ", " + std::to_string(hardwareThreads()) + " threads, hierarchies by " +
+  const std::string from(commit());
+  return "Trace " TRACE_VERSION ", " + (from.empty() ? "" : "commit " + from + ", ") +
+         std::to_string(hardwareThreads()) + " threads, hierarchies by " +
          std::string(bvhKernels().front().name) + "\n";
 }
 

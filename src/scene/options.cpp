@@ -633,8 +633,9 @@ const std::array kOptions{
         {.name = "irradiance-cache",
          .group = "Tracing",
          .help =
-             "light that photons tell is worked out at few places first and blended between them: the error "
-             "that this may have, such as 0.2; 0: every place looks around by itself",
+             "light that photons tell is worked out at few places first and blended between them: how far "
+             "a place tells of others, in mean distances of what it sees, such as 0.2; 0: every place looks "
+             "around by itself",
          .source = "Ward, Rubinstein and Clear 1988; docs/photons.md",
          .least = 0,
          .most = 1,

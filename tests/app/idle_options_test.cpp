@@ -21,7 +21,9 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
     if (message.what.find("changes nothing") != std::string::npos ||
         message.what.find("finds no light") != std::string::npos ||
         message.what.find("no light: everything") != std::string::npos ||
-        message.what.find("light nothing") != std::string::npos)
+        message.what.find("light nothing") != std::string::npos ||
+        message.what.find("fog without end") != std::string::npos ||
+        message.what.find("draws, and") != std::string::npos)
       all += message.what + "\n";
   return all;
 }
@@ -45,6 +47,38 @@ TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
   const std::string sky = "settings { environment = \"" + folder / "sky.png" + "\"; }";
   for (const char* integrator : {"whitted", "path", "direct", "bdpt", "mlt"})
     EXPECT_EQ(warnings(sky + ball, by(integrator)), "") << integrator;
+}
+
+TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
+  const std::string sunny =
+      "directional_light { direction = (0, -1, -1); color = 1; } translate(0, 0, -9, sphere { })";
+  const auto by = [&](const std::string& text, const char* integrator, const char* depth) {
+    return warnings(text, {{"fog", "0.02", {}}, {"integrator", integrator, {}}, {"medium-depth", depth, {}}});
+  };
+  for (const char* integrator : {"path", "bdpt"})
+    EXPECT_NE(by(sunny, integrator, "9").find("the sun lights fog without end"), std::string::npos)
+        << integrator;
+  EXPECT_EQ(by(sunny, "whitted", "100"), "");
+  EXPECT_EQ(by(sunny, "direct", "100"), "");
+  EXPECT_EQ(by(sunny, "path", "1"), "");
+  EXPECT_EQ(by("settings { fog-height = 2; } " + sunny, "path", "100"), "");
+  EXPECT_EQ(by("scale(50, sphere { }) " + sunny, "path", "100"), "") << "nothing beyond is seen";
+  EXPECT_EQ(by(kLit, "path", "100"), "");
+}
+
+TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
+  for (const char* model : {"gooch", "hatching", "cel"}) {
+    const std::string drawn = std::string(kLit) + "sphere { material = { model = " + model + "; } }";
+    EXPECT_EQ(warnings(drawn, {}), "") << model;
+    EXPECT_NE(warnings(drawn, {{"integrator", "path", {}}}).find(std::string(model) + " draws"),
+              std::string::npos);
+  }
+}
+
+TEST(IdleOptions, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
+  const std::string caustics = std::string(kLit) + "settings { caustics = 1000; ";
+  EXPECT_NE(warnings(caustics + "integrator = path; }", {}).find("it concerns whitted"), std::string::npos);
+  EXPECT_EQ(warnings(caustics + "}", {{"integrator", "path", {}}}), "");
 }
 
 TEST(IdleOptions, AreToldWithTheirReason) {
