@@ -21,7 +21,8 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
     const Film& film = session.film();
     const double share =
         static_cast<double>(film.samplesDone()) / static_cast<double>(film.tiles() * film.waves().back().end);
-    progress.beginsAfter((static_cast<double>(part.before) + share) / static_cast<double>(part.all));
+    progress.beginsAfter((static_cast<double>(part.before) + film.shareDone()) /
+                         static_cast<double>(part.all));
     console.line(LogLevel::info, "going on from " + checkpoint.path() + ", " +
                                      std::to_string(static_cast<int>(100 * share)) + " % done");
     return;

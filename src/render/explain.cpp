@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "image/film.h"
 #include "render/pixel.h"
@@ -56,6 +57,18 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
   return result;
 }
 
+/// The greatest of the pixels around, and of this one.
+double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y) {
+  const auto waves = wavesOf(tracer.samples());
+  const auto first = std::find_if(waves.begin(), waves.end(),
+                                  [](const Wave& wave) { return wave.end >= PixelSum::kFewest; });
+  double greatest = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(size.height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(size.width - 1, x + 1); ++u)
+      greatest = std::max(greatest, firstErrorOf(tracer, u, v, first->end));
+  return greatest;
+}
+
 }  // namespace
 
 Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
@@ -72,16 +85,19 @@ Explanation explain(std::span<const Moment> moments, const Settings& settings, c
   PixelTracer(moments, settings, size, &result.tree).sample(x, y, sample);
 
   PixelSum sum;
+  std::optional<double> around;
+  const auto isSure = [&] {
+    if (!around) around = firstErrorAround(plain, size, x, y);
+    return sum.isSure(settings.noiseTarget, *around);
+  };
   for (const Wave& wave : wavesOf(plain.samples())) {
-    result.settled = sum.settles(settings.noiseTarget);
+    result.settled = sum.settles(settings.noiseTarget) && isSure();
     if (result.settled) break;
-    for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k) {
-      Real weight = 1;
-      result.samples.push_back(
-          plain.sample(x, y, k, [&](const CameraRay& ray, const Sampler&) { weight = ray.weight; }));
-      result.weights.push_back(weight);
-      sum.add(result.samples.back(), weight);
-    }
+    for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k)
+      addWave(plain, x, y, {k, k + 1}, sum, [&](const Color& color, Real weight) {
+        result.samples.push_back(color);
+        result.weights.push_back(weight);
+      });
   }
   if (result.settled)
     require(sample < sum.taken(), "a sample of this pixel, which then was good enough,", sum.taken() - 1,
