@@ -11,9 +11,11 @@
 namespace trace {
 namespace {
 
-void require(bool good, const std::string& what, int most, const std::string& found) {
-  if (!good)
-    throw Error(Fault::usage, "expected " + what + " from 0 to " + std::to_string(most) + ", found " + found);
+void require(const std::string& flag, const std::string& what, int found, int most) {
+  if (found >= 0 && found <= most) return;
+  throw Error(Fault::usage, flag + ": expected " + what +
+                                (most == 0 ? " 0, the only one" : " from 0 to " + std::to_string(most)) +
+                                ", found " + std::to_string(found));
 }
 
 /// Of a pixel that is divided: its corners take the place of samples.
@@ -30,7 +32,7 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
   };
   const std::vector<Corner> corners = cornersOf(rules, rules.depth, colors);
   const int last = static_cast<int>(corners.size()) - 1;
-  require(sample >= 0 && sample <= last, "a corner of this pixel", last, std::to_string(sample));
+  require("--sample", "a corner of this pixel", sample, last);
 
   Explanation result;
   result.tree.x = x;
@@ -73,12 +75,12 @@ double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y) {
 
 Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
                     int sample, const std::function<bool()>& cancelled) {
-  require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
-  require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
+  require("--pixel X,Y", "X", x, size.width - 1);
+  require("--pixel X,Y", "Y", y, size.height - 1);
   if (subdivides(settings)) return explainDivided(moments, settings, size, x, y, sample, cancelled);
   Explanation result;
   PixelTracer plain(moments, settings, size);
-  require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
+  require("--sample", "a sample", sample, plain.samples() - 1);
   result.tree.x = x;
   result.tree.y = y;
   result.tree.sample = sample;
@@ -100,8 +102,7 @@ Explanation explain(std::span<const Moment> moments, const Settings& settings, c
       });
   }
   if (result.settled)
-    require(sample < sum.taken(), "a sample of this pixel, which then was good enough,", sum.taken() - 1,
-            std::to_string(sample));
+    require("--sample", "a sample of this pixel, which then was good enough,", sample, sum.taken() - 1);
   const WeightedMean& mean = sum.colors();
   result.pixel = mean.mean();
   const auto finite = std::count_if(result.samples.begin(), result.samples.end(),
