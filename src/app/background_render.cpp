@@ -80,7 +80,9 @@ BackgroundRender::State BackgroundRender::state() {
   if (state_.working()) {
     state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     if (state_.phase == Phase::tracing) {
-      state_.fraction = session_->job().fraction();
+      const Film& film = session_->film();
+      state_.fraction =
+          film.noiseTarget() > 0 ? std::max(state_.fraction, film.shareDone()) : session_->job().fraction();
       state_.remaining = remaining_.update(state_.elapsed - tracingBegan_, state_.fraction);
     }
   }

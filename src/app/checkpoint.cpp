@@ -98,29 +98,42 @@ std::map<std::string, std::string> partsOf(const std::string& identity) {
   return parts;
 }
 
-/// What they differ in, for a person.
-std::string difference(const std::string& a, const std::string& b) {
+/// What two pictures differ in.
+struct Difference {
+  std::string what;      ///< for a person
+  std::size_t size = 0;  ///< how far they are apart
+};
+Difference differenceOf(const std::string& a, const std::string& b) {
   auto one = partsOf(a), other = partsOf(b);
-  if (one["Software"] != other["Software"]) return "another version of Trace wrote it";
-  if (one["Scene"] != other["Scene"]) return "the scene has changed";
+  constexpr std::size_t kFar = 1000;
+  if (one["Software"] != other["Software"]) return {"another version of Trace wrote it", kFar + 1};
+  if (one["Scene"] != other["Scene"]) return {"the scene has changed", kFar};
   std::set<std::string> names;
   for (const auto& parts : {one, other})
     for (const auto& [name, value] : parts)
       if (one[name] != other[name]) names.insert(name);
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list + (names.size() == 1 ? " differs" : " differ");
+  return {list + (names.size() == 1 ? " differs" : " differ"), names.size()};
 }
 
-/// Throws std::runtime_error if the file does not fit.
+/// A file does not fit.
+struct Misfit {
+  std::string why;
+  std::size_t distance = 0;  ///< how much less it is worth to tell of it
+};
+
+/// Throws Misfit, or what restoring throws.
 void fill(Film& film, const std::string& path, const std::string& identity) {
   const std::optional<Head> head = headOf(path);
-  if (!head) throw std::runtime_error("it is no checkpoint that this version of Trace wrote");
-  if (head->identity != identity)
-    throw std::runtime_error("it is of another picture: " + difference(head->identity, identity));
+  if (!head) throw Misfit{"it is no checkpoint that this version of Trace wrote"};
+  if (head->identity != identity) {
+    const Difference other = differenceOf(head->identity, identity);
+    throw Misfit{"it is of another picture: " + other.what, other.size};
+  }
   const std::string bytes = readFile(path);
   const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
-  if (hashOf(state) != head->hash) throw std::runtime_error("it is damaged");
+  if (hashOf(state) != head->hash) throw Misfit{"it is damaged"};
   film.restore(state);
 }
 
@@ -130,19 +143,29 @@ Checkpoint::Checkpoint(const std::string& picture, const Metadata& metadata, con
     : picture_(picture), identity_(identityOf(metadata, settings)) {}
 
 bool Checkpoint::load(Film& film) {
-  std::error_code ignored;
-  for (int number = 1;; ++number) {
-    path_ = checkpointName(picture_, number);
-    if (!fs::exists(path_, ignored)) return false;
+  const std::vector<std::string> lying = all();
+  std::optional<Misfit> nearest;
+  for (const std::string& path : lying) {
+    const auto note = [&](Misfit misfit) {
+      if (nearest && nearest->distance <= misfit.distance) return;
+      nearest = misfit;
+      whyNot_ = path + ": " + misfit.why;
+    };
     try {
-      fill(film, path_, identity_);
+      fill(film, path, identity_);
+      path_ = path;
       return true;
+    } catch (const Misfit& misfit) {
+      note(misfit);
     } catch (const Error& error) {
-      whyNot_ = path_ + ": " + error.messages().front().what;
+      note({error.messages().front().what});
     } catch (const std::runtime_error& error) {
-      whyNot_ = path_ + ": " + error.what();
+      note({error.what()});
     }
   }
+  if (const std::size_t others = lying.size(); others > 1)
+    whyNot_ += "; " + counted(others - 1, "other") + (others == 2 ? " lies" : " lie") + " there, too";
+  return false;
 }
 
 void Checkpoint::save(const Film& film) {
@@ -161,20 +184,48 @@ void Checkpoint::save(const Film& film) {
 }
 
 bool Checkpoint::exists() const {
-  std::error_code ignored;
-  for (int number = 1; fs::exists(checkpointName(picture_, number), ignored); ++number)
-    if (const auto head = headOf(checkpointName(picture_, number)); head && head->identity == identity_)
-      return true;
-  return false;
+  const std::vector<std::string> lying = all();
+  return std::any_of(lying.begin(), lying.end(), [&](const std::string& path) { return isOurs(path); });
+}
+
+std::vector<std::string> Checkpoint::others() const {
+  std::vector<std::string> lying = all();
+  std::erase_if(lying, [&](const std::string& path) { return isOurs(path); });
+  return lying;
 }
 
 void Checkpoint::remove(const Film& film) {
   std::error_code ignored;
-  for (int number = 1; fs::exists(checkpointName(picture_, number), ignored); ++number) {
-    const std::optional<Head> head = headOf(checkpointName(picture_, number));
-    if (head && head->identity == identity_ && head->done <= film.samplesDone())
-      fs::remove(checkpointName(picture_, number), ignored);
+  for (const std::string& path : all()) {
+    const std::optional<Head> head = headOf(path);
+    if (head && head->identity == identity_ && head->done <= film.samplesDone()) fs::remove(path, ignored);
   }
+}
+
+bool Checkpoint::isOurs(const std::string& path) const {
+  const auto head = headOf(path);
+  return head && head->identity == identity_;
+}
+
+std::vector<std::string> Checkpoint::all() const {
+  const std::string first = checkpointName(picture_, 1), name = fs::path(first).filename().string();
+  std::set<int> numbers;  // some may have been taken away in between
+  std::error_code error;
+  const fs::path folder = fs::path(first).parent_path();
+  fs::directory_iterator files(folder.empty() ? fs::path(".") : folder, error), end;
+  for (; !error && files != end; files.increment(error)) {
+    const std::string file = files->path().filename().string();
+    if (file == name) numbers.insert(1);
+    if (!file.starts_with(name + "-")) continue;
+    const std::string digits = file.substr(name.size() + 1);
+    const auto number = parseNumber(digits);
+    if (number && number->length == digits.size() && number->value >= 2 && number->value < 1e6 &&
+        checkpointName(name, static_cast<int>(number->value)).ends_with("-" + digits))
+      numbers.insert(static_cast<int>(number->value));
+  }
+  std::vector<std::string> paths;
+  for (const int number : numbers) paths.push_back(checkpointName(picture_, number));
+  return paths;
 }
 
 }  // namespace trace

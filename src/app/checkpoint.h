@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "image/film.h"
 #include "image/metadata.h"
@@ -22,20 +23,26 @@ class Checkpoint {
 
   /// Fills the film from the first file that fits, if there is one.
   bool load(Film& film);
-  /// Why a file that lies there did not fit, for a person: "out.png.checkpoint: it is of another picture";
-  /// "" if there was none.
+  /// Why a file that lies there did not fit, of several the one that comes nearest, for a person:
+  /// "out.png.checkpoint: it is of another picture"; "" if there was none.
   const std::string& whyNot() const { return whyNot_; }
 
-  /// Where it is, or will be, written.
+  /// Where it is written; "" before load() has found one, or save() has written.
   const std::string& path() const { return path_; }
   /// Writes what is there of the film, unless the file holds as much. Throws Error(Fault::io).
   void save(const Film& film);
   /// Whether a file of this picture lies there.
   bool exists() const;
+  /// Files that lie there and are of other pictures, or damaged.
+  std::vector<std::string> others() const;
   /// Removes those of this picture that hold no more than the film.
   void remove(const Film& film);
 
  private:
+  /// What lies beside the picture, by its number.
+  std::vector<std::string> all() const;
+  bool isOurs(const std::string& path) const;
+
   std::string picture_, identity_;
   std::string path_;
   std::string whyNot_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/text.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/render.h"
@@ -52,6 +53,18 @@ const Object* firstDrawn(const Scene& scene) {
   };
   const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), draws);
   return found == scene.objects.end() ? nullptr : &*found;
+}
+
+/// To what is farthest from the camera, of objects that have an end; 0 where none has.
+Real distanceAcross(const World& world) {
+  const Box3& box = world.bounds();
+  if (box.empty() || !isFinite(box.low) || !isFinite(box.high)) return 0;
+  const Vec3 eye = world.camera().eye;
+  const auto far = [](Real at, Real low, Real high) {
+    return std::max(std::abs(at - low), std::abs(high - at));
+  };
+  return length(Vec3{far(eye.x, box.low.x, box.high.x), far(eye.y, box.low.y, box.high.y),
+                     far(eye.z, box.low.z, box.high.z)});
 }
 
 /// Options that say something of what another one switches on.
@@ -148,6 +161,15 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--aperture-picture changes nothing: --aperture 0 is a pinhole", "--aperture 0.1 opens the lens");
   if (!s.aperturePicture.path.empty() && s.blades > 0)
     warn("--blades changes nothing: --aperture-picture is the shape of the lens opening");
+  if (const Real reach = 2 * distanceAcross(world); reach > 0) {
+    if (s.stereo != Stereo::off && s.eyeSeparation > reach)
+      warn("--eye-separation " + toText(s.eyeSeparation) +
+               ": the eyes stand so far apart that each looks past the scene",
+           "without it they stand a thirtieth of the distance to the scene apart");
+    if (s.aperture > reach)
+      warn("--aperture " + toText(s.aperture) +
+           ": the lens is wider than the scene, of which nothing is sharp");
+  }
   if (!s.focusOn.none() && s.focus > 0) warn("--focus changes nothing: --focus-on says what is in focus");
   if (s.lightChoices > 0 && world.lights().size() < 2)
     warn("--light-choices changes nothing: the scene has fewer than two lights");
@@ -208,6 +230,14 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--chain-starts " + std::to_string(s.chainStarts) +
              ": how bright the picture is follows from so few samples",
          "choose " + std::to_string(kFewStarts) + " at least");
+
+  const auto isConcerned = [&](std::string_view option) {
+    return findOption(option).integrators.find(integrator) != std::string_view::npos;
+  };
+  if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned("subsurface-samples") &&
+      !world.hasSubsurface())
+    warn("--subsurface-samples changes nothing: in no body of the scene does light spread",
+         "library = marble and millimetres = 10 in a material let it");
 
   const auto glows = [](const World::MediumBody& body) { return !isBlack(body.model.most().glows); };
   if (s.integrator == IntegratorKind::photon &&

@@ -73,8 +73,7 @@ void degrees(const LintScene& s, Findings& findings) {
   warn(findings, "degrees", first.place,
        "rotate takes radians, and " + toText(first.value) + " of them are " +
            toText(std::round(std::abs(first.value) / (2 * kPi) * 10) / 10) + " turns" +
-           (others == 0 ? "" : "; so with " + std::to_string(others) + " more angles") +
-           ": are degrees meant?",
+           (others == 0 ? "" : "; so with " + counted(others, "more angle")) + ": are degrees meant?",
        toText(first.value) + " degrees are " + toText(std::round(first.value * kPi / 180 * 1e5) / 1e5) +
            " radians");
 }

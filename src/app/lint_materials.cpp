@@ -102,9 +102,8 @@ void noMaterial(const LintScene& s, Findings& findings) {
   const std::size_t others = bare.size() - 1;
   warn(findings, "no-material", placeOf(s, bare.front()),
        quoted(s, bare.front()) +
-           (others == 0   ? " has no material"
-            : others == 1 ? " and one more object have no material"
-                          : " and " + std::to_string(others) + " more objects have no material") +
+           (others == 0 ? " has no material"
+                        : " and " + counted(others, "more object") + " have no material") +
            ", or one that says nothing: no light makes it other than black",
        "give it one, as in material = { diffuse = (0.8, 0.8, 0.8); ambient = (0.8, 0.8, 0.8); }");
 }

@@ -182,8 +182,8 @@ void Session::buildMoments() {
     Scene scene = sceneAt_(timeOfMoment(settings_, moment));
     if (scene.objects.size() != scene_.objects.size() || scene.lights.size() != scene_.lights.size())
       throw Error(Fault::scene,
-                  "while the shutter is open the scene has " + std::to_string(scene.objects.size()) +
-                      " objects and " + std::to_string(scene.lights.size()) + " lights, before " +
+                  "while the shutter is open the scene has " + counted(scene.objects.size(), "object") +
+                      " and " + counted(scene.lights.size(), "light") + ", before " +
                       std::to_string(scene_.objects.size()) + " and " + std::to_string(scene_.lights.size()),
                   "a key(...) changes how many there are; only what is there all the time can be blurred");
     moves = moves || !isSameAs(scene, scene_);

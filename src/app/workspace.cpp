@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/output.h"
+#include "base/text.h"
 #include "image/codec.h"
 #include "scene/picture_size.h"
 
@@ -320,12 +321,13 @@ void Workspace::noteEnd() {
   const Size size = render.session()->size();
   const RenderResult result = render.result();
   note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +
-       durationText(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) + " rays");
+       durationText(state.elapsed) + ", " + counted(result.statistics.allRays(), "ray"));
   if (const auto bad = result.statistics.badSamples; bad > 0)
-    log_.push_back({Level::warning,
-                    std::to_string(bad) + " samples were not finite and left out of the picture",
-                    "the panel Bad samples lists them",
-                    {}});
+    log_.push_back(
+        {Level::warning,
+         counted(bad, "sample") + (bad == 1 ? " was" : " were") + " not finite and left out of the picture",
+         "the panel Bad samples lists them",
+         {}});
 }
 
 std::string Workspace::defaultPictureFile() const {

@@ -160,4 +160,9 @@ Place placeAt(std::string_view file, std::string_view source, size_t offset) {
           static_cast<int>(offset - start) + 1, std::string(text)};
 }
 
+std::string counted(std::size_t n, std::string_view noun) {
+  const bool sibilant = noun.ends_with("s") || noun.ends_with("x") || noun.ends_with("sh");
+  return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : sibilant ? "es" : "s");
+}
+
 }  // namespace trace

@@ -21,6 +21,9 @@ std::optional<ParsedNumber> parseNumber(std::string_view text);
 /// The shortest decimal that reads back as the same number.
 std::string toText(double number);
 
+/// "1 error", "3 errors".
+std::string counted(std::size_t n, std::string_view noun);
+
 /// Appends the number as a decimal: the shortest that reads back as the same number, or with `digits` digits
 /// that count. That of a float also reads back through a double. For bulk data: faster than toText().
 void appendNumber(std::string& text, double number, int digits = 0);

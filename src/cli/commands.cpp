@@ -47,12 +47,13 @@ int helpCommand(const Arguments& arguments, const Console&) {
   return kDone;
 }
 
-/// `understood`: the words of the command line are right.
+/// For the last line, after the messages have told what it was. `understood`: the words of the command line
+/// are right.
 std::string whyNothing(const Error& error, bool understood) {
   switch (error.fault()) {
     case Fault::io: return "a file could not be read or written";
     case Fault::usage:
-      return understood ? error.messages().front().what : "the command line is not right; see ray --help";
+      return understood ? "the command cannot be followed" : "the command line is not right; see ray --help";
     case Fault::scene: {
       const std::size_t errors = error.messages().size();
       const bool perhapsMore = errors == Messages::kMostErrors;  // where reading ends
@@ -124,11 +125,13 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     const bool noThread = error.code() == std::errc::resource_unavailable_try_again;
     fault = noThread ? Fault::limit : Fault::io;
     liftMemoryLimit();
-    why = noThread ? "the system starts no more threads" : error.what();
-    console.error(Error(fault, why, noThread ? "a thread needs memory for its stack; -t 1 takes one" : ""));
+    why = noThread ? "memory for threads is missing" : "the system refused";
+    console.error(noThread ? Error(fault, "the system starts no more threads",
+                                   "a thread needs memory for its stack; -t 1 takes one")
+                           : Error(fault, error.what()));
   } catch (const std::exception& error) {
-    why = error.what();
-    console.error(Error(fault, why));
+    why = "it failed";
+    console.error(Error(fault, error.what()));
   }
   if (command.writes) console.line(LogLevel::error, "nothing written: " + why);
   return understood ? codeOf(command, arguments, fault) : static_cast<int>(fault);

@@ -99,9 +99,4 @@ void printResult(const std::string& text, Paint paint) {
     throw Error(Fault::io, std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
 
-std::string counted(std::size_t n, std::string_view noun) {
-  const bool sibilant = noun.ends_with("s") || noun.ends_with("x") || noun.ends_with("sh");
-  return std::to_string(n) + " " + std::string(noun) + (n == 1 ? "" : sibilant ? "es" : "s");
-}
-
 }  // namespace trace::cli

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace trace::cli {
 
@@ -56,8 +57,5 @@ void printResult(const std::string& text, Paint paint = Paint::none);
 
 /// Writes to stderr, at once.
 void printToTerminal(const std::string& text);
-
-/// "1 error", "3 errors".
-std::string counted(std::size_t n, std::string_view noun);
 
 }  // namespace trace::cli

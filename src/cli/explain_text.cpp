@@ -283,15 +283,15 @@ std::string shownText(const PixelFacts& facts) {
       std::string& list = wantsPicture ? before : steps;
       list += (list.empty() ? "" : ", ") + std::string(option.name) + " " + value;
     }
-  if (facts.settings.denoise) before += (before.empty() ? "" : ", ") + std::string("denoise");
-  if (isAnaglyph(facts.settings.stereo))
-    before += (before.empty() ? "" : ", ") + std::string("the other eye");
+  if (facts.settings.denoise) before += (before.empty() ? "" : ", ") + std::string("--denoise");
   const Color shown = developed(facts.rendered, development);
   std::string text = "the file    ";
   for (const double channel : {shown.r, shown.g, shown.b})
     text += std::to_string(toLevel(channel, facts.settings.rounding)) + " ";
-  return text + "of 255" + (steps.empty() ? "" : ", by " + steps) +
-         (before.empty() ? "" : "; without " + before) + "\n";
+  const bool isLeft = facts.explanation.tree.x < facts.width / 2;
+  const std::string eye = isLeft ? ", of the left eye" : ", of the right eye";
+  return text + "of 255" + (isAnaglyph(facts.settings.stereo) ? eye : "") +
+         (steps.empty() ? "" : ", by " + steps) + (before.empty() ? "" : "; without " + before) + "\n";
 }
 
 }  // namespace

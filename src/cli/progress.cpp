@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kJsonInterval = 0.25;
 
-double share(std::int64_t done, std::int64_t total) {
+double shareOf(std::int64_t done, std::int64_t total) {
   return total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
 }
 
@@ -37,9 +37,10 @@ Progress::Progress(ProgressStyle style, int columns, Print print)
       columns_(columns),
       print_(std::move(print)) {}
 
-void Progress::update(std::int64_t done, std::int64_t total, double elapsed) {
+void Progress::update(std::int64_t done, std::int64_t total, double elapsed, std::optional<double> share) {
   if (total <= 0 || style_ == ProgressStyle::none) return;
-  const double fraction = share(done, total);
+  shown_ = std::max(shown_, share.value_or(shareOf(done, total)));
+  const double fraction = shown_;
   remaining_ = estimate_.update(elapsed, fraction, before_);
   if (style_ == ProgressStyle::json) {
     if (lastPrint_ < 0 || elapsed - lastPrint_ >= kJsonInterval) json(done, total, elapsed);
@@ -72,16 +73,16 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-void Progress::finish(std::int64_t done, std::int64_t total, double elapsed) {
+void Progress::finish(std::int64_t done, std::int64_t total, double elapsed, std::optional<double> share) {
   clear();
   if (style_ != ProgressStyle::json || total <= 0) return;
-  remaining_ = estimate_.update(elapsed, share(done, total), before_);
+  remaining_ = estimate_.update(elapsed, share.value_or(shareOf(done, total)), before_);
   json(done, total, elapsed);
 }
 
 void Progress::json(std::int64_t done, std::int64_t total, double elapsed) {
   print_("{\"done\":" + std::to_string(done) + ",\"total\":" + std::to_string(total) +
-         ",\"fraction\":" + toText(share(done, total)) + ",\"elapsed\":" + seconds(elapsed) +
+         ",\"fraction\":" + toText(shareOf(done, total)) + ",\"elapsed\":" + seconds(elapsed) +
          ",\"remaining\":" + (remaining_ ? seconds(*remaining_) : "null") + "}\n");
   lastPrint_ = elapsed;
 }

@@ -25,12 +25,13 @@ class Progress {
 
   /// So much of the work had been done, perhaps by another process, when the time began.
   void beginsAfter(double fraction) { before_ = fraction; }
-  /// `done` of `total` chunks after `elapsed` seconds; total 0 means not known yet.
-  void update(std::int64_t done, std::int64_t total, double elapsed);
+  /// `done` of `total` chunks after `elapsed` seconds; total 0 means not known yet. `share` is what that is
+  /// of the work that there is likely to be, where not all of the chunks take as long.
+  void update(std::int64_t done, std::int64_t total, double elapsed, std::optional<double> share = {});
   /// Takes the bar away, so that something else can be printed.
   void clear();
   /// The last word, if the style has one.
-  void finish(std::int64_t done, std::int64_t total, double elapsed);
+  void finish(std::int64_t done, std::int64_t total, double elapsed, std::optional<double> share = {});
 
  private:
   void json(std::int64_t done, std::int64_t total, double elapsed);
@@ -41,6 +42,7 @@ class Progress {
   RemainingTime estimate_;
   std::optional<double> remaining_;
   double before_ = 0;
+  double shown_ = 0;  // the largest share
   double lastPrint_ = -1;  // seconds
   int lastTenth_ = 0;
   bool drawn_ = false;

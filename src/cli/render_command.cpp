@@ -89,6 +89,12 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   }
   checkOutputs(session, output);
   console.warnings(session.messages().all());
+  const auto isRegion = [](const Choice& choice) { return choice.option == "region"; };
+  if (std::any_of(arguments.choices.begin(), arguments.choices.end(), isRegion) && !arguments.quick &&
+      session.settings().region.whole() &&
+      std::none_of(session.scene().choices.begin(), session.scene().choices.end(), isRegion))
+    console.line(LogLevel::warning,
+                 "warning: --region 0,0,0,0 has no pixel in it: all of the picture is rendered");
   for (const OptionFact& fact : changedOptions(session.scene(), session.settings(), arguments.choices))
     console.line(LogLevel::debug, "option " + fact.name + " = " + fact.value + " (" + fact.from + ")");
 
@@ -108,6 +114,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   const SavedPicture saved = save(session, files, console);
   if (saved.elsewhere) code = kFailed;
   const std::string goesOn = settleCheckpoint(session, result, arguments, files);
+  if (result.end == End::finished) reportOldCheckpoints(session, files, console);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
   std::string cleaned;

@@ -1,6 +1,7 @@
 #include "cli/render_steps.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "base/file.h"
 #include "cli/commands.h"
@@ -21,7 +22,8 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
     const Film& film = session.film();
     const double share =
         static_cast<double>(film.samplesDone()) / static_cast<double>(film.tiles() * film.waves().back().end);
-    progress.beginsAfter((static_cast<double>(part.before) + share) / static_cast<double>(part.all));
+    progress.beginsAfter((static_cast<double>(part.before) + film.shareDone()) /
+                         static_cast<double>(part.all));
     console.line(LogLevel::info, "going on from " + checkpoint.path() + ", " +
                                      std::to_string(static_cast<int>(100 * share)) + " % done");
     return;
@@ -81,6 +83,25 @@ std::string settleCheckpoint(const Session& session, const RenderResult& result,
   if (result.end != End::finished) return checkpoint.exists() ? "; the same command goes on from there" : "";
   if (arguments.resume != Resume::keep) checkpoint.remove(session.film());
   return "";
+}
+
+void reportOldCheckpoints(const Session& session, const PictureFiles& files, const Console& console) {
+  const auto others = Checkpoint(files.path(), session.metadata(), session.settings()).others();
+  if (others.empty()) return;
+  std::error_code ignored;
+  std::uintmax_t bytes = 0;
+  std::string names;
+  for (const std::string& file : others) {
+    if (const auto size = std::filesystem::file_size(file, ignored); !ignored) bytes += size;
+    names += file.find(' ') == std::string::npos ? " " + file : " \"" + file + "\"";
+  }
+  char size[40];
+  std::snprintf(size, sizeof size, "%.1f MB", static_cast<double>(bytes) / 1e6);
+  const bool one = others.size() == 1;
+  console.line(LogLevel::info, "note: " + counted(others.size(), "checkpoint") +
+                                   " of other options or scenes " + (one ? "lies" : "lie") + " there, " +
+                                   size + "; if " + (one ? "it is" : "they are") + " wanted no more: rm" +
+                                   names);
 }
 
 void reportLosses(const Session& session, const RenderResult& result, const Console& console) {

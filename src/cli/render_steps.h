@@ -31,6 +31,9 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files);
 
+/// Tells of checkpoints of other pictures that lie beside a finished one, which nothing else takes away.
+void reportOldCheckpoints(const Session& session, const PictureFiles& files, const Console& console);
+
 /// Warns of samples that were left out, and tells what the firefly limit took away.
 void reportLosses(const Session& session, const RenderResult& result, const Console& console);
 

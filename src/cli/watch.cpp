@@ -75,10 +75,14 @@ Watch::~Watch() {
   Signals::receive(true);
 }
 
-void Watch::report(void (Progress::*tell)(std::int64_t, std::int64_t, double)) {
+void Watch::report(Tell tell) {
   const Job& job = session_.job();
+  std::optional<double> share;
+  if (session_.film().noiseTarget() > 0)
+    share =
+        (static_cast<double>(part_.before) + session_.film().shareDone()) / static_cast<double>(part_.all);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - part_.start;
-  (progress_.*tell)(part_.before * job.total + job.done, part_.all * job.total, elapsed.count());
+  (progress_.*tell)(part_.before * job.total + job.done, part_.all * job.total, elapsed.count(), share);
 }
 
 void Watch::run() {

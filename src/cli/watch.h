@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -46,7 +47,9 @@ class Watch {
  private:
   void run();
   void save();
-  void report(void (Progress::*tell)(std::int64_t done, std::int64_t total, double elapsed));
+  using Tell = void (Progress::*)(std::int64_t done, std::int64_t total, double elapsed,
+                                  std::optional<double> share);
+  void report(Tell tell);
 
   Session& session_;
   Signals& signals_;

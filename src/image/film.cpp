@@ -70,7 +70,8 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
   for (int y = area.y0; y < area.y1; ++y)
     for (int x = area.x0; x < area.x1; ++x) {
       PixelSum& pixel = pixels_[index(x, y)];
-      if (pixel.settles(noise_)) continue;
+      if (settled(x, y)) continue;
+      const bool isFirst = pixel.taken() < PixelSum::kFewest;
       for (std::size_t k = at; k < at + count; ++k)
         pixel.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
       if (keepsHalves())
@@ -88,7 +89,19 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
           sum = value(at);
       }
       at += count;
+      if (isFirst) pixel.noteFirstError();
     }
+  for (const PixelBeside& one : samples.beside) pixels_[index(one.x, one.y)].noteFirstError(one.firstError);
+}
+
+bool Film::settled(int x, int y) const {
+  const PixelSum& pixel = pixels_[index(x, y)];
+  if (!pixel.settles(noise_)) return false;
+  double around = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u)
+      around = std::max(around, pixels_[index(u, v)].firstError());
+  return pixel.isSure(noise_, around);
 }
 
 bool Film::has(std::int64_t tile, std::size_t wave) const {
@@ -105,6 +118,38 @@ std::int64_t Film::samplesDone() const {
     if (state.waves > 0) done += waves_[state.waves - 1].end;
   }
   return done;
+}
+
+double Film::shareDone() const {
+  const int all = waves_.back().end;
+  const double samples = static_cast<double>(samplesDone()) / (static_cast<double>(tiles()) * all);
+  if (noiseTarget() == 0) return samples;
+  constexpr double kLookedAt = 1 << 16;  // pixels: enough for a guess
+  const double pixels = static_cast<double>(width_) * height_;
+  const int step = std::max(1, static_cast<int>(std::sqrt(pixels / kLookedAt)));
+  double done = 0, likely = 0, judged = 0, unknown = 0;
+  for (std::int64_t i = 0; i < tiles(); ++i) {
+    const TileState& state = states_[static_cast<std::size_t>(i)];
+    const std::lock_guard lock(state.mutex);
+    const bool isWhole = state.waves == waves_.size();
+    const Tile area = tile(i);
+    for (int y = area.y0; y < area.y1; y += step)
+      for (int x = area.x0; x < area.x1; x += step) {
+        const PixelSum& pixel = pixels_[index(x, y)];
+        const int taken = pixel.taken();
+        if (taken == 0 && state.waves > 0) continue;  // it is not rendered
+        done += taken;
+        if (taken < 2) {
+          ++unknown;
+          continue;
+        }
+        ++judged;
+        const double times = pixel.error() / noise_, fewest = PixelSum::kFewest;
+        likely += isWhole ? taken : std::clamp<double>(std::max(fewest, taken * times * times), taken, all);
+      }
+  }
+  if (judged == 0) return samples;
+  return done / (likely * (1 + unknown / judged));
 }
 
 bool Film::complete() const {

@@ -6,6 +6,7 @@
 // their order, whatever the order in which they come: the same bits for any number of threads.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -98,11 +99,33 @@ class PixelSum {
   /// Whether more samples are not needed for such an error; never for 0.
   bool settles(double noise) const { return noise > 0 && taken_ >= kFewest && error() <= noise; }
 
+  /// From so many samples on a pixel is judged by what it has seen itself, and no longer by those around it.
+  static constexpr int kSure = 64;
+  /// error() after the first wave that made it known, for the pixels around; 0 before.
+  double firstError() const { return firstError_; }
+  /// After a wave, or when somebody else knows it.
+  void noteFirstError() {
+    if (taken_ >= kFewest) firstError_ = static_cast<float>(error());
+  }
+  void noteFirstError(double error) { firstError_ = static_cast<float>(error); }
+  /// Of one that settles: whether that is no accident. A few samples that agree may all have missed an edge
+  /// that a pixel around it has met, of the greatest firstError().
+  bool isSure(double noise, double around) const {
+    return taken_ >= kSure || around * std::sqrt(static_cast<double>(kFewest) / taken_) <= noise;
+  }
+
  private:
   friend class FilmState;
   WeightedMean colors_;
   double squares_ = 0;  ///< the sum of the samples' squared luminance
   int taken_ = 0;
+  float firstError_ = 0;
+};
+
+/// A pixel that is not rendered, beside one that is: PixelSum::firstError() of it.
+struct PixelBeside {
+  int x, y;
+  double firstError;
 };
 
 /// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order, and
@@ -116,6 +139,7 @@ struct TileSamples {
   std::int64_t paths = 0;                  ///< that brought them
   std::vector<std::size_t> starts{};       ///< of each pixel's, and the end, where pixels are divided
   std::vector<Corner> corners{};           ///< that they are then
+  std::vector<PixelBeside> beside{};       ///< of the tile, after the first wave that is judged
 };
 
 /// How far a picture has come.
@@ -143,7 +167,7 @@ class Film {
     Keep keep = Keep::first;
   };
 
-  /// For a picture of that many samples a pixel, or of fewer where PixelSum::settles(noise).
+  /// For a picture of that many samples a pixel, or of fewer where PixelSum::settles(noise) and isSure().
   explicit Film(int width, int height, int samples = 1, std::span<const LayerKind> layers = {},
                 double noise = 0, int tileSize = kTileSize);
 
@@ -175,8 +199,11 @@ class Film {
   /// Whether pixels differ in the number of samples: then a wave of a tile may begin only after the one
   /// before.
   bool adaptive() const { return noise_ > 0 || corners_; }
-  /// Whether the pixel takes no part in further waves. While nobody adds to its tile.
-  bool settled(int x, int y) const { return pixels_[index(x, y)].settles(noise_); }
+  /// Whether pixels stop for this error: 0 where they do not.
+  double noiseTarget() const { return corners_ ? 0 : noise_; }
+  /// Whether the pixel takes no part in further waves. While nobody adds to its tile, and those around have
+  /// the waves before.
+  bool settled(int x, int y) const;
 
   /// Takes the samples of one wave of a tile. From any thread, each wave of a tile once, in any order.
   void add(std::int64_t tile, std::size_t wave, TileSamples samples);
@@ -184,6 +211,9 @@ class Film {
   bool has(std::int64_t tile, std::size_t wave) const;
   /// Samples of tiles that are there: the sum over all tiles of what each pixel has, or could have.
   std::int64_t samplesDone() const;
+  /// The share of the work that is done: of the samples, or, where pixels stop for an error, of those that it
+  /// is likely to take, since an error falls with the square root of their number. From any thread.
+  double shareDone() const;
 
   /// All that is there, for restore(). From any thread while others add: a tile is there with its last whole
   /// wave.

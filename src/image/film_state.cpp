@@ -144,6 +144,7 @@ class FilmState {
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
           put(to, film.pixels_[film.index(x, y)]);
+          if (film.noise_ > 0) to.put(film.pixels_[film.index(x, y)].firstError_);
           for (const Film::Layer& layer : film.layers_) to.put(layer.sums.at(x, y));
           if (film.keepsHalves()) put(to, film.first_[film.index(x, y)]);
         }
@@ -191,6 +192,7 @@ class FilmState {
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
           take(from, film.pixels_[film.index(x, y)]);
+          if (film.noise_ > 0) film.pixels_[film.index(x, y)].firstError_ = from.take<float>();
           for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
           if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "image/film.h"
 #include "render/pixel.h"
@@ -10,9 +11,11 @@
 namespace trace {
 namespace {
 
-void require(bool good, const std::string& what, int most, const std::string& found) {
-  if (!good)
-    throw Error(Fault::usage, "expected " + what + " from 0 to " + std::to_string(most) + ", found " + found);
+void require(const std::string& flag, const std::string& what, int found, int most) {
+  if (found >= 0 && found <= most) return;
+  throw Error(Fault::usage, flag + ": expected " + what +
+                                (most == 0 ? " 0, the only one" : " from 0 to " + std::to_string(most)) +
+                                ", found " + std::to_string(found));
 }
 
 /// Explains a pixel that is divided: its corners take the place of samples.
@@ -29,7 +32,7 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
   };
   const std::vector<Corner> corners = cornersOf(rules, rules.depth, colors);
   const int last = static_cast<int>(corners.size()) - 1;
-  require(sample >= 0 && sample <= last, "a corner of this pixel", last, std::to_string(sample));
+  require("--sample", "a corner of this pixel", sample, last);
 
   Explanation result;
   result.tree.x = x;
@@ -56,36 +59,50 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
   return result;
 }
 
+/// The greatest of the pixels around, and of this one.
+double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y) {
+  const auto waves = wavesOf(tracer.samples());
+  const auto first = std::find_if(waves.begin(), waves.end(),
+                                  [](const Wave& wave) { return wave.end >= PixelSum::kFewest; });
+  double greatest = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(size.height - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(size.width - 1, x + 1); ++u)
+      greatest = std::max(greatest, firstErrorOf(tracer, u, v, first->end));
+  return greatest;
+}
+
 }  // namespace
 
 Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
                     int sample, const std::function<bool()>& cancelled) {
-  require(x >= 0 && x < size.width, "a pixel with x", size.width - 1, std::to_string(x));
-  require(y >= 0 && y < size.height, "a pixel with y", size.height - 1, std::to_string(y));
+  require("--pixel X,Y", "X", x, size.width - 1);
+  require("--pixel X,Y", "Y", y, size.height - 1);
   if (subdivides(settings)) return explainDivided(moments, settings, size, x, y, sample, cancelled);
   Explanation result;
   PixelTracer plain(moments, settings, size);
-  require(sample >= 0 && sample < plain.samples(), "a sample", plain.samples() - 1, std::to_string(sample));
+  require("--sample", "a sample", sample, plain.samples() - 1);
   result.tree.x = x;
   result.tree.y = y;
   result.tree.sample = sample;
   PixelTracer(moments, settings, size, &result.tree).sample(x, y, sample);
 
   PixelSum sum;
+  std::optional<double> around;
+  const auto isSure = [&] {
+    if (!around) around = firstErrorAround(plain, size, x, y);
+    return sum.isSure(settings.noiseTarget, *around);
+  };
   for (const Wave& wave : wavesOf(plain.samples())) {
-    result.settled = sum.settles(settings.noiseTarget);
+    result.settled = sum.settles(settings.noiseTarget) && isSure();
     if (result.settled) break;
-    for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k) {
-      Real weight = 1;
-      result.samples.push_back(
-          plain.sample(x, y, k, [&](const CameraRay& ray, const Sampler&) { weight = ray.weight; }));
-      result.weights.push_back(weight);
-      sum.add(result.samples.back(), weight);
-    }
+    for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k)
+      addWave(plain, x, y, {k, k + 1}, sum, [&](const Color& color, Real weight) {
+        result.samples.push_back(color);
+        result.weights.push_back(weight);
+      });
   }
   if (result.settled)
-    require(sample < sum.taken(), "a sample of this pixel, which then was good enough,", sum.taken() - 1,
-            std::to_string(sample));
+    require("--sample", "a sample of this pixel, which then was good enough,", sample, sum.taken() - 1);
   const WeightedMean& mean = sum.colors();
   result.pixel = mean.mean();
   const auto finite = std::count_if(result.samples.begin(), result.samples.end(),

@@ -156,4 +156,24 @@ class PixelTracer {
   SampleRules rules_;
 };
 
+/// Adds the samples of the wave; what counts each is told to see(color, weight).
+template <class See>
+void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum, const See& see) {
+  for (int k = wave.first; k < wave.end; ++k) {
+    Real weight = 1;
+    const Color color =
+        tracer.sample(x, y, k, [&](const CameraRay& ray, const Sampler&) { weight = ray.weight; });
+    see(color, weight);
+    sum.add(color, weight);
+  }
+}
+
+/// PixelSum::firstError() after so many samples.
+inline double firstErrorOf(PixelTracer& tracer, int x, int y, int samples) {
+  PixelSum sum;
+  addWave(tracer, x, y, {0, samples}, sum, [](const Color&, Real) {});
+  sum.noteFirstError();
+  return sum.firstError();
+}
+
 }  // namespace trace

@@ -48,6 +48,8 @@ class TileRenderer {
     chains_           ? takeChain(tile, wave, samples)
     : film_.corners() ? takeCorners(wave, samples)
                       : takePixels(wave, samples);
+    const bool isFirstJudged = wave.first < PixelSum::kFewest && wave.end >= PixelSum::kFewest;
+    if (isFirstJudged && film_.noiseTarget() > 0) lookBeside(tile, wave, samples);
     return samples;
   }
 
@@ -84,6 +86,19 @@ class TileRenderer {
     std::erase_if(samples.splats, [&](const Splat& s) {
       return s.x < area_.x0 || s.x >= area_.x1 || s.y < area_.y0 || s.y >= area_.y1;
     });
+  }
+
+  /// Pixels of the tile that lie beside the area, so that those in it stop as they do in the whole picture.
+  void lookBeside(std::int64_t number, const Wave& wave, TileSamples& samples) {
+    if (area_.x0 >= area_.x1 || area_.y0 >= area_.y1) return;
+    const Tile tile =
+        intersection(film_.tile(number), {area_.x0 - 1, area_.y0 - 1, area_.x1 + 1, area_.y1 + 1});
+    tracer_.collect(nullptr);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (x >= area_.x0 && x < area_.x1 && y >= area_.y0 && y < area_.y1) continue;
+        samples.beside.push_back({x, y, firstErrorOf(tracer_, x, y, wave.end)});
+      }
   }
 
   /// Those of the wave's level that are to be looked at.

@@ -9,6 +9,7 @@
 #include "app/placing.h"
 #include "app/scene_changes.h"
 #include "base/match.h"
+#include "base/text.h"
 #include "geometry/mesh/mesh.h"
 #include "studio/field_editor.h"
 #include "studio/landmarks.h"
@@ -132,7 +133,9 @@ void editObject(Studio& studio) {
   Object object = studio.workspace.document.scene().objects[index];
   heading(studio, entryName(object), object.shape.type().help, object.place);
   if (const auto* mesh = object.shape.as<Mesh>())
-    ImGui::Text("%zu triangles, %zu points", mesh->data->triangles.size(), mesh->data->points.size());
+    ImGui::TextUnformatted((counted(mesh->data->triangles.size(), "triangle") + ", " +
+                            counted(mesh->data->points.size(), "point"))
+                               .c_str());
   if (buttonOnce("Duplicate")) return duplicateSelected(studio);
   ImGui::SameLine();
   if (buttonOnce("Delete")) return deleteSelected(studio);

@@ -14,6 +14,7 @@ namespace {
 struct AdaptiveRender {
   Picture picture;
   double samples = 0;  ///< of all pixels
+  double pixels = 0;   ///< that have samples
 };
 
 AdaptiveRender adaptively(const std::string& scene, std::vector<Choice> choices) {
@@ -22,11 +23,14 @@ AdaptiveRender adaptively(const std::string& scene, std::vector<Choice> choices)
   session.build();
   EXPECT_EQ(session.renderPicture().end, End::finished);
   AdaptiveRender all{session.picture()};
-  for (const Color& count : session.film().sampleCounts().pixels) all.samples += count.r;
+  for (const Color& count : session.film().sampleCounts().pixels) {
+    all.samples += count.r;
+    all.pixels += count.r > 0;
+  }
   return all;
 }
 
-double shareBeyondALevel(const Picture& a, const Picture& b) {
+double pixelsBeyondALevel(const Picture& a, const Picture& b) {
   double beyond = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const auto apart = [&](double x, double y) {
@@ -35,18 +39,43 @@ double shareBeyondALevel(const Picture& a, const Picture& b) {
     const Color &p = a.pixels[i], &q = b.pixels[i];
     beyond += apart(p.r, q.r) || apart(p.g, q.g) || apart(p.b, q.b);
   }
-  return beyond / static_cast<double>(a.pixels.size());
+  return beyond;
 }
 
+struct Part {
+  std::string scene, region;  ///< of the picture that is 240 pixels wide
+};
+
+/// Fewer samples than the `most` that a pixel has where all are taken.
+void expectNearlyTheSame(const Part& part, double most, const std::vector<Choice>& few,
+                         const std::vector<Choice>& all) {
+  const auto rendered = [&](std::vector<Choice> choices) {
+    choices.push_back({"width", "240", {}});
+    choices.push_back({"region", part.region, {}});
+    return adaptively(part.scene, choices);
+  };
+  const AdaptiveRender a = rendered(few), b = rendered(all);
+  EXPECT_LE(pixelsBeyondALevel(a.picture, b.picture), 0.005 * b.pixels) << part.scene;
+  EXPECT_LT(a.samples, 0.4 * most * b.pixels) << part.scene;
+}
+
+// Of parts of pictures; docs/sampling.md has the figures of the whole.
+
 TEST(AdaptiveScenes, SubdivideByItsDefaultIsWithinALevelForLessThanTwoFifthsOfTheRays) {
-  for (const std::string scene : {"antialias.ray", "corners.ray", "glass.ray", "mirrors.ray"}) {
-    const std::vector<Choice> few{{"width", "240", {}}, {"subdivide", "3", {}}};
-    std::vector<Choice> all = few;
-    all.push_back({"subdivide-threshold", "0", {}});
-    const AdaptiveRender a = adaptively(scene, few), b = adaptively(scene, all);
-    EXPECT_LE(shareBeyondALevel(a.picture, b.picture), 0.005) << scene;
-    EXPECT_LT(a.samples, 0.4 * 64 * static_cast<double>(a.picture.pixels.size())) << scene;
-  }
+  for (const Part& part : {Part{"antialias.ray", "0,0,240,160"},
+                           {"corners.ray", "0,0,240,160"},
+                           {"glass.ray", "0,0,240,160"},
+                           {"mirrors.ray", "0,0,240,160"}})
+    expectNearlyTheSame(part, 64, {{"subdivide", "3", {}}},
+                        {{"subdivide", "3", {}}, {"subdivide-threshold", "0", {}}});
+}
+
+TEST(AdaptiveScenes, NoiseTargetOfAThousandthIsWithinALevelForLessThanTwoFifthsOfTheSamples) {
+  for (const Part& part : {Part{"antialias.ray", "60,110,120,150"},
+                           {"mirrors.ray", "60,100,120,140"},
+                           {"glass.ray", "180,10,240,50"}})
+    expectNearlyTheSame(part, 256, {{"spp", "256", {}}, {"noise-target", "0.001", {}}},
+                        {{"spp", "256", {}}, {"sampling", "sobol", {}}});
 }
 
 }  // namespace

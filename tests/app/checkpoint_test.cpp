@@ -72,6 +72,41 @@ TEST_F(Checkpoints, OfAnotherPictureAreLeftAlone) {
   EXPECT_FALSE(exists("out.png.checkpoint-2"));
 }
 
+TEST_F(Checkpoints, AreFoundWhereOneBeforeThemHasBeenTakenAway) {
+  checkpoint("one").save(film(3));
+  checkpoint("two").save(film(2));
+  checkpoint("one").remove(film(3));
+  ASSERT_FALSE(exists("out.png.checkpoint"));
+  Film back = blank();
+  EXPECT_TRUE(checkpoint("two").exists());
+  EXPECT_TRUE(checkpoint("two").load(back));
+  EXPECT_EQ(back.picture(), film(2).picture());
+  checkpoint("two").remove(film(3));
+  EXPECT_FALSE(exists("out.png.checkpoint-2"));
+}
+
+TEST_F(Checkpoints, OthersAreCountedAndTheNearestIsTold) {
+  EXPECT_TRUE(checkpoint().others().empty());
+  settings_.depth = 7, settings_.fog = 0.1;
+  checkpoint().save(film(1));
+  settings_ = {}, settings_.depth = 8;
+  checkpoint().save(film(1));
+  settings_ = {};
+  checkpoint("two").save(film(1));
+  writeFile(folder_ / "out.png.checkpoint-x", "is no checkpoint");
+  Checkpoint own = checkpoint();
+  EXPECT_EQ(own.others(),
+            (std::vector<std::string>{folder_ / "out.png.checkpoint", folder_ / "out.png.checkpoint-2",
+                                      folder_ / "out.png.checkpoint-3"}));
+  Film back = blank();
+  EXPECT_FALSE(own.load(back));
+  EXPECT_EQ(own.whyNot(), (folder_ / "out.png.checkpoint-2") +
+                              ": it is of another picture: --depth differs; 2 others lie there, too");
+  own.save(film(1));
+  EXPECT_EQ(own.path(), folder_ / "out.png.checkpoint-4");
+  EXPECT_EQ(own.others().size(), 3u);
+}
+
 TEST_F(Checkpoints, OfASettingThatChangesSamplesIsAnother) {
   checkpoint().save(film(2));
   Film back = blank();

@@ -23,7 +23,9 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
         message.what.find("no light: everything") != std::string::npos ||
         message.what.find("light nothing") != std::string::npos ||
         message.what.find("fog without end") != std::string::npos ||
-        message.what.find("draws, and") != std::string::npos)
+        message.what.find("draws, and") != std::string::npos ||
+        message.what.find("past the scene") != std::string::npos ||
+        message.what.find("nothing is sharp") != std::string::npos)
       all += message.what + "\n";
   return all;
 }
@@ -113,6 +115,15 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(kLit, {{"denoise", "on", {}}, {"spp", "64", {}}, {"integrator", "mlt", {}}},
         "--denoise changes nothing");
   about(kLit, {{"light-choices", "2", {}}}, "fewer than two lights");
+  about(kLit, {{"subsurface-samples", "3", {}}}, "--subsurface-samples changes nothing");
+}
+
+TEST(IdleOptions, AreToldWhereTheyLeaveNothingToSee) {
+  const auto expect = [](const std::vector<Choice>& choices, const char* expected) {
+    EXPECT_NE(warnings(kLit, choices).find(expected), std::string::npos) << expected;
+  };
+  expect({{"stereo", "side-by-side", {}}, {"eye-separation", "1e6", {}}}, "looks past the scene");
+  expect({{"aperture", "1e6", {}}}, "nothing is sharp");
 }
 
 TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
@@ -124,6 +135,9 @@ TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
             "");
   const std::string mesh =
       "polymesh { points = ((0, 0, 0), (1, 0, 0), (0, 1, 0)); faces = ((0, 1, 2)); gennormals; }";
+  EXPECT_EQ(
+      warnings(kLit, {{"stereo", "side-by-side", {}}, {"eye-separation", "1", {}}, {"aperture", "1", {}}}),
+      "");
   EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
             "");

@@ -269,6 +269,19 @@ TEST_F(Cli, WhatIsReadIsNotWrittenOver) {
   }
 }
 
+TEST_F(Cli, WhatIsWrongIsSaidOnce) {
+  const Run r = run({"white.ray", "-o", "x.xyz"});
+  EXPECT_TRUE(contains(r.err, "error: the name of a picture ends in")) << r.err;
+  EXPECT_EQ(r.last, "nothing written: the command cannot be followed");
+}
+
+TEST_F(Cli, AnEmptyRegionIsToldToBeTheWholePicture) {
+  const Run r = run({"white.ray", "-w", "10", "--region", "0,0,0,0"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.err, "--region 0,0,0,0 has no pixel in it: all of the picture is rendered"))
+      << r.err;
+}
+
 TEST_F(Cli, MissingFileIs1) {
   const Run r = run({"no.ray"});
   EXPECT_EQ(r.code, 1);

@@ -101,6 +101,8 @@ TEST_F(ResumeTest, OfAnotherPictureIsTold) {
   EXPECT_EQ(r.code, 0);
   EXPECT_TRUE(contains(r.err, "begins anew; out.png.checkpoint: it is of another picture")) << r.err;
   EXPECT_TRUE(exists("out.png.checkpoint")) << "who knows whose it is";
+  EXPECT_TRUE(contains(r.err, "note: 1 checkpoint of other options or scenes lies there, ")) << r.err;
+  EXPECT_TRUE(contains(r.err, "if it is wanted no more: rm out.png.checkpoint\n")) << r.err;
 }
 
 TEST_F(ResumeTest, WhereNoneCanBeWrittenTheRenderGoesOn) {

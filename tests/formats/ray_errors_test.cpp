@@ -179,5 +179,22 @@ TEST(RayErrors, ShowTheLine) {
   }
 }
 
+TEST(RayErrors, LightsThatLightNothingOrAllAreToldOf) {
+  const std::string point = "point_light { position = (0, 0, 5); color = 1; ";
+  EXPECT_NE(warningsOf(point + "lights = (); }").find("a list without names is as none"), std::string::npos);
+  EXPECT_EQ(warningsOf(point + "}"), "");
+  const std::string flaps = "warn_light { position = (0, 0, 5); color = 1; direction = (0, 0, -1); ";
+  EXPECT_NE(warningsOf(flaps + "y_min = 2; y_max = 1; }").find("expected y_min below y_max: it is dark"),
+            std::string::npos);
+  EXPECT_EQ(warningsOf(flaps + "y_min = 1; y_max = 2; }"), "");
+}
+
+TEST(RayErrors, NoneIsNoFileUnlessItIsInQuotes) {
+  const std::string lamp =
+      "goniometric_light { position = (0, 0, 5); color = 1; direction = (0, -1, 0); file = ";
+  EXPECT_EQ(errorsOf(lamp + "none; }"), "");
+  EXPECT_NE(errorsOf(lamp + "\"none\"; }"), "");
+}
+
 }  // namespace
 }  // namespace trace::ray_errors_test

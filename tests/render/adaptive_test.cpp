@@ -83,6 +83,55 @@ TEST_F(Adaptive, GoesOnFromWhatWasSaved) {
   EXPECT_EQ(back.layer(0), whole.layer(0));
 }
 
+TEST_F(Adaptive, ARegionHasTheBitsOfTheWholePicture) {
+  const Film whole = rendered(1);
+  settings_.region = {20, 12, 41, 33};  // its rim crosses the edge of the ball and the corners of tiles
+  const Film part = rendered(2);
+  for (int y = 0; y < settings_.height; ++y)
+    for (int x = 0; x < settings_.width; ++x) {
+      const bool isIn = x >= 20 && x < 41 && y >= 12 && y < 33;
+      ASSERT_EQ(part.picture().at(x, y), isIn ? whole.picture().at(x, y) : Color(0)) << x << ',' << y;
+      ASSERT_EQ(part.layer(0).at(x, y), isIn ? whole.layer(0).at(x, y) : Color(0)) << x << ',' << y;
+    }
+}
+
+TEST_F(Adaptive, APixelThatSeesNothingIsHeldBackByOneBesideItThatDoes) {
+  const Film film = rendered(1);
+  int held = 0;
+  for (int x = 1; x + 1 < settings_.width; ++x) {
+    const auto taken = [&](int at) { return film.layer(0).at(at, 30).r; };
+    if (film.errors().at(x, 30).r > settings_.noiseTarget) {
+      EXPECT_GT(taken(x - 1), 16) << x;
+      EXPECT_GT(taken(x + 1), 16) << x;
+    }
+    held += taken(x) > 16 && film.errors().at(x, 30).r == 0;
+  }
+  EXPECT_GT(held, 0);
+}
+
+TEST_F(Adaptive, TheWorkThatIsLeftIsReckonedFromHowErrorsFall) {
+  settings_.noiseTarget = 0.01;
+  settings_.width = 32, settings_.height = 32, settings_.spp = 400;
+  Film film(32, 32, 400, {}, 0.01);
+  const auto add = [&](std::size_t wave) {
+    TileSamples samples{.area = film.tile(0), .colors = {}, .layers = {}};
+    const Wave w = film.waves()[wave];
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        if (!film.settled(x, y))
+          for (int k = w.first; k < w.end; ++k)  // an error of a tenth of white by the root of their number
+            samples.colors.push_back(Color(x < 16 ? 0.5 : 0.5 + (k % 2 == 0 ? 0.1 : -0.1)));
+    film.add(0, wave, std::move(samples));
+  };
+  EXPECT_EQ(film.shareDone(), 0);
+  for (std::size_t wave = 0; wave < 5; ++wave) add(wave);  // 16 samples
+  EXPECT_NEAR(film.shareDone(), 32. / (16 + 100), 0.02) << "half of the pixels needs 16, half 100";
+  for (std::size_t wave = 5; wave < 9; ++wave) add(wave);  // 80
+  EXPECT_NEAR(film.shareDone(), (16 + 80.) / (16 + 100), 0.03);
+  for (std::size_t wave = 9; wave < film.waves().size(); ++wave) add(wave);
+  EXPECT_EQ(film.shareDone(), 1);
+}
+
 TEST_F(Adaptive, IsExplained) {
   const World world = build(scene_, settings_);
   const auto integrator = integratorOf(world, settings_);

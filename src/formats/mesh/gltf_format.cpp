@@ -221,8 +221,8 @@ class GltfReader {
     for (std::size_t i = 0; i < from.count(); ++i) {
       const double corner = from.number(i, 0);
       if (!(corner >= 0 && corner < static_cast<double>(points)))
-        fail("a triangle uses point " + toText(corner) + ", but the mesh has " + std::to_string(points) +
-             " points, counted from 0");
+        fail("a triangle uses point " + toText(corner) + ", but the mesh has " + counted(points, "point") +
+             ", counted from 0");
       corners.push_back(static_cast<std::uint32_t>(corner));
     }
     return corners;

@@ -121,7 +121,8 @@ class ObjReader {
       if (!point)
         throw Error(Fault::scene, place_,  // said before, unless lines end otherwise for tinyobjloader
                     "face " + std::to_string(faces_) + " uses point " + std::to_string(index.vertex_index) +
-                        ", but there are " + std::to_string(points_.size()) + " points so far");
+                        ", but there " + (points_.size() == 1 ? "is " : "are ") +
+                        counted(points_.size(), "point") + " so far");
       face_.push_back(corner(to, {*point, optional(index.texcoord_index, uvs_.size()),
                                   optional(index.normal_index, normals_.size())}));
     }

@@ -8,6 +8,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "formats/mesh/obj_words.h"
 
 namespace trace {
@@ -141,7 +142,7 @@ class ObjCheck {
       if (!isThere(corner->point, points_))
         fail(word,
              "the face uses point " + std::string(word.substr(0, std::min(word.find('/'), 40ul))) +
-                 ", but there are " + std::to_string(points_) + " points so far",
+                 ", but there " + (points_ == 1 ? "is " : "are ") + counted(points_, "point") + " so far",
              "points are counted from 1, or backwards from -1");
       const bool all = (corner->uv == 0 || isThere(corner->uv, uvs_)) &&
                        (corner->normal == 0 || isThere(corner->normal, normals_));

@@ -55,8 +55,15 @@ bool read(Findings& findings, std::string_view name, const Item& value, bool& to
   return true;
 }
 
+/// `none` without quotes: no file.
+bool readFileName(Findings& findings, std::string_view name, const Item& value, std::string& to) {
+  if (!read(findings, name, value, to)) return false;
+  if (value.source() == "none") to.clear();
+  return true;
+}
+
 bool read(Findings& findings, std::string_view name, const Item& value, Pixels& to) {
-  if (!read(findings, name, value, to.file)) return false;
+  if (!readFileName(findings, name, value, to.file)) return false;
   to.place = findings.syntax().shortPlace(value.offset());
   return true;
 }
@@ -210,7 +217,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
 
 bool read(Findings& findings, std::string_view name, const Item& value, PhotometryFile& to) {
   std::string file;
-  if (!read(findings, name, value, file)) return false;
+  if (!readFileName(findings, name, value, file)) return false;
   to = {file, nullptr, findings.syntax().shortPlace(value.offset())};
   if (file.empty()) return true;
   const std::string path = pictureFile(findings.syntax().file(), file);

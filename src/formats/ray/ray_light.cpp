@@ -127,6 +127,20 @@ void checkUp(Findings& findings, const Item& call, const L& light, bool given) {
                               ": expected an up that is not along the direction: another one is chosen");
 }
 
+/// Flaps that shut leave nothing of the light.
+template <class L>
+void checkFlaps(Findings& findings, const Item& call, const L& light) {
+  if constexpr (requires { light.xMin; }) {
+    const std::string axis = light.xMin > light.xMax   ? "x"
+                             : light.yMin > light.yMax ? "y"
+                             : light.zMin > light.zMax ? "z"
+                                                       : "";
+    if (!axis.empty())
+      findings.warn(
+          call, std::string(L::kKeyword) + ": expected " + axis + "_min below " + axis + "_max: it is dark");
+  }
+}
+
 template <class L>
 void read(Findings& findings, const Item& call) {
   const std::optional<Item> block = blockOf(findings, call);
@@ -148,7 +162,12 @@ void read(Findings& findings, const Item& call) {
       }
     if constexpr (std::is_same_v<L, SpotLight>)
       if (spot.read(findings, item, light)) continue;
-    if (assignField(findings, links, item)) continue;
+    if (assignField(findings, links, item)) {
+      if (item.key() == "lights" && links.lights.empty())
+        findings.warn(item, "lights: a list without names is as none: everything is lit",
+                      "excludes names what the light leaves out");
+      continue;
+    }
     if (!assignField(findings, light, item)) {
       findings.unknownField(L::kKeyword, item, keywords<L>({"colour", "name", "lights", "excludes"}));
       unknown.push_back(item.key());
@@ -172,6 +191,7 @@ void read(Findings& findings, const Item& call) {
       !checkView(findings, call, light))
     return;
   checkArea(findings, call, light);
+  checkFlaps(findings, call, light);
   checkUp(findings, call, light, isGiven("up"));
   if constexpr (requires { light.exponent; }) light.exponent = std::max(0.0, light.exponent);
   if constexpr (requires { light.fullAngle; }) {
