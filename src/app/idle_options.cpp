@@ -244,10 +244,6 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
       std::any_of(world.media().begin(), world.media().end(), glows))
     warn("--integrator photon sees the light that media give off, but sends no photons from there",
          "--integrator path follows that light further");
-  if ((isBidirectional(s) || s.integrator == IntegratorKind::photon) && world.hasSubsurface())
-    warn("--integrator " + integrator +
-             " lets no light spread in bodies of marble, milk or skin: it comes out where it went in",
-         "--integrator path follows light through them");
 
   const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
                      s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||

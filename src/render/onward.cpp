@@ -38,7 +38,7 @@ Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight,
   return arrives > 0 ? scattered(at, toEye, toLight, lit) * (std::abs(dot(toEye, flat)) / arrives) : Color(0);
 }
 
-Onward::Onward(const Interaction& at, Real spectrum) : at_(at) {
+Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody) : at_(at) {
   const bool glossy = isGlossy(at.bsdf());
   const auto shares = glossy ? at.shares().first(0) : at.shares();
   if (!shares.empty()) {
@@ -50,16 +50,18 @@ Onward::Onward(const Interaction& at, Real spectrum) : at_(at) {
   mirror_ = at.mirror(glossy);
   const Real mirrors = maxComponent(mirror_), passes = maxComponent(through_);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
-  const Real lobe = scatters(at.bsdf()) ? std::max(kLeastLobe, 1 - mirrors - passes) : 0;
-  const Real all = lobe + mirrors + passes;
+  const Real likely = intoBody ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
+  const Real lobe = scatters(at.bsdf()) ? likely : 0;
+  const Real all = lobe + mirrors + passes + intoBody.value_or(0);
   if (!(all > 0)) return;
   toLobe_ = lobe / all;
   toMirror_ = mirrors / all;
+  toBody_ = intoBody.value_or(0) / all;
   toBehind_ = passes / all;
 }
 
 bool Onward::totallyReflected(Real choice) const {
-  return choice >= toLobe_ + toMirror_ && toBehind_ > 0 && !at_.through(*share_);
+  return choice >= toLobe_ + toMirror_ + toBody_ && toBehind_ > 0 && !at_.through(*share_);
 }
 
 std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLight, bool lit) const {
@@ -86,7 +88,7 @@ std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLi
     const Vec3 to = mirrored(at_.ray.direction, at_.normal);
     return Ray{RayKind::reflection, to, mirror_ * (narrowed(to) / toMirror_), 0, 1, at_.inside};
   }
-  if (!(toBehind_ > 0)) return {};
+  if (!(toBehind_ > 0) || goesIntoBody(choice) > 0) return {};
   const auto to = at_.through(*share_);
   if (!to) return {};
   // Along paths from the camera radiance over the square of the index is kept, which light is not.

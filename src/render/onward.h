@@ -21,8 +21,9 @@ Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight,
 class Onward {
  public:
   /// `spectrum` from 0 up to 1 chooses the wavelength where the surface begins to split light: of all
-  /// surfaces of a sample the same.
-  Onward(const Interaction& at, Real spectrum);
+  /// surfaces of a sample the same. `intoBody` says how much a way through a body in which light spreads is
+  /// worth, which is one more to choose; the surface's own lobe is then what is left of its light.
+  Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody = {});
 
   /// A ray that goes on.
   struct Ray {
@@ -36,6 +37,10 @@ class Onward {
   /// Chooses where a path from the camera goes on, or one `fromLight`, which carries light itself; `lit`:
   /// light that Whitted's equation knows.
   std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
+  /// How likely the choice of a way through the body was, if it is that; else 0.
+  Real goesIntoBody(Real choice) const {
+    return choice >= toLobe_ + toMirror_ && choice < toLobe_ + toMirror_ + toBody_ ? toBody_ : 0;
+  }
   /// It was the choice of a refracted ray that is totally reflected.
   bool totallyReflected(Real choice) const;
   /// How much of a wavelength's light is one ray's, where the surface splits it.
@@ -45,7 +50,7 @@ class Onward {
   const Interaction& at_;
   const SpectralShare* share_ = nullptr;
   Color response_{1}, mirror_, through_;
-  Real toLobe_ = 0, toMirror_ = 0, toBehind_ = 0;
+  Real toLobe_ = 0, toMirror_ = 0, toBody_ = 0, toBehind_ = 0;
 };
 
 }  // namespace trace

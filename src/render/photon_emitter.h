@@ -83,7 +83,7 @@ class PhotonEmitter {
   bool crossMedia(Flight& flight, LandedPhotons& landed);
   void lightFog(const Flight& flight, LandedPhotons& landed);
   void scatter(Flight& flight, const Vec3& point, Real forward);
-  bool goOn(Flight& flight, const Interaction& at, bool rests);
+  bool goOn(Flight& flight, const Interaction& at, bool rests, const std::optional<SubsurfaceBsdf>& body);
 
   std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;

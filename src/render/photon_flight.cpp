@@ -3,6 +3,7 @@
 
 #include "render/interaction.h"
 #include "render/photon_emitter.h"
+#include "render/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -113,9 +114,11 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     if (!f.hit) return;
     f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
     if (isBlack(f.power) || (f.straight && f.light && !world_.lights(*f.light, f.hit->object))) return;
-    const Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
+    Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const Vec3& normal = f.hit->surface.normal;
     const bool rests = scatters(at.bsdf());
+    std::optional<SubsurfaceBsdf> body;
+    if (world_.hasSubsurface()) body = at.takeBody();
     if (rests && ((f.bounces > 0 && f.gathered) || !onlyCaustics_)) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
@@ -123,7 +126,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
         landed.photons.push_back(
             {f.hit->surface.point, f.ray.direction, at.facing() > 0 ? normal : -normal, f.power});
     }
-    if (f.bounces >= settings_.depth || !goOn(f, at, rests)) return;
+    if (f.bounces >= settings_.depth || !goOn(f, at, rests, body)) return;
     f.parallel = f.fromSky = false;
     ++f.bounces;
     cast(f);
@@ -131,7 +134,8 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
 }
 
 /// One ray goes on from the surface, or none: what it brings stays about the same. False if it ends.
-bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests) {
+bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests,
+                         const std::optional<SubsurfaceBsdf>& body) {
   const auto shares = at.shares();
   const SpectralShare* share =
       shares.empty() ? nullptr
@@ -141,8 +145,12 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests) {
   const Color through =
       share && !glossy ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
-  const Real lobe = rests && !onlyCaustics_ ? std::max(0.2, 1 - mirrors - passes) : 0;
-  const Real all = std::max(1.0, mirrors + passes + lobe), choice = chance() * all;
+  constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
+  const Real likely = body ? scatters(at.bsdf()) * kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
+  const Real lobe = rests && !onlyCaustics_ ? likely : 0;
+  const Real inBody =
+      body && !onlyCaustics_ ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
+  const Real all = std::max(1.0, mirrors + passes + lobe + inBody), choice = chance() * all;
   Interfaces there = f.inside;
   Vec3 direction;
   if (choice < mirrors) {
@@ -175,6 +183,17 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests) {
     if (!(chance() < goes)) return false;
     f.power *= weight / goes;
     if (inward && at.transmits) there = at.behind();
+  } else if (choice < mirrors + passes + lobe + inBody) {
+    f.straight = false;
+    numbers_.next();
+    const auto out = departure(at, *body, f.power, Sampler(rules_, numbers_));
+    if (!out) return false;
+    const Color weight = out->weight * (all / inBody);
+    const Real goes = std::min(1.0, maxComponent(f.power * weight) / maxComponent(f.power));
+    if (!(chance() < goes)) return false;
+    f.power *= weight / goes;
+    f.hit = out->hit;
+    direction = out->direction;
   } else {
     return false;
   }

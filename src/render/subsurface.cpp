@@ -122,19 +122,26 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
 
 // --- the walk -----------------------------------------------------------------------------------------
 
-std::optional<Entrance> byWalk(const Interaction& at, const Subsurface& said, const Color& importance,
-                               Sampler& numbers) {
+/// Where a walk comes to the surface and is let out.
+struct WalkEnd {
+  Ray ray;
+  Found wall;
+  SurfacePoint place;
+  Real letOut;  ///< of what comes there so
+  Color weight;
+  int steps;
+};
+
+/// The walk of light that starts in the body along that ray.
+std::optional<WalkEnd> walked(const Interaction& at, const Subsurface& said, Ray ray, const Color& importance,
+                              Sampler& numbers) {
   constexpr int kMostSteps = 100000, kSurely = 16;
   Tracer& tracer = at.tracer;
   const World& world = tracer.world();
-  const Vec3 outward = at.hit.surface.normal;
   const PerColor scatters = perUnit(said.scatters, said), absorbs = perUnit(said.absorbs, said);
   PerColor loses;
   for (std::size_t c = 0; c < 3; ++c) loses[c] = scatters[c] + absorbs[c];
 
-  const auto inward = refracted(at.ray.direction, at.normal, 1 / said.index);
-  if (!inward || !(dot(*inward, outward) < 0)) return {};
-  Ray ray = spawnRay(at.hit.surface, *inward);
   Color weight(1);
   for (int steps = 0; steps < kMostSteps; ++steps) {
     std::optional<Found> wall;
@@ -167,36 +174,78 @@ std::optional<Entrance> byWalk(const Interaction& at, const Subsurface& said, co
     }
     const SurfacePoint place = world.surface(ray, *wall);
     const Real cosine = std::abs(dot(ray.direction, place.normal));
-    if (!(numbers.next() < fresnelDielectric(cosine, said.index, 1)))
-      return seen(tracer, at.hit.surface.point, ray, *wall, weight,
-                  {length(place.point - at.hit.surface.point), steps});
+    const Real mirrors = fresnelDielectric(cosine, said.index, 1);
+    if (!(numbers.next() < mirrors)) return WalkEnd{ray, *wall, place, 1 - mirrors, weight, steps};
     ray = spawnRay(place, mirrored(ray.direction, place.normal));
   }
   return {};
+}
+
+std::optional<Entrance> byWalk(const Interaction& at, const Subsurface& said, const Color& importance,
+                               Sampler& numbers) {
+  const SurfacePoint& here = at.hit.surface;
+  const auto inward = refracted(at.ray.direction, at.normal, 1 / said.index);
+  if (!inward || !(dot(*inward, here.normal) < 0)) return {};
+  const auto end = walked(at, said, spawnRay(here, *inward), importance, numbers);
+  if (!end) return {};
+  return seen(at.tracer, here.point, end->ray, end->wall, end->weight,
+              {length(end->place.point - here.point), end->steps});
+}
+
+/// By a walk or a profile; without what the surface lets out.
+std::optional<Entrance> found(const Interaction& at, const Subsurface& said, const Color& importance,
+                              Sampler& numbers) {
+  if (said.spreading == Spreading::walk) return byWalk(at, said, importance, numbers);
+  const PerColor scatters = perUnit(said.scatters, said), absorbs = perUnit(said.absorbs, said);
+  std::array<Dipole, 3> dipoles;
+  std::array<NormalizedDiffusion, 3> others;
+  for (std::size_t c = 0; c < 3; ++c) {
+    dipoles[c] = {scatters[c], absorbs[c], said.index};
+    others[c] = {scatters[c], absorbs[c], dipoles[c].albedo};
+  }
+  return said.spreading == Spreading::dipole ? byProfile(at, dipoles, importance, numbers)
+                                             : byProfile(at, others, importance, numbers);
 }
 
 }  // namespace
 
 std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
                                  Sampler numbers) {
+  auto in = found(at, body.said, importance, numbers);
+  if (in) in->weight *= body.passes(at.cosine);
+  return in;
+}
+
+std::optional<Departure> departure(const Interaction& at, const SubsurfaceBsdf& body, const Color& power,
+                                   Sampler numbers) {
   const Subsurface& said = body.said;
-  const Color out = body.passes(at.cosine);
-  std::optional<Entrance> found;
-  if (said.spreading == Spreading::walk) {
-    found = byWalk(at, said, importance, numbers);
-  } else {
-    const PerColor scatters = perUnit(said.scatters, said), absorbs = perUnit(said.absorbs, said);
-    std::array<Dipole, 3> dipoles;
-    std::array<NormalizedDiffusion, 3> others;
-    for (std::size_t c = 0; c < 3; ++c) {
-      dipoles[c] = {scatters[c], absorbs[c], said.index};
-      others[c] = {scatters[c], absorbs[c], dipoles[c].albedo};
-    }
-    found = said.spreading == Spreading::dipole ? byProfile(at, dipoles, importance, numbers)
-                                                : byProfile(at, others, importance, numbers);
+  const SurfacePoint& here = at.hit.surface;
+  // Photons are spread over the true area, and light counts by the shaded one (Veach 1997, section 5.3.2).
+  constexpr Real kMost = 4;
+  if (!(at.cosine > 0 && at.facing() > 0)) return {};
+  const Color goesIn = body.enters(at.cosine) * std::min(at.cosine / at.facing(), kMost);
+  const auto left = [&](const std::optional<Entrance>& place, const Vec3& direction,
+                        const Color& weight) -> std::optional<Departure> {
+    if (!place || !(dot(direction, place->hit.surface.shading) > 0)) return {};
+    return Departure{place->hit, direction, goesIn * place->weight * weight};
+  };
+  if (said.spreading != Spreading::walk) {
+    const auto place = found(at, said, power * goesIn, numbers);
+    if (!place) return {};
+    const SurfacePoint& there = place->hit.surface;
+    const Vec3 direction = Frame{there.normal}.basis().toWorld(cosineDirection(numbers.next2()));
+    return left(place, direction, body.passes(dot(direction, there.shading)));
   }
-  if (found) found->weight *= out;
-  return found;
+  const Vec3 inward = Frame{-here.normal}.basis().toWorld(cosineDirection(numbers.next2()));
+  const Real enters = 1 - fresnelDielectric(-dot(inward, here.normal), said.index, 1);
+  if (!(enters > 0)) return {};
+  const auto end = walked(at, said, spawnRay(here, inward), power * goesIn, numbers);
+  if (!end) return {};
+  const auto direction = refracted(end->ray.direction, -end->place.normal, said.index);
+  if (!direction) return {};
+  const auto place = seen(at.tracer, here.point, end->ray, end->wall, end->weight, {});
+  const Color lets = body.passes(dot(*direction, place->hit.surface.shading));
+  return left(place, *direction, lets * (enters * said.index * said.index / end->letOut));
 }
 
 }  // namespace trace

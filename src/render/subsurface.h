@@ -1,4 +1,5 @@
-// Where light that comes out of a body went in: marble, milk, skin (shading/materials/subsurface.h).
+// Where light that comes out of a body went in, and the other way round: marble, milk, skin
+// (shading/materials/subsurface.h).
 //
 // Profiles are looked up by probes: a line through the body, along the normal or one of two tangents, at a
 // distance that the profile chooses; of the places where it crosses the surface one is taken by what it
@@ -9,6 +10,10 @@
 // A walk goes step by step, as light does, from where the eye's ray is refracted into the body until the
 // surface lets it out (Chiang, Kutz and Burley, Practical and Controllable Subsurface Scattering, SIGGRAPH
 // 2016 talks). By similarity light is scattered evenly, as often as the reduced coefficient says.
+//
+// A photon goes the same ways backward. Profiles do not change when the two places are exchanged. A walk
+// begins in any direction below the surface that lets light in, evenly, and where it comes out it is
+// refracted to the eye.
 #pragma once
 
 #include <optional>
@@ -29,5 +34,16 @@ struct Entrance {
 /// colour counts. Nothing where no way was found. The place is the one that the Tracer has met last.
 std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
                                  Sampler numbers);
+
+/// Where a photon leaves a body, and how.
+struct Departure {
+  Hit hit;
+  Vec3 direction;
+  Color weight;  ///< what its power is to be multiplied by
+};
+
+/// Of the photon that met the body at `at` with that power. Nothing where it does not come out.
+std::optional<Departure> departure(const Interaction& at, const SubsurfaceBsdf& body, const Color& power,
+                                   Sampler numbers);
 
 }  // namespace trace

@@ -979,7 +979,7 @@ const std::array kOptions{
          .least = 1,
          .most = 10000,
          .unit = "places",
-         .integrators = "whitted, path, direct, mlt"}),
+         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "whose rules hold: sets every option of this group",

@@ -5,6 +5,7 @@
 #include "render/firefly.h"
 #include "render/footprint.h"
 #include "render/integrators/bdpt_paths.h"
+#include "render/subsurface.h"
 
 namespace trace {
 
@@ -36,9 +37,9 @@ bool Bidirectional::allows(const Counts& whole, Last last) const {
 }
 
 /// Whether paths from lights bring to a place that scatters what it gets by mirrors and glass: they land
-/// there, or are joined with the place before it, if that scatters, too.
+/// there, if the camera sees it straight, or are joined with the place before it, if that scatters, too.
 bool Bidirectional::comesFromLights(const Path& path) const {
-  return starts_.anyLight() && (lands_ || path.kind == RayKind::bounce);
+  return starts_.anyLight() && (path.kind == RayKind::bounce || (lands_ && path.kind == RayKind::camera));
 }
 
 /// The way that the sample's numbers choose: first how many places the path has, few more likely than many.
@@ -99,12 +100,12 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   const int t = path.t();
   // A light that was asked, or comes by paths from it, is not seen besides.
   const bool brought = path.kind == RayKind::bounce || path.fromLights;
-  const auto lamp = brought ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
+  const auto lamp = brought || path.within ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
   const bool onlyShines = path.counts.surfaces > depth_ || mostOften;  // is it sent for
   std::optional<MediumWay> media;
-  if (isThick(tracer)) {
+  if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
     media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (const auto where = placeByChance(*media, path.weight, numbers.next()))
@@ -141,7 +142,12 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   }
   Footprint footprint;  // null where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
-  const Interaction at(tracer, ray, *hit, footprint.get(), inside, sample.shift);
+  Interaction at(tracer, ray, *hit, footprint.get(), inside, sample.shift);
+  std::optional<SubsurfaceBsdf> body;
+  if (path.within)
+    at.letIn();
+  else if (world.hasSubsurface())
+    body = at.takeBody();
   sum.note(at.bsdf());
   sum.note(at.raised());
   sum.note(at.indices);
@@ -149,23 +155,41 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   const Real cosine = place.cosine(ray.direction), distance2 = hit->t * hit->t;
   path.partial.arrive(path.kind == RayKind::camera && camera_.parallel() ? 1 : distance2, cosine);
 
-  if (!isBlack(at.material.emissive))
+  if (!path.within && !isBlack(at.material.emissive))
     met(Term::Kind::emissive, at.material.emissive, lamps_.density(ray.origin, *hit) * cosine / distance2,
         starts_.ofLamp(*hit) * cosine);
   const auto throughMedium = [&] {
     seeMedia();
-    return sum.radiance(inside.passed(hit->t));
+    return sum.radiance(path.within ? Color(1) : inside.passed(hit->t));
   };
   if (onlyShines) {
     sum.stop(DepthLimit{RayKind::bounce, mostOften ? mostScattered_ : depth_});
     return throughMedium();
   }
   joinAll(sum, place, path, path.counts + Counts{1, 0}, Color(1), sampler, sample);
-  if (sample.ways.camera == t) return throughMedium();
 
-  const Onward onward(at, sample.spectrum);
+  // Where light went in that comes out here is the same place of the path.
+  const auto throughBody = [&](std::uint32_t n, Real part) {
+    const Sampler own = sampler.branch(kBody).branch(n);
+    const auto in = entrance(at, *body, path.weight, own.branch(0));
+    if (!in) return;
+    const Color factor = in->weight * part;
+    Path onto{RayKind::refraction, path.counts, path.weight * factor};
+    onto.within = true;
+    sum.add(factor, along(tracer, in->ray, in->hit, onto, inside, own.branch(1), sample), in->how);
+  };
+  const bool both =
+      body && path.counts.surfaces == 0;  // what is seen first is followed into the body besides
+  const int places = both ? tracer.settings().subsurfaceSamples : 0;
+  for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
+  std::optional<Real> intoBody;
+  if (body) intoBody = both ? 0 : maxComponent(body->albedo) * maxComponent(body->passes(at.cosine));
+  const Onward onward(at, sample.spectrum, intoBody);
   Sampler numbers = sampler.branch(kChoice);
   const Real choice = numbers.next();
+  if (const Real likely = onward.goesIntoBody(choice); likely > 0) throughBody(0, 1 / likely);
+  if (sample.ways.camera == t || onward.goesIntoBody(choice) > 0) return throughMedium();
+
   const auto next = onward.choose(choice, sampler.branch(kLobe));
   if (!next) {
     if (onward.totallyReflected(choice)) sum.stop(TotalInternalReflection{});

@@ -21,6 +21,10 @@
 // the choice among lights, and of how far a ray gets in a medium: any weights that sum up to 1 give the same
 // picture. Light that glass refracts is found by paths from lights: no shadow ray passes glass. Parallel
 // light begins no path in a medium; it is asked there.
+//
+// A path from the camera goes through a body in which light spreads as a path tracer does: from where light
+// comes out to where it went in (render/subsurface.h), which count as one place of it. A path from a light
+// knows no way through: its density to have come out is 0, so the sums begin anew behind a body.
 #pragma once
 
 #include <memory>
@@ -100,7 +104,7 @@ class Bidirectional : public Integrator {
                                  kNext = 0x80000003u, kMedium = 0x80000004u, kHole = 0x80000005u,
                                  kLightPath = 0x80000006u, kSpectrum = 0x80000007u, kLens = 0x80000008u,
                                  kWay = 0x80000009u, kToLamp = 0x8000000au, kJoin = 0x8000000bu,
-                                 kLand = 0x8000000cu;
+                                 kLand = 0x8000000cu, kBody = 0x8000000du;
   /// Paths of fewer bounces are not ended by chance.
   static constexpr int kSurely = 3;
 

@@ -57,6 +57,7 @@ struct Bidirectional::Path {
   Real ink = 0;                                  ///< how much of it an outline covers
   bool fromMedium = false;                       ///< it was scattered in a medium last
   bool fromLights = false;                       ///< paths from lights bring what mirrors and glass show it
+  bool within = false;                           ///< it runs in a body, from where light comes out
 
   int t() const { return counts.all() + 2; }  ///< of the place where it arrives
 };
@@ -83,7 +84,9 @@ struct Bidirectional::LightPlace {
         inside(std::move(inside_)),
         hit(hit_),
         at(std::in_place, tracer, ray, *hit, nullptr, inside, choice),
-        place(*at) {}
+        place(*at) {
+    if (tracer.world().hasSubsurface()) at->takeBody();
+  }
   LightPlace(const Ray& ray_, Interfaces inside_, const MediumWay::Place& where)
       : ray(ray_), inside(std::move(inside_)), place(ray, where, inside) {}
 

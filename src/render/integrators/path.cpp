@@ -90,7 +90,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
                           std::unique_ptr<Scattering>& after) const {
   const World& world = tracer.world();
   // Photons have brought what shines there.
-  const bool brought = path.gathers && path.kind != RayKind::bounce && !path.maps->caustics.empty();
+  const bool brought = path.bounced && path.kind != RayKind::bounce && !path.maps->caustics.empty();
   const auto lamp =
       path.asked || path.within || brought ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
@@ -131,7 +131,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   std::optional<SubsurfaceBsdf> body;
   if (path.within)
     at.letIn();
-  else if (world.hasSubsurface() && light_ != Light::photons)
+  else if (world.hasSubsurface())
     body = at.takeBody();
   sum.note(at.bsdf());
   sum.note(at.raised());
@@ -207,6 +207,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
               gathers, path.maps,      path.scattered};
     next.asked = kind == RayKind::bounce ||
                  (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.material));
+    next.bounced = path.bounced || kind == RayKind::bounce;
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
@@ -219,8 +220,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
     const Color factor = in->weight * part;
-    const Path next{RayKind::refraction, path.depth, path.weight * factor, 0,   nullptr, 0,
-                    path.gathers,        path.maps,  path.scattered,       true};
+    const Path next{RayKind::refraction, path.depth, path.weight * factor, 0, nullptr, 0, gathers, path.maps,
+                    path.scattered,      true};
     sum.add(factor, along(tracer, in->ray, in->hit, next, inside, own.branch(1)), in->how);
   };
 

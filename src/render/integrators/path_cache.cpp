@@ -107,7 +107,7 @@ class PathTracer::CacheFiller {
       Path path;
       path.kind = RayKind::bounce;
       path.depth = 1;
-      path.gathers = path.forCache = path.asked = true;
+      path.gathers = path.forCache = path.asked = path.bounced = true;
       path.maps = &path_.maps_[static_cast<std::size_t>(n) % path_.maps_.size()];
       Interfaces there = at.inside;
       const auto met = tracer.cast(ray, RayKind::bounce, there, tracer.chance(own.branch(1)));

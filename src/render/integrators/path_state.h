@@ -19,6 +19,7 @@ struct PathTracer::Path {
   bool forCache = false;                         ///< what shines and is asked for does not count
   /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
   bool asked = false;
+  bool bounced = false;  ///< photons were asked what mirrors and glass bring to where it was scattered
 };
 
 /// A place where a medium scatters a path, until it is known what the ray from there brings.

@@ -2,10 +2,10 @@
 // clear layer (shading/coating.h) that mirrors. What is said are the coefficients of Jensen, Marschner, Levoy
 // and Hanrahan (SIGGRAPH 2001), whose table of measured ones is part of the library of materials.
 //
-// Whitted's tracer and the path tracer follow light through the body (render/subsurface.h), by one of three
-// ways to tell how far it gets. For others, and as the model below, it comes out where it went in: the limit
-// of a body that is large against the way of light in it. So the model is reciprocal, and gives back at most
-// what arrives; all of it where nothing is absorbed.
+// All integrators follow light through the body (render/subsurface.h), by one of three ways to tell how far
+// it gets. As the model below it comes out where it went in: the limit of a body that is large against the
+// way of light in it. So the model is reciprocal, and gives back at most what arrives; all of it where
+// nothing is absorbed.
 #pragma once
 
 #include <array>
@@ -95,6 +95,13 @@ struct SubsurfaceBsdf : LocalBsdf<SubsurfaceBsdf, Subsurface> {
   Color passes(Real cosine) const {
     const Color mirrored = coat.albedo({0, 0, max(0, min(1, cosine))});
     return {max(0, 1 - mirrored.r), max(0, 1 - mirrored.g), max(0, 1 - mirrored.b)};
+  }
+
+  /// What goes in of light from there, over what goes in of light from everywhere.
+  Color enters(Real cosine) const {
+    const Color in = passes(cosine);
+    const auto share = [](Real a, Real mirrored) { return mirrored < 1 ? a / (1 - mirrored) : 0; };
+    return {share(in.r, coat.meanAlbedo.r), share(in.g, coat.meanAlbedo.g), share(in.b, coat.meanAlbedo.b)};
   }
 
   bool scatters() const { return part != Part::surface || !coat.smooth; }
