@@ -64,11 +64,12 @@ void MeshRepairs::check(MeshData& mesh, const Place& place) {
       normal = {};
       ++notFinite_;
     }
-  for (Vec2& uv : mesh.uvs)
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-      uv = {};
-      ++notFinite_;
-    }
+  for (std::vector<Vec2>* uvs : {&mesh.uvs, &mesh.secondUvs})
+    for (Vec2& uv : *uvs)
+      if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+        uv = {};
+        ++notFinite_;
+      }
   degenerate_ += dropDegenerate(mesh);
   zeroNormals_ += repairNormals(mesh);
   triangles_ += mesh.triangles.size();

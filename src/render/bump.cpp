@@ -40,43 +40,71 @@ const ImageMap* normalMap(const Texture& texture) {
   return map && map->relief != Relief::heights ? map : nullptr;
 }
 
-}  // namespace
-
-void World::bend(const Ray& ray, Hit& hit) const {
-  // The material's own textures and heights, up to three where a mesh mixes materials.
+/// A material's own textures and heights, up to three where a mesh mixes materials.
+struct Heights {
   struct Part {
     const Texture* texture;
     Real height;
   };
   Part parts[3];
   int count = 0;
-  bool inUv = false;
-  SurfacePoint& surface = hit.surface;
+  bool inUv = false, inSecondUv = false;
+
+  void add(const Texture& texture, Real height) {
+    parts[count++] = {&texture, height};
+    inUv |= wantsUv(texture);
+    inSecondUv |= wantsSecondUv(texture);
+  }
+  Real at(const TexturePlace& place) const {
+    Real height = 0;
+    for (int i = 0; i < count; ++i) height += parts[i].height * luminance(parts[i].texture->at(place));
+    return height;
+  }
+};
+
+const Principled* apart(const Material* material) {
+  const auto* model = material ? std::get_if<Principled>(&material->model) : nullptr;
+  return model && model->clearcoat > 0 && model->clearcoatApart ? model : nullptr;
+}
+
+}  // namespace
+
+void World::bend(const Ray& ray, Hit& hit) const {
+  bool coatApart = false;
+  for (int i = 0; i < hit.materials.count; ++i) {
+    const std::uint32_t m = hit.materials.material[i];
+    coatApart |= m != MaterialMix::kClear && apart(surfaces_[m].textured.get());
+  }
+  if (coatApart) hit.coat = bentNormal(ray, hit, Bent::coat);
+  hit.surface.shading = bentNormal(ray, hit, Bent::surface);
+}
+
+Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
+  Heights heights;
+  const SurfacePoint& surface = hit.surface;
   const Vec3 smooth = surface.shading;
   Vec3 turned;  // how far pictures of normals turn it
   for (int i = 0; i < hit.materials.count; ++i) {
     const std::uint32_t m = hit.materials.material[i];
     const Material* material = m == MaterialMix::kClear ? nullptr : surfaces_[m].textured.get();
-    const Texture* texture = material ? textureOf(material->textures, "bump") : nullptr;
+    const Principled* coat = what == Bent::coat ? apart(material) : nullptr;
+    if (!material || (what == Bent::coat && !coat)) continue;
+    const Texture* texture = textureOf(material->textures, coat ? "clearcoat_bump" : "bump");
     if (!texture) continue;
+    const Real scale = coat ? coat->clearcoatBump : material->bump;
     const Real share = hit.materials.count == 1 ? 1 : hit.materials.weight[i];
     if (const ImageMap* map = normalMap(*texture)) {
       const bool down = map->relief == Relief::normalsDown;
       const Color texel = texture->at(place(hit));
-      turned += (mappedNormal(texel, slopes(hit), smooth, material->bump, down) - smooth) * share;
-      continue;
-    }
-    parts[count++] = {texture, material->bump * share};
-    inUv |= wantsUv(*texture);
+      const SurfaceSlopes along = map->secondUv ? secondSlopes(hit) : slopes(hit);
+      turned += (mappedNormal(texel, along, smooth, scale, down) - smooth) * share;
+    } else
+      heights.add(*texture, scale * share);
   }
+  Vec3 shading = smooth;
   if (turned != Vec3{} && isFinite(turned))
-    surface.shading = saneNormal(smooth, normalize(smooth + turned), ray.direction, surface.normal);
-  if (count == 0) return;
-  const auto heightAt = [&](const TexturePlace& place) {
-    Real height = 0;
-    for (int i = 0; i < count; ++i) height += parts[i].height * luminance(parts[i].texture->at(place));
-    return height;
-  };
+    shading = saneNormal(smooth, normalize(smooth + turned), ray.direction, surface.normal);
+  if (heights.count == 0) return shading;
 
   // Heights are measured in the space of the object, along steps a thousandth of its size.
   const Instance& instance = objects_[hit.object];
@@ -85,23 +113,28 @@ void World::bend(const Ray& ray, Hit& hit) const {
   const Real size = instance.bounds.unbounded() || instance.bounds.empty()
                         ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
                         : maxComponent(instance.bounds.size());
-  const Vec3 normal = normalize(transposed(out, surface.shading));
+  const Vec3 normal = normalize(transposed(out, shading));
   const Vec3 first = perpendicularTo(normal);
-  const SurfaceSlopes along = inUv ? slopes(hit) : SurfaceSlopes{};
+  const SurfaceSlopes along = heights.inUv ? slopes(hit) : SurfaceSlopes{};
+  const SurfaceSlopes second = heights.inSecondUv ? secondSlopes(hit) : along;
   const TexturePlace here = place(hit);
-  const Real height = heightAt(here);
+  const Real height = heights.at(here);
   Vec3 gradient;
   for (const Vec3& tangent : {first, cross(normal, first)}) {
     const Vec3 across = linear(out, tangent);  // of unit length in the object
     const Real step = size * 0x1p-10 / length(across);
+    const auto moved = [&](const Vec2& uv, const SurfaceSlopes& by) {
+      return Vec2{uv.x + dot(by.u, across) * step, uv.y + dot(by.v, across) * step};
+    };
     TexturePlace there = here;
     there.point += tangent * step;
-    there.uv = {here.uv.x + dot(along.u, across) * step, here.uv.y + dot(along.v, across) * step};
-    gradient += tangent * ((heightAt(there) - height) / step);
+    there.uv = moved(here.uv, along);
+    there.secondUv = moved(here.secondUv, second);
+    gradient += tangent * ((heights.at(there) - height) / step);
   }
-  if (gradient == Vec3{} || !isFinite(gradient)) return;
+  if (gradient == Vec3{} || !isFinite(gradient)) return shading;
   const Vec3 bent = normalize(transposed(in, normal - gradient));
-  surface.shading = saneNormal(surface.shading, bent, ray.direction, surface.normal);
+  return saneNormal(shading, bent, ray.direction, surface.normal);
 }
 
 }  // namespace trace

@@ -29,6 +29,7 @@ struct Hit {
   std::uint32_t object;  ///< index into Scene::objects
   std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle
   SurfacePoint surface;
+  Vec3 coat;              ///< the normal of a clear coat, where that is bent apart; otherwise 0
   Real opacity = 1;       ///< share of the surface that is there
   MaterialMix materials;  ///< of that share
   bool leaving;           ///< the ray comes from inside: it runs along the true normal

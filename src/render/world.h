@@ -120,6 +120,8 @@ class World {
   }
   /// How texture coordinates and the normal change along the surface, in world space.
   SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
+  /// The same of the second texture coordinates of a mesh.
+  SurfaceSlopes secondSlopes(const Hit& hit) const;
   /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
   TexturePlace place(const Hit& hit, const Differentials* arrived = nullptr) const {
     return place(hit.object, hit.part, hit.surface, arrived);
@@ -135,7 +137,7 @@ class World {
   std::optional<SurfacePoint> raised(const Hit& hit, bool turned) const;
   /// Some texture is filtered by footprint: rays should have Differentials.
   bool wantsFootprints() const { return wantsFootprints_; }
-  /// Bends the normal for shading by the material's bump texture, if it has one; `ray` found the place.
+  /// Bends the normals for shading by the material's bump textures, if it has some; `ray` found the place.
   void bump(const Ray& ray, Hit& hit) const {
     if (hasBumps_) bend(ray, hit);
   }
@@ -144,7 +146,8 @@ class World {
   /// For a Bsdf of the place, with its normal as the integrator turned it. Where no texture coordinates are
   /// asked for, u grows around the object's own axis z.
   Frame frame(const Hit& hit, const Bsdf& bsdf, const Vec3& normal) const {
-    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}, dot(normal, hit.surface.shading) < 0};
+    const bool turned = dot(normal, hit.surface.shading) < 0;
+    return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}, turned, turned ? -hit.coat : hit.coat};
   }
   /// What of it the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const {
@@ -349,6 +352,9 @@ class World {
                      const Differentials* arrived) const;
 
   void bend(const Ray& ray, Hit& hit) const;
+  /// The normal for shading bent by the textures of `bump`, or of `clearcoat_bump`.
+  enum class Bent { surface, coat };
+  Vec3 bentNormal(const Ray& ray, const Hit& hit, Bent what) const;
   /// The opacity there; `materials` become those of what is there.
   Real pierce(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
               MaterialMix& materials) const;

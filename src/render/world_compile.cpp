@@ -1,7 +1,5 @@
 // A World of a Scene: hierarchies, displaced meshes, materials as the settings want them. What an edit left
 // alone is taken over from the world before.
-#include "render/world.h"
-
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -10,6 +8,7 @@
 #include "geometry/mesh/mesh_closed.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
+#include "render/world.h"
 #include "scene/displacement.h"
 
 namespace trace {
@@ -207,7 +206,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       const bool footprint = wantsFootprint(t.texture);
       world.wantsFootprints_ |= footprint;
       world.footprintsInUv_ |= footprint && wantsUv(t.texture);
-      world.hasBumps_ |= t.field == "bump";
+      world.hasBumps_ |= t.field == "bump" || t.field == "clearcoat_bump";
     }
 
   world.addLights(scene, settings);

@@ -35,11 +35,11 @@ struct Barycentric {
 struct Gradients {
   Vec3 u, v;
 };
-Gradients gradientsOf(const MeshData& mesh, std::uint32_t index) {
+Gradients gradientsOf(const MeshData& mesh, std::uint32_t index, const std::vector<Vec2>& uvs) {
   const Barycentric b(corners(mesh, index));
-  if (mesh.uvs.empty()) return {b.second, b.third};
+  if (uvs.empty()) return {b.second, b.third};
   const Triangle& t = mesh.triangles[index];
-  const Vec2 &p = mesh.uvs[t[0]], &q = mesh.uvs[t[1]], &r = mesh.uvs[t[2]];
+  const Vec2 &p = uvs[t[0]], &q = uvs[t[1]], &r = uvs[t[2]];
   return {b.second * (q.x - p.x) + b.third * (r.x - p.x), b.second * (q.y - p.y) + b.third * (r.y - p.y)};
 }
 
@@ -91,21 +91,50 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
   TexturePlace place;
   place.point = in * surface.point;
   const bool mapped = objects_[object].mapped;
-  if (mapped) place.uv = surface.uv;
+  if (mapped) place.uv = place.secondUv = surface.uv;
+  const MeshTree* tree = objects_[object].mesh.get();
+  const MeshData* second = tree && !tree->data().secondUvs.empty() ? &tree->data() : nullptr;
+  if (second) {
+    const Triangle& t = second->triangles[part];
+    const TriangleHit at = Barycentric(corners(*second, static_cast<std::uint32_t>(part))).at(place.point);
+    place.secondUv = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2& uv = second->secondUvs[t[i]];
+      place.secondUv.x += at.b[i] * uv.x;
+      place.secondUv.y += at.b[i] * uv.y;
+    }
+  }
   if (!arrived) return place;
   place.pointX = linear(in, arrived->originX);
   place.pointY = linear(in, arrived->originY);
   if (!footprintsInUv_ || !mapped) return place;
-  if (const auto& mesh = objects_[object].mesh) {  // with gradients in the space of the object
-    const Gradients g = gradientsOf(mesh->data(), static_cast<std::uint32_t>(part));
+  if (tree) {  // with gradients in the space of the object
+    const auto number = static_cast<std::uint32_t>(part);
+    const Gradients g = gradientsOf(tree->data(), number, tree->data().uvs);
     place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};
     place.uvY = {dot(g.u, place.pointY), dot(g.v, place.pointY)};
+    const Gradients other = second ? gradientsOf(*second, number, second->secondUvs) : g;
+    place.secondUvX = {dot(other.u, place.pointX), dot(other.v, place.pointX)};
+    place.secondUvY = {dot(other.u, place.pointY), dot(other.v, place.pointY)};
   } else {
     const SurfaceSlopes along = slopes(object, part, surface);
     place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
     place.uvY = {dot(along.u, arrived->originY), dot(along.v, arrived->originY)};
+    place.secondUvX = place.uvX;
+    place.secondUvY = place.uvY;
   }
   return place;
+}
+
+SurfaceSlopes World::secondSlopes(const Hit& hit) const {
+  SurfaceSlopes slopes = this->slopes(hit);
+  const Instance& instance = objects_[hit.object];
+  if (!instance.mesh || instance.mesh->data().secondUvs.empty()) return slopes;
+  const MeshData& mesh = instance.mesh->data();
+  const Gradients g = gradientsOf(mesh, static_cast<std::uint32_t>(hit.part), mesh.secondUvs);
+  slopes.u = transposed(instance.placement.inFromOut(), g.u);
+  slopes.v = transposed(instance.placement.inFromOut(), g.v);
+  return slopes;
 }
 
 std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {

@@ -46,7 +46,8 @@ MeshData Displacement::of(const MeshData& mesh, const Place& place) const {
     if (!part->texture) return part->height;
     TexturePlace at;
     at.point = Vec3(cut.points[point]);
-    if (!cut.uvs.empty()) at.uv = cut.uvs[point];
+    if (!cut.uvs.empty()) at.uv = at.secondUv = cut.uvs[point];
+    if (!cut.secondUvs.empty()) at.secondUv = cut.secondUvs[point];
     return part->height * luminance(part->texture->at(at));
   };
   try {

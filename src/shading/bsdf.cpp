@@ -45,7 +45,8 @@ bool mirrorIsExact(const Bsdf& bsdf) {
 }
 
 bool isGlossy(const Bsdf& bsdf) {
-  return !std::holds_alternative<MixedBsdf>(bsdf) && !mirrorIsExact(bsdf) && whitted(bsdf).mirrors();
+  return !std::holds_alternative<MixedBsdf>(bsdf) && !mirrorIsExact(bsdf) &&
+         (whitted(bsdf).mirrors() || whitted(bsdf).transmits());
 }
 
 Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,

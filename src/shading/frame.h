@@ -19,6 +19,7 @@ struct Frame {
   Vec3 normal;          ///< unit, turned as the integrator shades it
   Vec3 along{};         ///< where u grows, of any length; 0 where that is not known or not asked
   bool inside = false;  ///< the normal was turned: it points into the body
+  Vec3 coat{};          ///< the normal of a clear coat, turned likewise; 0: it is `normal`
 
   /// The grain lies in the surface and starts `along`, or in any one direction of the surface if that is 0;
   /// `angle` turns it about the normal, in radians against the clock as seen from outside.

@@ -131,12 +131,13 @@ inline Vec3 mirroredAt(const Vec3& half, const Vec3& eye) { return half * (2 * d
 ///   Vec3 direction(eye, choose, u) const    chosen by the numbers from 0 to 1; eye.z > 0
 ///   Real directionDensity(eye, light) const of that choice
 /// `Said` is the material's model, whose values are kept. Those that scatter to the other side say
-/// kTwoSided, and get any eye and light; those that ask on which side the inside of the body is say
-/// kHasInside, and z points out of it.
+/// kTwoSided, or twoSided() of their values, and get any eye and light; those that ask on which side the
+/// inside of the body is say kHasInside, and z points out of it. One with a coat whose normal may be another
+/// says kHasCoat: its three functions get that normal besides, after `eye` and `light`, or `u`.
 template <class Self, class SaidModel>
 struct LocalBsdf : WhittedTerms {
   using Said = SaidModel;
-  static constexpr bool kTwoSided = false, kHasInside = false;
+  static constexpr bool kTwoSided = false, kHasInside = false, kHasCoat = false;
 
   Said said;
 
@@ -148,6 +149,7 @@ struct LocalBsdf : WhittedTerms {
   }
 
   bool scatters() const { return true; }
+  bool twoSided() const { return Self::kTwoSided; }
   /// The mirrored ray is all there is of its lobe; else it stands for a lobe that `evaluate` has, for
   /// integrators that cannot follow that.
   bool mirrorIsExact() const { return false; }
@@ -156,32 +158,37 @@ struct LocalBsdf : WhittedTerms {
 
   /// Whitted's light does not change where it enters another medium, as its rays do not; importance likewise.
   Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const {
-    const Basis basis = basisOf(frame);
-    const Vec3 light = basis.toLocal(toLight);
-    Vec3 eye = basis.toLocal(toEye);
-    if (!Self::kTwoSided) eye.z = std::abs(eye.z);  // normals between vertices may turn from the eye
-    const Scatter parts = checked(eye, light, Transport::importance);
+    const Local local = localOf(frame);
+    const Vec3 light = local.basis.toLocal(toLight);
+    Vec3 eye = local.basis.toLocal(toEye);
+    if (!self().twoSided()) eye.z = std::abs(eye.z);  // normals between vertices may turn from the eye
+    const Scatter parts = checked(local, eye, light, Transport::importance);
     return {parts.diffuse * kPi, parts.specular * kPi};
   }
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const {
-    const Basis basis = basisOf(frame);
-    return checked(basis.toLocal(toEye), basis.toLocal(toLight), transport).sum();
+    const Local local = localOf(frame);
+    return checked(local, local.basis.toLocal(toEye), local.basis.toLocal(toLight), transport).sum();
   }
   std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
                                    Transport transport) const {
-    const Basis basis = basisOf(frame);
-    const Vec3 eye = basis.toLocal(toEye);
-    if (!self().scatters() || !(Self::kTwoSided || eye.z > 0)) return {};
-    const Vec3 light = self().direction(eye, choose, u);
-    const Real density = self().directionDensity(eye, light);
+    const Local local = localOf(frame);
+    const Vec3 eye = local.basis.toLocal(toEye);
+    if (!self().scatters() || !(self().twoSided() || eye.z > 0)) return {};
+    Vec3 light;
+    if constexpr (Self::kHasCoat)
+      light = self().direction(eye, choose, u, local.coat);
+    else
+      light = self().direction(eye, choose, u);
+    const Real density = densityOf(local, eye, light);
     if (!(density > 0)) return {};
-    return BsdfSample{basis.toWorld(light), checked(eye, light, transport).sum() / density, density};
+    return BsdfSample{local.basis.toWorld(light), checked(local, eye, light, transport).sum() / density,
+                      density};
   }
   Real density(const Frame& frame, const Vec3& toEye, const Vec3& toLight) const {
-    const Basis basis = basisOf(frame);
-    const Vec3 eye = basis.toLocal(toEye);
-    if (!self().scatters() || !(Self::kTwoSided || eye.z > 0)) return 0;
-    return self().directionDensity(eye, basis.toLocal(toLight));
+    const Local local = localOf(frame);
+    const Vec3 eye = local.basis.toLocal(toEye);
+    if (!self().scatters() || !(self().twoSided() || eye.z > 0)) return 0;
+    return densityOf(local, eye, local.basis.toLocal(toLight));
   }
 
   // Those of a model that scatters as if it were Lambertian, or nearly.
@@ -189,20 +196,35 @@ struct LocalBsdf : WhittedTerms {
   Real directionDensity(const Vec3&, const Vec3& light) const { return cosineDensity(light); }
 
  private:
+  struct Local {
+    Basis basis;
+    Vec3 coat;  ///< in it
+  };
   const Self& self() const { return static_cast<const Self&>(*this); }
-  Basis basisOf(Frame frame) const {
+  Local localOf(Frame frame) const {
     if (Self::kHasInside && frame.inside) frame.normal = -frame.normal;
-    if constexpr (requires { said.angle; })
-      return frame.basis(said.angle * kPi / 180);
-    else
-      return frame.basis();
+    Real angle = 0;
+    if constexpr (requires { said.angle; }) angle = said.angle * kPi / 180;
+    Local local{frame.basis(angle), {0, 0, 1}};
+    if (Self::kHasCoat && frame.coat != Vec3{}) local.coat = local.basis.toLocal(frame.coat);
+    return local;
   }
-  Scatter checked(const Vec3& eye, const Vec3& light, Transport transport) const {
+  Real densityOf(const Local& local, const Vec3& eye, const Vec3& light) const {
+    if constexpr (Self::kHasCoat)
+      return self().directionDensity(eye, light, local.coat);
+    else
+      return self().directionDensity(eye, light);
+  }
+  Scatter checked(const Local& local, const Vec3& eye, const Vec3& light, Transport transport) const {
     if (!self().scatters()) return {};
     if constexpr (Self::kTwoSided)
       return self().value(eye, light, transport);
+    else if (!self().twoSided() && !(eye.z > 0 && light.z > 0))
+      return {};
+    else if constexpr (Self::kHasCoat)
+      return self().value(eye, light, local.coat);
     else
-      return eye.z > 0 && light.z > 0 ? self().value(eye, light) : Scatter{};
+      return self().value(eye, light);
   }
 };
 

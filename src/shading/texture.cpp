@@ -46,6 +46,9 @@ TexturePlace moved(const TexturePlace& p, const Affine& m, bool inUv) {
   to.uv = flat(m * Vec3{p.uv.x, p.uv.y, 0});
   to.uvX = step(p.uvX);
   to.uvY = step(p.uvY);
+  to.secondUv = flat(m * Vec3{p.secondUv.x, p.secondUv.y, 0});
+  to.secondUvX = step(p.secondUvX);
+  to.secondUvY = step(p.secondUvY);
   return to;
 }
 
@@ -148,6 +151,15 @@ bool wantsUv(const Texture& texture) {
   return anyModel(texture, [](const auto& model) { return looksAtUv(model); });
 }
 
+bool wantsSecondUv(const Texture& texture) {
+  return anyModel(texture, [](const auto& model) {
+    if constexpr (requires { model.secondUv; })
+      return model.secondUv;
+    else
+      return false;
+  });
+}
+
 std::string summary(const Texture& texture) {
   if (!texture->name.empty()) return texture->name;
   return match(texture->model, [](const auto& model) {
@@ -160,10 +172,13 @@ std::string summary(const Texture& texture) {
 Texel ImageMap::texelAt(const TexturePlace& place) const {
   if (!file.map) return {};
   const auto& m = transform;
-  const Vec2 uv{m[0] * place.uv.x + m[1] * place.uv.y + m[2], m[3] * place.uv.x + m[4] * place.uv.y + m[5]};
+  const Vec2& at = secondUv ? place.secondUv : place.uv;
+  const Vec2 uv{m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
   const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };
-  return file.map->at(uv, {wrapU, wrapV, filter, centersAtEnds, srgb, step(place.uvX), step(place.uvY)});
+  return file.map->at(
+      uv, {wrapU, wrapV, filter, centersAtEnds, srgb, step(secondUv ? place.secondUvX : place.uvX),
+           step(secondUv ? place.secondUvY : place.uvY)});
 }
 
 Color ImageMap::at(const TexturePlace& place) const {

@@ -123,6 +123,8 @@ bool wantsFootprint(const Texture& texture);
 
 /// It, or a texture in it, looks at u and v.
 bool wantsUv(const Texture& texture);
+/// It, or a texture in it, looks at the second u and v of a mesh.
+bool wantsSecondUv(const Texture& texture);
 
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);

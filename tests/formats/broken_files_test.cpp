@@ -768,7 +768,8 @@ TEST(BrokenFiles, TexturesOfEveryFormatAreNamedOnce) {
             "\" } } geometry Sphere { } }\n";
     materials += comma + "{\"occlusionTexture\": {\"index\": " + n +
                  "}, \"normalTexture\": {\"index\": " + n +
-                 ", \"texCoord\": 1}}";  // of another set of coordinates
+                 ", \"texCoord\": 1}, \"emissiveTexture\": {\"index\": " + n +
+                 ", \"texCoord\": 2}}";  // of three sets of coordinates
     textures += comma + "{\"source\": " + n + "}";
     images += comma + "{\"uri\": \"" + picture + "\"}";
   }

@@ -31,12 +31,13 @@ struct Seen {
         }()) {}
 
   /// Where the ray meets the one object.
-  SurfacePoint at(const Vec3& from, const Vec3& direction) const {
+  SurfacePoint at(const Vec3& from, const Vec3& direction) const { return hit(from, direction).surface; }
+  Hit hit(const Vec3& from, const Vec3& direction) const {
     const Ray ray{from, normalize(direction)};
     Statistics statistics;
     const auto found = world.closest(ray, Faces::both, statistics);
     EXPECT_TRUE(found.has_value());
-    return Hit(world, ray, *found).surface;
+    return Hit(world, ray, *found);
   }
 };
 
@@ -137,6 +138,25 @@ TEST(Bump, PicturesOfNormalsTurnWithTheObject) {
   const Affine turned = Affine::rotation({0, 0, 1}, kPi / 2);
   const Seen plane = seen(Plane{}, turned, withNormals({0.625, 0.5, 1}, Relief::normals, 1));
   expectNear(plane.at({0.3, 0.4, 5}, {0, 0, -1}).shading, normalize({0, 0.25, 1}), 1e-6);
+}
+
+TEST(Bump, AClearCoatMayBeBentApart) {
+  const auto hit = [](bool apart, bool coated) {
+    Material material = withNormals({0.625, 0.5, 1}, Relief::normals, 1);
+    Principled model;
+    model.clearcoat = 1;
+    model.clearcoatApart = apart;
+    model.clearcoatBump = 0.5;
+    material.model = model;
+    const Material coat = withNormals({0.5, 0.625, 1}, Relief::normals, 1);
+    if (coated) setTexture(material.textures, "clearcoat_bump", coat.textures[0].texture);
+    return seen(Plane{}, {}, material).hit({0.3, 0.4, 5}, {0, 0, -1});
+  };
+  for (const bool apart : {false, true})
+    expectNear(hit(apart, true).surface.shading, normalize({0.25, 0, 1}), 1e-6);
+  EXPECT_EQ(hit(false, true).coat, Vec3{}) << "it is bent as the surface is";
+  expectNear(hit(true, true).coat, normalize({0, 0.125, 1}), 1e-6);
+  EXPECT_EQ(hit(true, false).coat, (Vec3{0, 0, 1})) << "smooth";
 }
 
 }  // namespace

@@ -624,5 +624,78 @@ TEST(Fresnel, OfDielectrics) {
   EXPECT_NEAR(at(19.47122063449069, 1.5, 1), at(30, 1, 1.5), 1e-12) << "the same from both sides";
 }
 
+// --- principled: a sheet, and a coat with a normal of its own ---------------------------------------------
+
+Color sheetAt(const Vec3& eye, const Vec3& light, Real metallic, Real transmission) {
+  Principled model;
+  model.color = {1, 0.5, 0.25};
+  model.roughness = 0.5;
+  model.metallic = metallic;
+  model.transmission = transmission;
+  return evaluate(bsdfOf(model, {}), Frame{{0, 0, 1}}, eye, light);
+}
+
+TEST(PrincipledSheet, WhatFacetsDoNotMirrorGoesStraightOn) {
+  // Along the normal: D = 1 / (pi a^2) with a = roughness^2, nothing is hidden, and 4 % is mirrored.
+  const Color through = sheetAt({0, 0, 1}, {0, 0, -1}, 0.5, 0.6);
+  const Real expected = 0.3 * 0.96 / (4 * kPi * 0.0625);
+  EXPECT_NEAR(through.r, expected, 1e-12);
+  EXPECT_NEAR(through.g, expected / 2, 1e-12);
+  EXPECT_EQ(sheetAt({0, 0, 1}, {0, 0, -1}, 1, 0.6), Color(0)) << "metal";
+  EXPECT_EQ(sheetAt({0, 0, 1}, {0, 0, -1}, 0, 0), Color(0));
+  // It comes back the same way.
+  const Vec3 a = normalize({0.3, 0.1, 1}), b = normalize({-0.5, 0.2, -1});
+  const Frame behind{{0, 0, -1}};
+  Principled model;
+  model.transmission = 0.7;
+  model.clearcoat = 0.5;
+  model.sheen = Color(0.3);
+  const Bsdf bsdf = bsdfOf(model, {});
+  EXPECT_NEAR(evaluate(bsdf, Frame{{0, 0, 1}}, a, b).g / -b.z, evaluate(bsdf, behind, b, a).g / a.z, 1e-12);
+}
+
+TEST(PrincipledSheet, KeepsLight) {
+  Principled model;
+  model.color = Color(1);
+  model.roughness = 0.3;
+  model.transmission = 1;
+  for (const Real transmission : {0.4, 1.0})
+    for (const Real cosine : {1.0, 0.5, 0.2}) {
+      model.transmission = transmission;
+      const Real back = albedo(bsdfOf(model, {}), world(local(cosine, 0.7))).g;
+      EXPECT_LT(back, 1.005) << transmission << " " << cosine;
+      EXPECT_GT(back, 0.9) << transmission << " " << cosine;
+    }
+  const Bsdf bsdf = bsdfOf(model, {});
+  EXPECT_EQ(whitted(bsdf).passage, Passage::straight);
+  model.roughness = 0;
+  EXPECT_NEAR(passWeight(bsdfOf(model, {}), 1).g, 0.96, 1e-4);
+}
+
+TEST(PrincipledCoat, MirrorsAroundItsOwnNormal) {
+  Principled model;  // nothing but the coat is seen
+  model.color = Color(0);
+  model.specularStrength = 0;
+  model.clearcoat = 1;
+  model.clearcoatRoughness = 0.4;
+  const Bsdf bsdf = bsdfOf(model, {});
+  const Vec3 up{0, 0, 1}, coat = normalize({0.2, 0.1, 1});
+  Frame apart{up};
+  apart.coat = coat;
+  const Vec3 eye = normalize({0.1, -0.3, 1});
+  for (const Vec3& light : {normalize({0.5, 0.4, 1}), normalize({-0.3, 0.2, 1})}) {
+    const Real there = evaluate(bsdf, Frame{coat}, eye, light).g;
+    EXPECT_GT(there, 0.001);
+    EXPECT_NEAR(evaluate(bsdf, apart, eye, light).g, there, 1e-12);
+    EXPECT_NE(evaluate(bsdf, Frame{up}, eye, light).g, there);
+  }
+  Random random(11);
+  for (int i = 0; i < 200; ++i) {
+    const auto drawn = sample(bsdf, apart, eye, random.uniform(), {random.uniform(), random.uniform()});
+    if (!drawn) continue;
+    EXPECT_NEAR(density(bsdf, apart, eye, drawn->toLight) / drawn->density, 1, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace trace

@@ -228,21 +228,26 @@ class GltfReader {
     return corners;
   }
 
-  /// The origin of glTF's texture coordinates is at the top, of Trace's at the bottom.
   void readUvs(const tinygltf::Primitive& primitive, MeshData& mesh) {
-    const std::optional<int> set = looks_.uvSet(primitive.material);
-    const std::string name = "TEXCOORD_" + std::to_string(set.value_or(0));
+    const auto [first, second] = looks_.uvSets(primitive.material);
+    mesh.uvs = uvsOf(primitive, first.value_or(0), mesh.points.size());
+    if (second) mesh.secondUvs = uvsOf(primitive, *second, mesh.points.size());
+    const bool lacks = (first && mesh.uvs.empty()) || (second && mesh.secondUvs.empty());
+    withoutUvs_ += lacks;
+    for (auto* uvs : {first ? &mesh.uvs : nullptr, second ? &mesh.secondUvs : nullptr})
+      if (uvs && uvs->empty()) uvs->assign(mesh.points.size(), {0, 1});
+  }
+
+  /// None if the primitive lacks them. The origin of glTF's is at the top, of Trace's at the bottom.
+  std::vector<Vec2> uvsOf(const tinygltf::Primitive& primitive, int set, std::size_t points) {
+    const std::string name = "TEXCOORD_" + std::to_string(set);
     const auto found = primitive.attributes.find(name);
-    if (found == primitive.attributes.end()) {
-      if (!set) return;
-      ++withoutUvs_;
-      return mesh.uvs.assign(mesh.points.size(), {0, 1});
-    }
+    std::vector<Vec2> uvs;
+    if (found == primitive.attributes.end()) return uvs;
     const GltfElements from = elements(found->second);
-    if (from.components() < 2 || from.count() != mesh.points.size())
-      fail(name + ": expected one for each point");
-    for (std::size_t i = 0; i < from.count(); ++i)
-      mesh.uvs.push_back({from.number(i, 0), 1 - from.number(i, 1)});
+    if (from.components() < 2 || from.count() != points) fail(name + ": expected one for each point");
+    for (std::size_t i = 0; i < from.count(); ++i) uvs.push_back({from.number(i, 0), 1 - from.number(i, 1)});
+    return uvs;
   }
 
   /// Times the base colour, as the specification says.

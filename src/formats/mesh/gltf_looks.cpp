@@ -12,16 +12,13 @@
 #include <utility>
 
 #include "formats/mesh/gltf_material.h"
+#include "formats/mesh/gltf_numbers.h"
 #include "formats/mesh/gltf_values.h"
 
 namespace trace {
 namespace {
 
-constexpr const char *kTransform = "KHR_texture_transform", *kIridescence = "KHR_materials_iridescence",
-                     *kClearcoat = "KHR_materials_clearcoat", *kSheen = "KHR_materials_sheen",
-                     *kAnisotropy = "KHR_materials_anisotropy", *kSpecular = "KHR_materials_specular",
-                     *kTransmission = "KHR_materials_transmission", *kVolume = "KHR_materials_volume",
-                     *kGlossiness = "KHR_materials_pbrSpecularGlossiness";
+using namespace gltf_extension;
 
 /// "%20" as a blank, and so on.
 std::string decodedUri(std::string_view uri) {
@@ -75,13 +72,6 @@ void apply(const tinygltf::Sampler& sampler, ImageMap& map) {
   if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) map.filter = TexelFilter::nearest;
 }
 
-void decode(std::optional<ImageMap>& colors) {
-  if (colors) colors->srgb = true;
-}
-
-/// From 0 to 1.
-double share(double x) { return x >= 0 ? std::min(x, 1.0) : 0.0; }
-
 }  // namespace
 
 std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri); }
@@ -90,8 +80,9 @@ struct GltfLooks::Reader {
   const tinygltf::Model& gltf;
   const Place place;
   Messages& messages;
-  std::vector<std::optional<int>> uvSets{};  ///< of materials
-  std::map<int, Pixels> inFile{};            ///< pictures in the file
+  using UvSets = GltfLooks::UvSets;
+  std::vector<UvSets> uvSets{};    ///< of materials
+  std::map<int, Pixels> inFile{};  ///< pictures in the file
   InsidePictures inside{};
   UnusedTextures unused{};
 
@@ -100,10 +91,7 @@ struct GltfLooks::Reader {
   Material materialOf(const tinygltf::Material& from, bool paints) {
     MetallicRoughness m;
     m.paintsPoints = paints;
-    readBase(from, m);
-    readLayers(from, m);
-    readPassage(from, m);
-    m.unlit = from.extensions.contains("KHR_materials_unlit");
+    readNumbers(from, m);
     if (!isFinite(m.baseColor) || !isFinite(m.emissive) || !isFinite(m.sheen) || !isFinite(m.specularColor) ||
         !isFinite(m.attenuationColor)) {
       messages.warn(place, "material \"" + from.name + "\" has numbers that are not finite");
@@ -112,65 +100,6 @@ struct GltfLooks::Reader {
     }
     readPictures(from, m);
     return checked(from, m, toMaterial(from.name, m));
-  }
-
-  /// A number of an extension that is finite and at least `least`.
-  static double number(const tinygltf::Material& from, const char* name, const char* field, double otherwise,
-                       double least = 0) {
-    const double x = extension(from.extensions, name, field, otherwise);
-    return std::isfinite(x) && x >= least ? x : otherwise;
-  }
-  static Color color(const tinygltf::Material& from, const char* name, const char* field,
-                     const Color& otherwise) {
-    return colorOf(extensionList(from.extensions, name, field, 3), otherwise);
-  }
-
-  static void readBase(const tinygltf::Material& from, MetallicRoughness& m) {
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    m.baseColor = colorOf(pbr.baseColorFactor, Color(1));
-    if (pbr.baseColorFactor.size() == 4) m.opacity = share(pbr.baseColorFactor[3]);
-    m.metallic = share(pbr.metallicFactor);
-    m.roughness = share(pbr.roughnessFactor);
-    if (from.extensions.contains(kGlossiness)) {
-      m.baseColor = color(from, kGlossiness, "diffuseFactor", Color(1));
-      const std::vector<double> diffuse = extensionList(from.extensions, kGlossiness, "diffuseFactor", 4);
-      m.opacity = diffuse.empty() ? 1 : share(diffuse[3]);
-      m.metallic = 0;
-      m.roughness = 1 - share(number(from, kGlossiness, "glossinessFactor", 1));
-      m.glossy = color(from, kGlossiness, "specularFactor", Color(1));
-    }
-    m.emissive = colorOf(from.emissiveFactor, Color()) *
-                 number(from, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-    m.alpha = from.alphaMode == "BLEND"  ? MetallicRoughness::Alpha::blend
-              : from.alphaMode == "MASK" ? MetallicRoughness::Alpha::mask
-                                         : MetallicRoughness::Alpha::opaque;
-    m.cutoff = from.alphaCutoff;
-  }
-
-  static void readLayers(const tinygltf::Material& from, MetallicRoughness& m) {
-    m.iridescence = share(number(from, kIridescence, "iridescenceFactor", 0));
-    m.filmIndex = number(from, kIridescence, "iridescenceIor", 1.3, 1);
-    m.filmMost = std::min(5000.0, number(from, kIridescence, "iridescenceThicknessMaximum", 400));
-    m.filmLeast = std::min(m.filmMost, number(from, kIridescence, "iridescenceThicknessMinimum", 100));
-    m.clearcoat = share(number(from, kClearcoat, "clearcoatFactor", 0));
-    m.clearcoatRoughness = share(number(from, kClearcoat, "clearcoatRoughnessFactor", 0));
-    m.sheen = color(from, kSheen, "sheenColorFactor", Color());
-    m.sheenRoughness = share(number(from, kSheen, "sheenRoughnessFactor", 0));
-    m.anisotropy = share(number(from, kAnisotropy, "anisotropyStrength", 0));
-    m.anisotropyAngle = number(from, kAnisotropy, "anisotropyRotation", 0, -kNoLimit);
-    m.specular = share(number(from, kSpecular, "specularFactor", 1));
-    m.specularColor = color(from, kSpecular, "specularColorFactor", Color(1));
-  }
-
-  static void readPassage(const tinygltf::Material& from, MetallicRoughness& m) {
-    m.transmission = share(number(from, kTransmission, "transmissionFactor", 0));
-    m.index = number(from, "KHR_materials_ior", "ior", 1.5);
-    if (m.index == 0) m.index = 1.5;
-    m.solid = number(from, kVolume, "thicknessFactor", 0) > 0;
-    m.attenuationColor = color(from, kVolume, "attenuationColor", Color(1));
-    m.attenuationDistance = number(from, kVolume, "attenuationDistance", 0);
-    const double dispersion = number(from, "KHR_materials_dispersion", "dispersion", 0);
-    m.abbe = dispersion > 0 ? 20 / dispersion : 0;
   }
 
   /// Tells what the material says and its model has no place for.
@@ -191,27 +120,30 @@ struct GltfLooks::Reader {
 
   // --- pictures ---
 
-  /// All of a material use the texture coordinates of the first of them: a mesh has one set.
   void readPictures(const tinygltf::Material& from, MetallicRoughness& m) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    std::optional<int> set;
+    UvSets sets;
+    const auto picture = [&](const auto& info) { return pictureOf(info, sets); };
     const auto extra = [&](const char* name, const char* field) {
-      return pictureOf(textureIn(from, name, field), set);
+      return picture(textureIn(from, name, field));
     };
     const bool glossy = m.glossy.has_value();
-    m.baseColorMap = glossy ? extra(kGlossiness, "diffuseTexture") : pictureOf(pbr.baseColorTexture, set);
+    m.baseColorMap = glossy ? extra(kGlossiness, "diffuseTexture") : picture(pbr.baseColorTexture);
     if (glossy)
       m.glossyMap = extra(kGlossiness, "specularGlossinessTexture");
     else
-      m.metallicRoughnessMap = pictureOf(pbr.metallicRoughnessTexture, set);
-    m.emissiveMap = pictureOf(from.emissiveTexture, set);
-    m.occlusionMap = pictureOf(from.occlusionTexture, set);
-    m.normalMap = pictureOf(from.normalTexture, set);
+      m.metallicRoughnessMap = picture(pbr.metallicRoughnessTexture);
+    m.emissiveMap = picture(from.emissiveTexture);
+    m.occlusionMap = picture(from.occlusionTexture);
+    m.normalMap = picture(from.normalTexture);
     m.iridescenceMap = extra(kIridescence, "iridescenceTexture");
     m.filmMap = extra(kIridescence, "iridescenceThicknessTexture");
     m.clearcoatMap = extra(kClearcoat, "clearcoatTexture");
     m.clearcoatRoughnessMap = extra(kClearcoat, "clearcoatRoughnessTexture");
-    note(textureIn(from, kClearcoat, "clearcoatNormalTexture").index);
+    if (m.clearcoat > 0) m.clearcoatNormalMap = extra(kClearcoat, "clearcoatNormalTexture");
+    if (const tinygltf::Value* map = extensionValue(from.extensions, kClearcoat, "clearcoatNormalTexture");
+        map && map->Has("scale") && map->Get("scale").IsNumber())
+      m.clearcoatNormalScale = map->Get("scale").GetNumberAsDouble();
     m.sheenMap = extra(kSheen, "sheenColorTexture");
     m.sheenRoughnessMap = extra(kSheen, "sheenRoughnessTexture");
     note(textureIn(from, kAnisotropy, "anisotropyTexture").index);
@@ -219,7 +151,7 @@ struct GltfLooks::Reader {
     m.specularColorMap = extra(kSpecular, "specularColorTexture");
     m.transmissionMap = extra(kTransmission, "transmissionTexture");
     for (auto* colors : {&m.baseColorMap, &m.emissiveMap, &m.sheenMap, &m.specularColorMap, &m.glossyMap})
-      decode(*colors);
+      if (*colors) (*colors)->srgb = true;
     m.normalScale = std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1;
     m.occlusionStrength = from.occlusionTexture.strength;
     if (!(m.occlusionStrength >= 0 && m.occlusionStrength <= 1)) m.occlusionStrength = 1;
@@ -228,22 +160,25 @@ struct GltfLooks::Reader {
       m.hasAlphaMap =
           pixels.map ? pixels.map->hasAlpha() : kindOfPicture(place.file, pixels.file).transparent;
     }
-    uvSets.push_back(set);
+    uvSets.push_back(sets);
   }
 
-  /// Nothing, after a note, where the texture names no picture or needs other coordinates than `set`.
+  /// Nothing, after a note, where the texture names no picture or needs a third set of coordinates.
   template <class Info>
-  std::optional<ImageMap> pictureOf(const Info& info, std::optional<int>& set) {
+  std::optional<ImageMap> pictureOf(const Info& info, UvSets& sets) {
     if (info.index < 0) return {};
     const auto& all = info.extensions;
-    const auto own = wholeOf(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
+    const int own = wholeOf(extension(all, kTransform, "texCoord", static_cast<double>(info.texCoord)));
     const int image = imageOf(info.index);
-    if (image < 0 || set.value_or(own) != own) {
+    const auto set =
+        std::find_if(sets.begin(), sets.end(), [&](const auto& s) { return s.value_or(own) == own; });
+    if (image < 0 || set == sets.end()) {
       note(info.index);
       return std::nullopt;
     }
-    set = own;
+    *set = own;
     ImageMap map = modelPicture(pixelsOf(image));
+    map.secondUv = set != sets.begin();
     const int sampler = gltf.textures[static_cast<std::size_t>(info.index)].sampler;
     if (isIndex(sampler, gltf.samplers.size())) apply(gltf.samplers[static_cast<std::size_t>(sampler)], map);
     const Vec2 offset = extensionPair(all, kTransform, "offset", {0, 0}),
@@ -315,9 +250,9 @@ std::vector<Material> GltfLooks::materials() {
   return all;
 }
 
-std::optional<int> GltfLooks::uvSet(int material) const {
+GltfLooks::UvSets GltfLooks::uvSets(int material) const {
   const auto& sets = reader_->uvSets;
-  return isIndex(material, sets.size()) ? sets[static_cast<std::size_t>(material)] : std::nullopt;
+  return isIndex(material, sets.size()) ? sets[static_cast<std::size_t>(material)] : UvSets{};
 }
 
 void GltfLooks::report() const {

@@ -2,6 +2,7 @@
 // gltf_material.h takes them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,8 +28,10 @@ class GltfLooks {
 
   /// In the order of the file.
   std::vector<Material> materials();
-  /// The number of the texture coordinates that the pictures of a material use; nothing if it has none.
-  std::optional<int> uvSet(int material) const;
+  /// The numbers of the texture coordinates that the pictures of a material use, in the order in which they
+  /// ask for them; nothing beyond those.
+  using UvSets = std::array<std::optional<int>, 2>;
+  UvSets uvSets(int material) const;
   /// Tells of pictures that are not rendered or cannot be read. Call once, after all meshes.
   void report() const;
 

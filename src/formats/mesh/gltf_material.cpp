@@ -8,20 +8,13 @@
 #include <utility>
 
 #include "base/match.h"
+#include "formats/mesh/gltf_model.h"
 #include "formats/model_textures.h"
 
 namespace trace {
 namespace {
 
 using Alpha = MetallicRoughness::Alpha;
-
-/// The opacity of all of the surface; 1 where a picture has it.
-double evenOpacity(const MetallicRoughness& m) {
-  if (m.alpha == Alpha::opaque || m.hasAlphaMap) return 1;
-  return m.alpha == Alpha::blend ? m.opacity : m.opacity >= m.cutoff;
-}
-
-double polishOf(const MetallicRoughness& m) { return (1 - m.roughness) * (1 - m.roughness); }
 
 Texture channelOf(ImageMap map, Channel channel) {
   map.srgb = false;
@@ -38,104 +31,6 @@ void textureMirror(Material& material, std::string_view field, Color& constant, 
   setTexture(node.inputs, "b", base);
   setTexture(material.textures, field, std::move(node));
   constant = Color(1);
-}
-
-// --- which model ------------------------------------------------------------------------------------
-
-bool passesAll(const MetallicRoughness& m) {
-  return m.transmission == 1 && m.metallic == 0 && !m.transmissionMap && !m.unlit;
-}
-/// Only the principled model has a place for it.
-bool needsPrincipled(const MetallicRoughness& m) {
-  return m.metallicRoughnessMap || m.glossy || m.iridescence > 0 || m.clearcoat > 0 || !isBlack(m.sheen) ||
-         m.anisotropy > 0 || m.specular < 1 || m.specularColor != Color(1) ||
-         (m.paintsPoints && m.metallic > 0);
-}
-bool isPrincipled(const MetallicRoughness& m) {
-  const bool textured = m.baseColorMap || m.emissiveMap || m.occlusionMap;
-  const bool hasHoles = m.hasAlphaMap || evenOpacity(m) < 1;
-  return m.transmission == 0 && (needsPrincipled(m) || (textured && !hasHoles));
-}
-
-/// Trace draws the highlight out by the ratio of two widths whose geometric mean is that of its roughness
-/// (Burley, section 5.4); the extension widens one of them.
-void brush(Principled& model, const MetallicRoughness& m) {
-  if (!(m.anisotropy > 0)) return;
-  const double across = m.roughness * m.roughness,
-               along = across + (1 - across) * m.anisotropy * m.anisotropy;
-  model.roughness = std::sqrt(std::sqrt(across * along));
-  model.anisotropy = std::min(1.0, (1 - across / along) / 0.9);
-  model.angle = m.anisotropyAngle * 180 / kPi;
-}
-
-Principled toPrincipled(const MetallicRoughness& m) {
-  Principled model;
-  model.color = m.baseColor;
-  model.metallic = m.metallic;
-  model.roughness = m.roughness;
-  model.index = m.index;
-  model.iridescence = m.iridescence;
-  model.iridescenceIndex = m.filmIndex;
-  model.iridescenceThickness = m.filmMost;
-  model.clearcoat = m.clearcoat;
-  model.clearcoatRoughness = m.clearcoatRoughness;
-  model.sheen = m.sheen;
-  model.sheenRoughness = m.sheenRoughness;
-  model.specularStrength = m.specular;
-  model.specularColor = m.specularColor;
-  if (m.glossy) {  // as an index, and a tint of what that mirrors
-    const double most = maxComponent(*m.glossy);
-    model.index = indexMirroring(Color(most)).eta.g;
-    model.specularColor = most > 0 ? *m.glossy * (1 / most) : Color(1);
-  }
-  brush(model, m);
-  return model;
-}
-
-RoughGlass toGlass(const MetallicRoughness& m) {
-  RoughGlass glass;
-  glass.color = m.baseColor;
-  glass.index = m.index;
-  glass.roughness = m.roughness;
-  return glass;
-}
-
-void fill(Interior& interior, const MetallicRoughness& m) {
-  if (!m.solid) return;
-  interior.abbe = m.abbe;
-  if (!(m.attenuationDistance > 0)) return;
-  interior.attenuationColor = m.attenuationColor;
-  interior.attenuationDistance = m.attenuationDistance;
-}
-
-MaterialModel modelOf(const MetallicRoughness& m) {
-  const auto shining = [&](auto model) {
-    model.emissive = m.emissive;
-    return model;
-  };
-  if (m.unlit) {
-    Lambert model;
-    model.diffuse = Color();
-    model.emissive = m.baseColor;
-    return model;
-  }
-  if (passesAll(m) && m.solid) {
-    RoughGlass glass = shining(toGlass(m));
-    fill(glass, m);
-    return glass;
-  }
-  if (passesAll(m) && m.roughness == 0 && !m.metallicRoughnessMap) {
-    ThinGlass pane;
-    pane.color = m.baseColor;
-    pane.index = m.index;
-    return shining(pane);
-  }
-  if (isPrincipled(m)) {
-    Principled model = shining(toPrincipled(m));
-    model.ambient = m.baseColor;
-    return model;
-  }
-  return toPhong(m);
 }
 
 // --- its textures -----------------------------------------------------------------------------------
@@ -169,6 +64,11 @@ class Painted {
     if (map) put(field, channelOf(*map, channel));
   }
 
+  void putNormals(std::string_view field, std::optional<ImageMap> map) {
+    if (map) map->relief = Relief::normals;
+    put(field, map);
+  }
+
   void paintLit() {
     put(kEmissive, m_.emissiveMap);
     std::optional<Texture> ambient;
@@ -190,12 +90,8 @@ class Painted {
     if (std::holds_alternative<RoughGlass>(material_.model))
       put("roughness", m_.metallicRoughnessMap, Channel::green);
     if (isPrincipled()) paintPrincipled();
-    if (m_.normalMap) {
-      ImageMap normals = *m_.normalMap;
-      normals.relief = Relief::normals;
-      put("bump", TextureNode{.model = std::move(normals)});
-      material_.bump = m_.normalScale;
-    }
+    putNormals("bump", m_.normalMap);
+    if (m_.normalMap) material_.bump = m_.normalScale;
   }
 
   void paintPhong(const Texture& base) {
@@ -231,6 +127,8 @@ class Painted {
           raised(channelOf(*m_.filmMap, Channel::green), m_.filmLeast / m_.filmMost));
     put("clearcoat", m_.clearcoatMap, Channel::red);
     put("clearcoat_roughness", m_.clearcoatRoughnessMap, Channel::green);
+    putNormals("clearcoat_bump", m_.clearcoatNormalMap);
+    put("transmission", m_.transmissionMap, Channel::red);
     put("sheen", m_.sheenMap);
     put("sheen_roughness", m_.sheenRoughnessMap, Channel::alpha);
     put("specular_strength", m_.specularMap, Channel::alpha);
@@ -264,23 +162,6 @@ class Painted {
 };
 
 }  // namespace
-
-Phong toPhong(const MetallicRoughness& m) {
-  const double polish = polishOf(m), opacity = evenOpacity(m);
-  const double alpha = m.roughness * m.roughness;  // of the distribution, by the specification
-  Phong phong;
-  phong.diffuse = m.baseColor * ((1 - m.metallic) * (1 - m.transmission) * opacity);
-  // Metals have no diffuse light to give back; without some ambient light a rough one would be black.
-  phong.ambient = m.baseColor * ((1 - m.transmission) * opacity);
-  phong.specular = lerp(m.metallic, Color(0.2), m.baseColor) * polish;
-  phong.reflective = lerp(m.metallic, Color(0.04), m.baseColor) * polish;
-  phong.emissive = m.emissive;
-  phong.shininess = std::clamp(alpha > 0 ? 2 / (alpha * alpha) - 2 : 10000.0, 1.0, 10000.0);
-  phong.transmissive = m.baseColor * (m.transmission * (1 - m.metallic) * opacity) + Color(1 - opacity);
-  phong.index = m.transmission > 0 && m.solid ? m.index : 1;
-  if (m.transmission > 0) fill(phong, m);
-  return phong;
-}
 
 Material toMaterial(std::string name, const MetallicRoughness& m) {
   return Painted(std::move(name), m).material();

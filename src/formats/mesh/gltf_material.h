@@ -42,8 +42,8 @@ struct MetallicRoughness {
   // Each is multiplied by its number above; colours are decoded.
   std::optional<ImageMap> baseColorMap, metallicRoughnessMap, glossyMap, emissiveMap, occlusionMap, normalMap,
       iridescenceMap, filmMap, clearcoatMap, clearcoatRoughnessMap, sheenMap, sheenRoughnessMap, specularMap,
-      specularColorMap, transmissionMap;
-  double normalScale = 1;
+      specularColorMap, transmissionMap, clearcoatNormalMap;
+  double normalScale = 1, clearcoatNormalScale = 1;
   double occlusionStrength = 1;
   bool hasAlphaMap = false;  ///< the alpha of baseColorMap counts
 };
@@ -61,8 +61,8 @@ Phong toPhong(const MetallicRoughness& material);
 ///   lambert       that only shines, where it is unlit
 ///   thin_glass    a smooth sheet through which all light passes
 ///   rough_glass   a body through which all light passes
-///   phong         what passes a part of the light, and what has no texture and needs no other model
-///   principled    everything else
+///   principled    what has a texture, or needs one of its fields; it may be a sheet that light passes
+///   phong         everything else
 Material toMaterial(std::string name, const MetallicRoughness& material);
 
 /// The colour by which colours of points are multiplied.

@@ -17,10 +17,10 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 17> kMeshFields{
-    "uv",          "shared",    "crease",     "faces",     "gennormals", "material",
-    "materials",   "name",      "lit_by",     "normals",   "points",     "scheme",
-    "sharp_edges", "subdivide", "texture_uv", "two_sided", "not_lit_by"};
+constexpr std::array<std::string_view, 18> kMeshFields{
+    "uv",          "shared",    "crease",     "faces",       "gennormals", "material",
+    "materials",   "name",      "lit_by",     "normals",     "points",     "scheme",
+    "sharp_edges", "subdivide", "texture_uv", "texture_uv2", "two_sided",  "not_lit_by"};
 
 class MeshReader {
  public:
@@ -78,7 +78,9 @@ class MeshReader {
     if (key == "two_sided") return rayfile::read(findings_, key, value, data_.twoSided);
     if (key == "points") return vectors(value, "point", data_.points);
     if (key == "normals") return vectors(normals_.emplace(value), "normal", data_.normals);
-    if (key == "texture_uv" || key == "map_points") return textureCoordinates(uvs_.emplace(value));
+    if (key == "texture_uv" || key == "map_points")
+      return textureCoordinates(uvs_.emplace(value), "texture_uv", data_.uvs);
+    if (key == "texture_uv2") return textureCoordinates(secondUvs_.emplace(value), key, data_.secondUvs);
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
     if (key == "sharp_edges") return isList(sharpEdges_.emplace(value), key);
@@ -122,16 +124,16 @@ class MeshReader {
     return true;
   }
 
-  bool textureCoordinates(const Item& list) {
-    data_.uvs.clear();
-    if (!isList(list, "texture_uv")) return false;
+  bool textureCoordinates(const Item& list, std::string_view name, std::vector<Vec2>& to) {
+    to.clear();
+    if (!isList(list, std::string(name))) return false;
     for (const Item item : list) {
       Real n[2];
       if (!numbers(item, n, 2)) {
-        findings_.expected(item, "texture_uv " + std::to_string(data_.uvs.size()), "(u, v)");
+        findings_.expected(item, std::string(name) + " " + std::to_string(to.size()), "(u, v)");
         return false;
       }
-      data_.uvs.push_back({n[0], n[1]});
+      to.push_back({n[0], n[1]});
     }
     return true;
   }
@@ -148,7 +150,8 @@ class MeshReader {
   bool checkCounts() {
     return checkCount(normals_, data_.normals.size(), "normals") &&
            checkCount(materialList_, data_.materials.size(), "materials") &&
-           checkCount(uvs_, data_.uvs.size(), "texture_uv");
+           checkCount(uvs_, data_.uvs.size(), "texture_uv") &&
+           checkCount(secondUvs_, data_.secondUvs.size(), "texture_uv2");
   }
   bool checkCount(const std::optional<Item>& list, std::size_t count, const char* name) {
     if (count == 0 || count == data_.points.size()) return true;
@@ -281,7 +284,7 @@ class MeshReader {
   MeshData data_;
   MeshOperations operations_;
   std::vector<Crease> creases_;
-  std::optional<Item> normals_, uvs_, materialList_, faces_, sharpEdges_;
+  std::optional<Item> normals_, uvs_, secondUvs_, materialList_, faces_, sharpEdges_;
   bool good_ = true;
 };
 

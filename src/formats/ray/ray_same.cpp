@@ -25,7 +25,7 @@ bool sameOperands(const Scene& a, const std::vector<Operand>& x, const Scene& b,
 bool sameMesh(const Scene& a, const MeshData& x, const Scene& b, const MeshData& y) {
   if (&x == &y) return true;
   return x.points == y.points && x.triangles == y.triangles && x.normals == y.normals && x.uvs == y.uvs &&
-         x.generateNormals == y.generateNormals && x.twoSided == y.twoSided &&
+         x.secondUvs == y.secondUvs && x.generateNormals == y.generateNormals && x.twoSided == y.twoSided &&
          sameMaterials(a, x.materials, b, y.materials);
 }
 

@@ -307,6 +307,8 @@ class Writer {
       list("normals", mesh.normals, [&](const Vec3f& n) { tuple(std::array{n.x, n.y, n.z}); });
     if (!mesh.uvs.empty())
       list("texture_uv", mesh.uvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
+    if (!mesh.secondUvs.empty())
+      list("texture_uv2", mesh.secondUvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
     if (!mesh.materials.empty())
       list("materials", mesh.materials, [&](std::uint32_t material) { writeMaterial(material); });
     writeOwnMaterial(object);

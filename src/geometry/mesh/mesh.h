@@ -26,6 +26,7 @@ struct MeshData {
   std::vector<Vec3f> normals;            ///< per point, or empty: faces look flat
   std::vector<std::uint32_t> materials;  ///< per point, indices into Scene::materials, or empty
   std::vector<Vec2> uvs;                 ///< per point, or empty
+  std::vector<Vec2> secondUvs;           ///< per point, or empty: for pictures that ask for them
   bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
   bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
 
@@ -36,10 +37,17 @@ struct MeshData {
   /// Is the same seen?
   bool operator==(const MeshData& other) const {
     return points == other.points && triangles == other.triangles && normals == other.normals &&
-           materials == other.materials && uvs == other.uvs && generateNormals == other.generateNormals &&
-           twoSided == other.twoSided;
+           materials == other.materials && uvs == other.uvs && secondUvs == other.secondUvs &&
+           generateNormals == other.generateNormals && twoSided == other.twoSided;
   }
 };
+
+/// Adds the middle of two of them, where there are any.
+inline void addMiddle(std::vector<Vec2>& to, const std::vector<Vec2>& from, std::size_t a, std::size_t b) {
+  if (from.empty()) return;
+  const Vec2 p = from[a], q = from[b];
+  to.push_back({(p.x + q.x) / 2, (p.y + q.y) / 2});
+}
 
 struct Mesh {
   static constexpr std::string_view kKeyword = "polymesh";

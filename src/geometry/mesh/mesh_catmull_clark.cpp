@@ -117,20 +117,22 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
     const Vec3 ends = at(a) + at(b);
     moved.push_back(Vec3f(creased((ends + beside[i]) * 0.25, ends * 0.5, sharp.sharpness[i])));
     if (!mesh.materials.empty()) mesh.materials.push_back(mesh.materials[a]);
-    if (!mesh.uvs.empty())
-      mesh.uvs.push_back({(mesh.uvs[a].x + mesh.uvs[b].x) / 2, (mesh.uvs[a].y + mesh.uvs[b].y) / 2});
+    addMiddle(mesh.uvs, mesh.uvs, a, b);
+    addMiddle(mesh.secondUvs, mesh.secondUvs, a, b);
   }
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     moved.push_back(Vec3f(middles[i]));
     if (!mesh.materials.empty()) mesh.materials.push_back(mesh.materials[polygons[i][0]]);
-    if (mesh.uvs.empty()) continue;
-    Vec2 sum;
-    for (const Index corner : polygons[i]) {
-      sum.x += mesh.uvs[corner].x;
-      sum.y += mesh.uvs[corner].y;
+    for (std::vector<Vec2>* uvs : {&mesh.uvs, &mesh.secondUvs}) {
+      if (uvs->empty()) continue;
+      Vec2 sum;
+      for (const Index corner : polygons[i]) {
+        sum.x += (*uvs)[corner].x;
+        sum.y += (*uvs)[corner].y;
+      }
+      const Real n = static_cast<Real>(polygons[i].size());
+      uvs->push_back({sum.x / n, sum.y / n});
     }
-    const Real n = static_cast<Real>(polygons[i].size());
-    mesh.uvs.push_back({sum.x / n, sum.y / n});
   }
   mesh.points = std::move(moved);
 

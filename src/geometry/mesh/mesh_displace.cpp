@@ -32,10 +32,8 @@ MeshData cutInFour(const MeshData& mesh) {
     result.points.push_back(Vec3f((Vec3(mesh.points[e.a]) + Vec3(mesh.points[e.b])) / 2));
     result.normals.push_back(unitOr(Vec3(mesh.normals[e.a]) + Vec3(mesh.normals[e.b]), mesh.normals[e.a]));
     if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[e.a]);
-    if (!mesh.uvs.empty()) {
-      const Vec2 &p = mesh.uvs[e.a], &q = mesh.uvs[e.b];
-      result.uvs.push_back({(p.x + q.x) / 2, (p.y + q.y) / 2});
-    }
+    addMiddle(result.uvs, mesh.uvs, e.a, e.b);
+    addMiddle(result.secondUvs, mesh.secondUvs, e.a, e.b);
     return point;
   };
   for (const Triangle& t : mesh.triangles) {

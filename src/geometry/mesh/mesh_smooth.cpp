@@ -84,6 +84,7 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
       const Vec3 n = sums[set];
       result.normals.push_back(Vec3f(n == Vec3{} ? faces[i] : normalize(n)));
       if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[from]);
+      if (!mesh.secondUvs.empty()) result.secondUvs.push_back(mesh.secondUvs[from]);
       if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[from]);
     }
     result.triangles.push_back(triangle);
@@ -99,6 +100,7 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
   MeshData result;
   result.materials = mesh.materials;
   result.uvs = mesh.uvs;
+  result.secondUvs = mesh.secondUvs;
 
   // The points opposite each edge, and how many triangles it has.
   Unique<Edge> edges;
@@ -156,10 +158,8 @@ MeshData subdividedOnce(const MeshData& mesh, std::vector<Crease>& creases) {
     result.points.push_back(
         Vec3f(creased(ends * 0.375 + opposite[i] * 0.125, ends * 0.5, sharp.sharpness[i])));
     if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[e.a]);
-    if (!mesh.uvs.empty()) {
-      const Vec2 &a = mesh.uvs[e.a], &b = mesh.uvs[e.b];
-      result.uvs.push_back({(a.x + b.x) / 2, (a.y + b.y) / 2});
-    }
+    addMiddle(result.uvs, mesh.uvs, e.a, e.b);
+    addMiddle(result.secondUvs, mesh.secondUvs, e.a, e.b);
   }
 
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

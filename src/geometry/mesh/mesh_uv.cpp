@@ -98,6 +98,7 @@ MeshData withProjectedUvs(const MeshData& given, UvProjection projection) {
       if (triangle[c] < result.points.size()) continue;
       result.points.push_back(mesh.points[t[c]]);
       result.uvs.push_back(uv[c]);
+      if (!mesh.secondUvs.empty()) result.secondUvs.push_back(mesh.secondUvs[t[c]]);
       if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[t[c]]);
       if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[t[c]]);
     }

@@ -54,6 +54,7 @@ struct ImageMap {
   bool srgb = false;
   Channel channel = Channel::color;
   Relief relief = Relief::heights;
+  bool secondUv = false;
   std::array<Real, 6> transform{1, 0, 0, 0, 1, 0};
 
   static constexpr auto fields() {
@@ -70,6 +71,8 @@ struct ImageMap {
         Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
         Field{"relief", &ImageMap::relief, "", -kNoLimit, kNoLimit,
               "what it tells as a bump: heights, or normals whose green counts up or down"},
+        Field{"second_uv", &ImageMap::secondUv, "", -kNoLimit, kNoLimit,
+              "it lies by the second texture coordinates of its mesh, `texture_uv2`, where that has some"},
         Field{
             "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
             "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
