@@ -67,6 +67,20 @@ Real distanceAcross(const World& world) {
                      far(eye.z, box.low.z, box.high.z)});
 }
 
+/// The first object that surely gives back more light than it gets, as Phong's model lets it; null if none
+/// does.
+const Object* firstThatGains(const Scene& scene) {
+  constexpr Real kMuch = 1.25;  // less is lost again in most scenes
+  const auto gains = [&](const Object& object) {
+    const auto* phong = std::get_if<Phong>(&scene.materials[object.material].model);
+    if (!phong) return false;
+    const Color more = phong->transmits() ? phong->transmissive : phong->reflective;
+    return maxComponent(phong->diffuse + more) > kMuch;
+  };
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), gains);
+  return found == scene.objects.end() ? nullptr : &*found;
+}
+
 /// Options that say something of what another one switches on.
 struct Serves {
   std::string_view option, needed;
@@ -206,8 +220,12 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
 
   if (whitted && s.lampSamples == 0 && world.lights().empty() && !Lamps(world, s.threads).empty() &&
       anyObject(world, [](const WhittedTerms& terms) { return isBlack(terms.emissive); }))
-    warn("nothing lights the scene but objects that shine, and for --integrator whitted they light nothing",
-         "--lamp-samples 4 lets them; --integrator path follows their light further");
+    warn(anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); })
+             ? "nothing lights the scene but objects that shine, and for --integrator whitted they light "
+               "nothing"
+             : "nothing lights the scene but what is around it, and for --integrator whitted that lights "
+               "nothing",
+         "--lamp-samples 4 lets it; --integrator path follows the light further");
 
   if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
     warn("--photon-passes " + std::to_string(s.photonPasses) +
@@ -253,6 +271,14 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("the sun lights fog without end: with --integrator " + integrator +
              " the fog is as bright as --medium-depth and the size of the scene let it be",
          "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
+  if (paths && s.integrator != IntegratorKind::direct)
+    if (const Object* gains = firstThatGains(scene))
+      messages.warn(
+          gains->place,
+          "its material gives back more light than it gets (diffuse beside transmissive or reflective, "
+          "perhaps inherited from the material before): with --integrator " +
+              integrator + " it and its surroundings grow brighter with --depth",
+          "diffuse = 0 makes clear glass and plain mirrors");
   if (paths)
     if (const Object* drawn = firstDrawn(scene))
       messages.warn(drawn->place,

@@ -131,6 +131,7 @@ class Surveyor {
     for (const SpotLight& spot : spots_)
       seen.outOfCone += !spot.illuminate(node.hit->surface.point, world_.rules());
     for (const Term& term : node.terms) {
+      seen.unlinked += term.dark && term.dark->why == DarkTerm::Why::unlinked;
       if (!term.light) continue;
       Survey::Lamp& lamp = survey_.lights[term.light->light];
       if (scattering) {

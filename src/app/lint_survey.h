@@ -23,6 +23,7 @@ struct Survey {
     int direct = 0;                          ///< of them: light comes straight from a source
     int couldBeLit = 0;                      ///< of them: the material scatters light
     int facesAway = 0;                       ///< pairs of a place and a light behind the surface there
+    int unlinked = 0;                        ///< pairs of a place and a light that links keep off the object
     int outOfCone = 0;                       ///< pairs of a place and a spot light that shines elsewhere
     std::map<std::uint32_t, int> blockedBy;  ///< pairs of a place and a light, by what is between
     int sent = 0;                            ///< mirrored and refracted rays that went on from it

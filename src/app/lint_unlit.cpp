@@ -90,19 +90,28 @@ void unlit(const LintScene& s, Findings& findings) {
     if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
     const auto most = mostOf(seen.blockedBy);
     const int blocked = most == seen.blockedBy.end() ? 0 : most->second;
-    const bool outside = seen.outOfCone > max(seen.facesAway, blocked);
-    if (outside && isCauseSaid) continue;
-    const bool away = !outside && (blocked == 0 || seen.facesAway > blocked);
+    const int others = std::max(seen.facesAway, blocked);
+    std::string cause, hint;
+    if (seen.unlinked > std::max(seen.outOfCone, others)) {
+      cause = "; links, its own or those of the lights, keep them off it";
+      hint = "look at lit_by and not_lit_by of the object, and at lights and excludes of the lights";
+    } else if (seen.outOfCone > others) {
+      if (isCauseSaid) continue;
+      cause = "; it is outside the cone of the spot light";
+      hint = "turn a spot light's direction to it, or give it a larger angle";
+    } else if (others == 0) {
+      hint = "add a light that shines there";
+    } else if (seen.facesAway > blocked) {
+      cause = "; it faces away from the lights";
+      hint = "move a light to the side that is seen or turn its faces round";
+    } else {
+      cause = most->first == object ? "; it stands in its own light"
+                                    : "; in the way is " + quoted(s, most->first);
+      hint = "move the light or what is in the way";
+    }
     warn(findings, "unlit", placeOf(s, object),
-         quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" +
-             (outside ? "; it is outside the cone of the spot light"
-              : away  ? "; it faces away from the lights"
-                      : (most->first == object ? "; it stands in its own light"
-                                               : "; in the way is " + quoted(s, most->first))),
-         (outside ? "turn a spot light's direction to it, or give it a larger angle"
-          : away  ? "move a light to the side that is seen or turn its faces round"
-                  : "move the light or what is in the way") +
-             ambient + thrown);
+         quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" + cause,
+         hint + ambient + thrown);
   }
 }
 

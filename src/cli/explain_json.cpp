@@ -283,6 +283,7 @@ std::string explainJson(const PixelFacts& facts) {
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
+  json["lacksLightImage"] = facts.settings.integrator == IntegratorKind::bdpt;
   if (const std::vector<PathWay> ways = pathWays(e.tree); !ways.empty()) {
     json["ways"] = Json::list();
     for (const PathWay& way : ways)

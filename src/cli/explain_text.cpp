@@ -325,18 +325,27 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text +=
         "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
         "corner\n";
-  text += "their mean  " + exact(e.pixel) + (facts.chain ? "\nby `path`   " : "\nthe picture ") +
+  const bool throws = facts.settings.integrator == IntegratorKind::bdpt;
+  text += "their mean  " + exact(e.pixel) +
+          (facts.chain ? "\nby `path`   "
+           : throws    ? "\nits paths   "
+                       : "\nthe picture ") +
           exact(facts.rendered) + "\n";
   if (facts.chain)
     text += "            chains make the picture, in no order of pixels: it tends to the same\n";
-  if (facts.settings.integrator == IntegratorKind::bdpt)
+  if (throws)
     text +=
-        "Paths from lights, those of all pixels, add to that picture what they bring straight to the camera; "
-        "--camera-vertices 1 shows it alone.\n";
+        "            the picture has more: what paths from lights, those of all pixels, bring straight to "
+        "the "
+        "camera, as\n            caustics on matt things; a render with --camera-vertices 1 shows that "
+        "alone\n";
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
-  const bool whole = !facts.chain && !facts.settings.denoise;  // nothing else has a part in the pixel
-  if (!facts.chain && facts.settings.integrator != IntegratorKind::bdpt) text += shownText(facts);
-  const std::string pixel = whole ? "the picture's pixel" : "the pixel as it was traced";
+  const bool whole =
+      !facts.chain && !throws && !facts.settings.denoise;  // nothing else has a part in the pixel
+  if (!facts.chain && !throws) text += shownText(facts);
+  const std::string pixel = whole    ? "the picture's pixel"
+                            : throws ? "what the pixel's own paths bring"
+                                     : "the pixel as it was traced";
   text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
                          : "The rays above do NOT sum to " + pixel + ": please report this.\n";
   return text;

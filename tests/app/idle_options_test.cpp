@@ -24,6 +24,7 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
         message.what.find("light nothing") != std::string::npos ||
         message.what.find("fog without end") != std::string::npos ||
         message.what.find("draws, and") != std::string::npos ||
+        message.what.find("more light than it gets") != std::string::npos ||
         message.what.find("past the scene") != std::string::npos ||
         message.what.find("nothing is sharp") != std::string::npos)
       all += message.what + "\n";
@@ -75,6 +76,18 @@ TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
     EXPECT_NE(warnings(drawn, {{"integrator", "path", {}}}).find(std::string(model) + " draws"),
               std::string::npos);
   }
+}
+
+TEST(IdleOptions, MaterialsThatMakeLightAreToldWhereLightBounces) {
+  const auto ball = [](const std::string& material) {
+    return std::string(kLit) + "sphere { material = { diffuse = 0.6; " + material + " } }";
+  };
+  const std::vector<Choice> path{{"integrator", "path", {}}};
+  EXPECT_NE(warnings(ball("transmissive = 1; index = 1.5;"), path).find("more light than it gets"),
+            std::string::npos);
+  EXPECT_NE(warnings(ball("reflective = 0.7;"), path).find("more light than it gets"), std::string::npos);
+  EXPECT_EQ(warnings(ball("reflective = 0.7;"), {}), "");
+  EXPECT_EQ(warnings(ball("reflective = 0.4;"), path), "");
 }
 
 TEST(IdleOptions, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
