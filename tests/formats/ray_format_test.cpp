@@ -456,7 +456,7 @@ TEST(RayFormat, ReadsBackgroundsAndHorizontalAngles) {
   EXPECT_EQ(errorsOf("background { gradient = (1, 1); elevations = (5, 5); }"),
             "2:12: background: expected elevations that ascend, from -90 to 90 degrees");
   EXPECT_EQ(errorsOf("background { turbidity = 2; sun = (0, 0, 0); }"),
-            "2:34: background: expected a direction to the sun, found (0, 0, 0)");
+            "2:35: background: expected a direction to the sun, found (0, 0, 0)");
   EXPECT_EQ(warningsOf("background { sun = (0, 0, 0); }"),
             "2:20: background: expected a direction to the sun, found (0, 0, 0)");
   EXPECT_EQ(errorsOf("background { colors = 1; }"),
