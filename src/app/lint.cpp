@@ -109,6 +109,7 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"medium-empty", "a medium that is nowhere dense, or does nothing with light", mediumEmpty},
       LintCheck{"subsurface-open", "light that is to spread inside an open sheet", subsurfaceOpen},
       LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
+      LintCheck{"brick-joint", "a box whose face lies in a joint of its bricks", brickJoint},
       LintCheck{"no-material", "objects without a material", noMaterial},
       LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},
       LintCheck{"degrees", "degrees where a rotation takes radians", degrees},

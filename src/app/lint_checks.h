@@ -64,6 +64,7 @@ void unusedMaterial(const LintScene& s, Findings& findings);
 void inheritedGlass(const LintScene& s, Findings& findings);
 void indexBelowOne(const LintScene& s, Findings& findings);
 void depthTooLow(const LintScene& s, Findings& findings);
+void brickJoint(const LintScene& s, Findings& findings);
 void noMaterial(const LintScene& s, Findings& findings);
 
 // Lights (lint_lights.cpp).

@@ -1,5 +1,6 @@
 // The checks of materials, and of how deep glass is looked into.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "geometry/field_value.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/cube.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -39,7 +41,45 @@ bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
   return materialsOf(shape).empty() && isBare(s.scene.materials[material]);
 }
 
+/// The first texture of bricks on the material, however deep.
+const TextureNode* bricksIn(const std::vector<FieldTexture>& textures) {
+  for (const FieldTexture& t : textures) {
+    if (std::holds_alternative<Brick>(t.texture->model)) return &*t.texture;
+    if (const TextureNode* inner = bricksIn(t.texture->inputs)) return inner;
+  }
+  return nullptr;
+}
+
+/// Whether the plane lies in a joint, where bricks of that length stand from `moved` on.
+bool inJoint(Real plane, Real moved, Real length, Real mortar) {
+  const Real t = (plane - moved) / length;
+  return length > 0 && std::abs(t - std::round(t)) * length < mortar / 2;
+}
+
 }  // namespace
+
+/// Of a box whose bricks are not turned. Joints across x are moved from course to course.
+void brickJoint(const LintScene& s, Findings& findings) {
+  for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
+    const Object& o = s.scene.objects[object];
+    if (!o.shape.is<Cube>()) continue;
+    const TextureNode* node = bricksIn(s.scene.materials[o.material].textures);
+    if (!node || node->placement.rotate != Vec3{}) continue;
+    const Brick& brick = std::get<Brick>(node->model);
+    if (brick.space != TextureSpace::point) continue;
+    for (int axis = 2; axis >= 1; --axis) {
+      const Real scale = node->placement.scale[axis], moved = node->placement.translate[axis];
+      if (!inJoint(0.5 / scale, moved / scale, brick.size[axis], brick.mortar)) continue;
+      const std::string name(1, "xyz"[axis]), by = toText(brick.size[axis] * std::abs(scale) / 2);
+      warn(findings, "brick-joint", placeOf(s, object),
+           "a face of " + quoted(s, object) + " lies in a joint of its bricks, at " + name +
+               " = 0.5: all of it is mortar",
+           "translate = " + std::string(axis == 1 ? "(0, " + by + ", 0)" : "(0, 0, " + by + ")") +
+               " in brick { } moves the joints");
+      break;
+    }
+  }
+}
 
 /// Some readers keep the materials that the file names and leave to nothing in the scene, others beside it.
 void unusedMaterial(const LintScene& s, Findings& findings) {

@@ -61,9 +61,19 @@ void Interaction::raise(bool turned) {
   if (!met || met->t > 1 + kRounding) raised_ = to;
 }
 
+/// Whether light gets farther in the body than places on it are known.
+bool Interaction::spreads(const Subsurface& said) const {
+  constexpr Real kKnown = 0x1p-44;
+  const Color loses = said.scatters + said.absorbs;
+  const Real least = min(loses.r, min(loses.g, loses.b)) * said.millimetres;
+  const Box3& box = tracer.world().boundsOf(hit.object);
+  const Real size = maxComponent(abs(hit.surface.point)) + (box.empty() ? 0 : length(box.size()));
+  return !(least * size * kKnown > 1);
+}
+
 std::optional<SubsurfaceBsdf> Interaction::takeBody() {
   const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_);
-  if (!whole) return {};
+  if (!whole || !spreads(whole->said)) return {};
   const SubsurfaceBsdf body = *whole;
   bsdf_.replace(body.only(SubsurfaceBsdf::Part::surface));
   return body;

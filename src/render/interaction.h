@@ -24,7 +24,8 @@ class Interaction {
   Interaction& operator=(const Interaction&) = delete;
 
   const Bsdf& bsdf() const { return *bsdf_; }
-  /// Takes what goes into the body out of bsdf(), and gives the whole: of a body in which light spreads.
+  /// Takes what goes into the body out of bsdf(), and gives the whole: of a body in which light spreads. One
+  /// so large that the light's way is lost in rounding is not, there it comes out where it goes in.
   std::optional<SubsurfaceBsdf> takeBody();
   /// The place is one where light goes in that comes out elsewhere: bsdf() becomes how much.
   void letIn();
@@ -101,6 +102,7 @@ class Interaction {
   Indices indices;  ///< before the surface and behind it, where anybody asks
 
  private:
+  bool spreads(const Subsurface& said) const;
   Real mirroredShare(const SpectralShare& share) const;
   [[gnu::noinline]] void raise(bool turned);
 

@@ -456,7 +456,9 @@ TEST(RayFormat, ReadsBackgroundsAndHorizontalAngles) {
   EXPECT_EQ(errorsOf("background { gradient = (1, 1); elevations = (5, 5); }"),
             "2:12: background: expected elevations that ascend, from -90 to 90 degrees");
   EXPECT_EQ(errorsOf("background { turbidity = 2; sun = (0, 0, 0); }"),
-            "2:12: background: expected a direction to the sun, found (0, 0, 0)");
+            "2:35: background: expected a direction to the sun, found (0, 0, 0)");
+  EXPECT_EQ(warningsOf("background { sun = (0, 0, 0); }"),
+            "2:20: background: expected a direction to the sun, found (0, 0, 0)");
   EXPECT_EQ(errorsOf("background { colors = 1; }"),
             "2:23: colors: expected a list ((red, green, blue), (red, green, blue), ...), found 1");
   EXPECT_EQ(errorsOf("background { limits = ((1, 2)); }"), "2:24: limits: expected a number, found (1, 2)");
@@ -490,6 +492,16 @@ TEST(RayFormat, ReadsMeshes) {
   EXPECT_FALSE(meshOf("")->twoSided);
   EXPECT_EQ(onlyShape<Mesh>("trimesh { }").data->points.size(), 0u);
   EXPECT_EQ(load("polymesh { name = \"cow\" }").scene.objects[0].name, "cow");
+}
+
+TEST(RayFormat, WarnsOfNumbersThatNothingHas) {
+  EXPECT_EQ(warningsOf("sphere { material = { emissive = (1e30, 1, 1); } }"),
+            "2:23: emissive of material: expected 0 to 1e12, found 1e+30 [the sun's disk is 50000 times as "
+            "bright as white paper in it]");
+  EXPECT_EQ(warningsOf("sphere { material = { emissive = (1e9, 1, 1); } }"), "");
+  EXPECT_EQ(warningsOf("sphere { material = { bump = texture(noise { }, 1e30); } }"),
+            "2:23: bump of material: expected heights of the object's size, found 1e+30: every normal lies in "
+            "the surface [bump = texture(noise { }, 0.1) is usual]");
 }
 
 TEST(RayFormat, ReadsWhatMeshesSayPerPoint) {

@@ -118,6 +118,24 @@ TEST(Subsurface, WhatSwallowsNothingVanishesInAnEvenSky) {
   }
 }
 
+// Where the way of light is lost in rounding the body is a surface: as bright as one that is merely large.
+TEST(Subsurface, BodiesBeyondRoundingAreSurfaces) {
+  for (const Spreading spreading : {Spreading::diffusion}) {
+    const auto brightness = [&](Real millimetres) {
+      Subsurface model;
+      model.millimetres = millimetres, model.spreading = spreading;
+      Scene scene;
+      scene.camera.position = {0, 0, 5}, scene.camera.viewdir = {0, 0, -1}, scene.camera.fov = 5;
+      scene.background.gradient = {Color(1), Color(1)};
+      add(scene, Sphere{}, {}, model);
+      return mean(scene, small(IntegratorKind::path, 16)).g;
+    };
+    const Real large = brightness(1e6);
+    for (const Real millimetres : {1e12, 1e15, 1e300})
+      EXPECT_NEAR(brightness(millimetres) / large, 1, 0.02) << millimetres;
+  }
+}
+
 TEST(Subsurface, WhittedAndThePathTracerGiveTheSameLightOfALamp) {
   for (const Spreading spreading : kWays) {
     Subsurface model = matched(0.95, spreading);

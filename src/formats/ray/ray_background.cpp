@@ -11,9 +11,10 @@ namespace trace::rayfile {
 
 Background readBackground(Findings& findings, const Item& block) {
   Background background;
-  std::optional<Item> turbidity;
+  std::optional<Item> turbidity, sun;
   for (const Item item : block) {
     if (item.keyed() && item.key() == "turbidity") turbidity = item.value();
+    if (item.keyed() && item.key() == "sun") sun = item.value();
     if (!item.keyed()) {
       findings.expected(item, Background::kKeyword, "a field, as in color = (0.4, 0.6, 1)");
       continue;
@@ -38,7 +39,9 @@ Background readBackground(Findings& findings, const Item& block) {
   if (std::adjacent_find(elevations.begin(), elevations.end(), std::greater_equal<>()) != elevations.end())
     findings.error(block, "background: expected elevations that ascend, from -90 to 90 degrees");
   if (background.turbidity > 0 && !(length(background.sun) > 0))
-    findings.error(block, "background: expected a direction to the sun, found (0, 0, 0)");
+    findings.error(sun.value_or(block), "background: expected a direction to the sun, found (0, 0, 0)");
+  if (background.turbidity <= 0 && sun && !(length(background.sun) > 0))
+    findings.warn(*sun, "background: expected a direction to the sun, found (0, 0, 0)");
   if (background.turbidity < 0)
     findings.warn(turbidity.value_or(block), "background: expected a turbidity of at least 0, found " +
                                                  toText(background.turbidity) + ": there is no sky");

@@ -181,6 +181,7 @@ void Materials::field(Block& block, const Item& field) {
                          "air has 1, water 1.33, glass 1.5");
     });
     if (key == "shininess" && field.value().is(Kind::number)) block.shininess = field;
+    warnOfHuge(block.material, field);
   }
   if (!phong) return;
   if (key == "reflective") {
@@ -188,6 +189,21 @@ void Materials::field(Block& block, const Item& field) {
     phong->mirrorsSpecular = false;
   }
   if (key == "specular" && !block.gaveReflective) phong->mirrorsSpecular = true;
+}
+
+/// Of what has no upper limit, and yet nothing is so large.
+void Materials::warnOfHuge(const Material& material, const Item& field) {
+  constexpr Real kBrightest = 1e12, kHighest = 1e9;
+  if (field.key() == "bump" && std::abs(material.bump) > kHighest)
+    findings_.warn(field,
+                   "bump of material: expected heights of the object's size, found " + toText(material.bump) +
+                       ": every normal lies in the surface",
+                   "bump = texture(noise { }, 0.1) is usual");
+  if (field.key() != kEmissive) return;
+  const Real most = maxComponent(phongOf(material.model).emissive);
+  if (most > kBrightest)
+    findings_.warn(field, "emissive of material: expected 0 to 1e12, found " + toText(most),
+                   "the sun's disk is 50000 times as bright as white paper in it");
 }
 
 /// Files of the courses have fields that no program knows any more; who names a model means it.

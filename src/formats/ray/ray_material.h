@@ -49,6 +49,7 @@ class Materials {
   void chooseModel(Block& block, const Item& value);
   void field(Block& block, const Item& field);
   void fromLibrary(Block& block, const Item& value);
+  void warnOfHuge(const Material& material, const Item& field);
   void unknownField(const Block& block, const Item& field);
   bool pattern(Block& block, const Item& field);
   bool studentBump(Block& block, const Item& field);
