@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/output.h"
+#include "app/texture_edits.h"
 #include "image/codec.h"
 #include "scene/picture_size.h"
 
@@ -182,6 +183,32 @@ void Workspace::undo() {
   if (anew) want({.anew = true});
 }
 
+void Workspace::edit(const std::string& what, Scene scene, bool continues) {
+  if (!lacksFiles(scene) || lacksFiles(document.scene()))
+    return document.edit(what, std::move(scene), continues);
+  completing_.start([what, of = document.sharedScene(), scene = std::move(scene)](const Cancelled&) mutable {
+    Completed completed{what, of, nullptr, {}};
+    Outcome<bool> outcome = outcomeOf(scene.file, [&] {
+      readLackingFiles(scene);
+      return true;
+    });
+    completed.errors = std::move(outcome.errors);
+    completed.scene = std::make_shared<const Scene>(std::move(scene));
+    return completed;
+  });
+}
+
+void Workspace::takeCompleted() {
+  const std::optional<Completed> completed = completing_.take();
+  if (!completed) return;
+  if (completed->errors.empty() && completed->of == document.sharedScene())
+    return document.edit(completed->what, *completed->scene);
+  ++refusals_;
+  const std::string why =
+      completed->errors.empty() ? "the scene was edited meanwhile" : completed->errors.front().what;
+  log_.push_back({Level::warning, completed->what + " was not taken: " + why, {}, {}});
+}
+
 void Workspace::openReference(const std::string& file) {
   loading_.start([path = absolute(file)](const Cancelled&) {
     return outcomeOf(path, [&] {
@@ -271,6 +298,7 @@ void Workspace::update() {
   takeReference();
   if (document.isOpen()) {
     takeReread();
+    takeCompleted();
     if (looks) reloadIfChanged();
     reportReading();
     if (seen_ != document.revision()) {

@@ -37,6 +37,9 @@ class Workspace {
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
+  /// One step of the Document. Files that the scene names since are read first, in the background; where one
+  /// cannot be, the step is not taken, and the log says why.
+  void edit(const std::string& what, Scene scene, bool continues = false);
   /// As of the Document, but the file is read in the background if it has to be. Throws Error(Fault::usage)
   /// if the option does not take the value.
   void choose(const std::string& option, const std::string& value, bool continues = false);
@@ -73,7 +76,9 @@ class Workspace {
   std::string defaultPictureFile() const;
 
   /// Until update() has taken what came of it.
-  bool reading() const { return opening_.pending() || rereading_.pending() || loading_.pending(); }
+  bool reading() const {
+    return opening_.pending() || rereading_.pending() || loading_.pending() || completing_.pending();
+  }
   bool saving() const { return saving_.pending(); }
   /// All that may change without a person doing something. A window need not draw while it stays the same.
   struct Pulse {
@@ -88,6 +93,8 @@ class Workspace {
   Pulse pulse();
   /// Files that could not be read or written so far. The log says which.
   std::uint64_t failures() const { return failures_; }
+  /// Edits that were not taken so far. The log says why.
+  std::uint64_t refusals() const { return refusals_; }
 
   struct LogEntry {
     enum class Level { note, warning, error };
@@ -125,6 +132,11 @@ class Workspace {
     std::uint64_t number = 0;
     Outcome<Document::Reading> reading;
   };
+  struct Completed {  ///< an edit and the files that it names
+    std::string what;
+    std::shared_ptr<const Scene> of, scene;
+    std::vector<Message> errors;
+  };
   struct Reference {
     std::string file;
     Picture picture;
@@ -140,6 +152,7 @@ class Workspace {
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();
+  void takeCompleted();
   void takeReference();
   void takeSaved();
   void fail(const std::vector<Message>& errors);
@@ -156,7 +169,7 @@ class Workspace {
   std::uint64_t seen_ = 0;      // revision of the document that update() looked at last
   std::uint64_t reading_ = 0;   // that is in the log
   std::uint64_t reported_ = 0;  // number of the render whose end is in the log
-  std::uint64_t failures_ = 0;
+  std::uint64_t failures_ = 0, refusals_ = 0;
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;
   std::chrono::steady_clock::time_point looked_{};
@@ -164,6 +177,7 @@ class Workspace {
   std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
   BackgroundTask<Outcome<Document>> opening_;
   BackgroundTask<Reread> rereading_;
+  BackgroundTask<Completed> completing_;
   BackgroundTask<Outcome<Reference>> loading_;
   BackgroundTask<Outcome<Saved>> saving_{Jobs::all};
 };

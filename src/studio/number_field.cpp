@@ -154,6 +154,8 @@ bool editNumber(const char* id, int& value, const NumberLook& look) {
   return std::exchange(value, now) != now;
 }
 
+void remarkOn(std::string what) { remarks().push_back(std::move(what)); }
+
 std::vector<std::string> takeRemarks() { return std::exchange(remarks(), {}); }
 
 bool editNumbersInRow(double* values, int count, const NumberLook& look) {

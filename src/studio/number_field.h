@@ -25,6 +25,8 @@ bool editNumber(const char* id, int& value, const NumberLook& look);
 bool editNumbersInRow(double* values, int count, const NumberLook& look);
 /// What was typed and not taken as it is, since the last call: `depth: expected 0 to 100, found 500`.
 std::vector<std::string> takeRemarks();
+/// One more.
+void remarkOn(std::string what);
 /// `hint` is shown where there is no text.
 bool editText(const char* id, std::string& value, const char* hint = "");
 

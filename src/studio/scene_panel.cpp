@@ -8,6 +8,8 @@
 #include "app/edits.h"
 #include "app/placing.h"
 #include "app/scene_changes.h"
+#include "app/typed_file.h"
+#include "base/file.h"
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "studio/field_editor.h"
@@ -15,6 +17,7 @@
 #include "studio/object_editor.h"
 #include "studio/panels.h"
 #include "studio/selection.h"
+#include "studio/texture_editor.h"
 
 namespace trace::studio {
 namespace {
@@ -35,7 +38,7 @@ void change(Studio& studio, const std::string& what, Apply&& apply) {
   studio.editedItem = id;
   Scene scene = studio.workspace.document.scene();
   apply(scene);
-  studio.workspace.document.edit(what, std::move(scene), continues);
+  studio.workspace.edit(what, std::move(scene), continues);
 }
 
 /// The whole of the last row of the list.
@@ -170,7 +173,7 @@ void editMaterial(Studio& studio) {
   const auto changed = [&](const std::string& what) {
     change(studio, what, [&](Scene& next) { next.materials[index] = material; });
   };
-  if (!beginFields("material")) return;
+  if (!beginFields("material", true)) return;
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
   const std::vector<std::string_view> models = modelKeywords();
@@ -183,20 +186,21 @@ void editMaterial(Studio& studio) {
     material = withModel(std::move(material), *modelCalled(models[chosen]));
     changed(name + ": model " + std::string(models[chosen]));
   }
-  match(material.model, [&](auto& model) {
-    const auto before = model;
-    editFields(model, [&](std::string_view key) {
-      followEdit(model, before, key);
-      changed(name + ": " + std::string(key));
+  std::vector<FieldTexture>& textures = material.textures;
+  match(material.model, [&]<class Model>(Model& model) {
+    const Model before = model;
+    forEachField<Model>([&](const auto& f) {
+      editTexturedField(f, model.*f.member, textures, [&](const std::string& what) {
+        followEdit(model, before, f.keyword);
+        changed(name + ": " + what);
+      });
     });
   });
   forEachField<Material>([&](const auto& f) {
-    if (f.keyword == "bump" && !textureOf(material.textures, f.keyword)) return;  // nothing to scale
-    editField(f, material.*f.member, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
+    editTexturedField(f, material.*f.member, textures,
+                      [&](const std::string& what) { changed(name + ": " + what); });
   });
   endFields();
-  for (const FieldTexture& t : material.textures)
-    ImGui::TextDisabled("%s is scaled by a texture: %s", t.field.c_str(), summary(t.texture).c_str());
 }
 
 /// Of what a scene has once.
@@ -222,6 +226,16 @@ void editOnly(Studio& studio, Thing Scene::*member) {
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();
+}
+
+/// Names of files count from the scene's folder.
+void chooseFieldsFile(Studio& studio, const FileWish& wish) {
+  const std::string& scene = studio.workspace.document.file();
+  studio.dialog.open(wish.title, FileDialog::Purpose::read,
+                     wish.now.empty() ? scene : besideFile(scene, wish.now), wish.suffixes,
+                     [&studio, field = wish.field](const std::string& file) {
+                       giveFile(field, shownFile(file, studio.workspace.document.file()));
+                     });
 }
 
 }  // namespace
@@ -276,6 +290,7 @@ void drawScene(Studio& studio) {
   }
   ImGui::PopID();
   ImGui::EndChild();
+  if (const std::optional<FileWish> wish = takeFileWish()) chooseFieldsFile(studio, *wish);
 }
 
 }  // namespace trace::studio
