@@ -177,6 +177,37 @@ bool editNumbers(const FieldFacts& facts, double* values, std::size_t count) {
   return changed;
 }
 
+bool editNames(const std::vector<std::string>& names, std::vector<std::string>& chosen, const char* none) {
+  std::string shown;
+  for (const std::string& name : chosen) shown += (shown.empty() ? "" : ", ") + name;
+  ImGui::SetNextItemWidth(-1);
+  const bool open = ImGui::BeginCombo("##names", shown.empty() ? none : shown.c_str());
+  const auto row = [&](const std::string& name, std::size_t at, bool known) {
+    const auto found = std::find(chosen.begin(), chosen.end(), name);
+    bool on = found != chosen.end();
+    ImGui::PushID(static_cast<int>(at));
+    const bool changed = ImGui::Checkbox((known ? name : name + " (not in the scene)").c_str(), &on);
+    landmark("name " + name);
+    ImGui::PopID();
+    if (changed && on) chosen.push_back(name);
+    if (changed && !on) chosen.erase(found);
+    return changed;
+  };
+  bool changed = false;
+  if (open) {
+    for (std::size_t i = 0; i < names.size(); ++i) changed = row(names[i], i, true) || changed;
+    const std::vector<std::string> before = chosen;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (std::find(names.begin(), names.end(), before[i]) == names.end())
+        changed = row(before[i], names.size() + i, false) || changed;
+    if (names.empty() && before.empty()) ImGui::TextDisabled("nothing here has a name yet");
+    ImGui::EndCombo();
+  }
+  landmark("names");
+  if (!shown.empty() && !open && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown.c_str());
+  return changed;
+}
+
 bool editChoice(const std::string_view* names, std::size_t count, std::size_t& value) {
   bool changed = false;
   ImGui::SetNextItemWidth(-1);

@@ -47,6 +47,9 @@ bool editValue(const FieldFacts& facts, PhotometryFile& value);
 bool editValue(const FieldFacts& facts, FormulaText& value);
 /// Several numbers, in rows of at most four.
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
+/// Some of the names, in a list with boxes to tick; `none` is shown where none is chosen. One that is chosen
+/// and not among them is shown too, and can be taken out.
+bool editNames(const std::vector<std::string>& names, std::vector<std::string>& chosen, const char* none);
 /// One of the names.
 bool editChoice(const std::string_view* names, std::size_t count, std::size_t& value);
 

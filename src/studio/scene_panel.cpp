@@ -2,6 +2,7 @@
 // the menus and names come from the lists of shapes, lights and materials.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -130,6 +131,28 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::PopTextWrapPos();
 }
 
+/// Links between lights and objects: lists of names, chosen from those of the others that have one.
+template <class Links, class Others, class NameOf, class Changed>
+void editLinks(Links& links, const Others& others, const NameOf& nameOf, const Changed& changed) {
+  std::vector<std::string> names;
+  for (const auto& other : others)
+    if (const std::string& name = nameOf(other);
+        !name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  forEachField<Links>([&](const auto& field) {
+    auto& value = links.*field.member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::vector<std::string>>) {
+      fieldName(field.keyword, field.help);
+      ImGui::PushID(field.keyword.data());
+      const bool all = std::string_view(field.help).ends_with("none: all");
+      if (editNames(names, value, all ? "all" : "none")) changed(field.keyword);
+      ImGui::PopID();
+    } else {
+      editField(field, value, changed);
+    }
+  });
+}
+
 void editObject(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   Object object = studio.workspace.document.scene().objects[index];
@@ -143,6 +166,15 @@ void editObject(Studio& studio) {
                   [&](const std::string& what) {
                     change(studio, what, [&](Scene& scene) { scene.objects[index] = object; });
                   });
+  if (!beginFields("links")) return;
+  editLinks(
+      object.links, studio.workspace.document.scene().lights,
+      [](const LightSource& light) -> const std::string& { return light.links.name; },
+      [&](std::string_view key) {
+        change(studio, entryName(object) + ": " + std::string(key),
+               [&](Scene& scene) { scene.objects[index] = object; });
+      });
+  endFields();
 }
 
 void editLight(Studio& studio) {
@@ -157,7 +189,9 @@ void editLight(Studio& studio) {
            [&](Scene& scene) { scene.lights[index] = source; });
   };
   match(source.light, [&](auto& light) { editFields(light, changed); });
-  editFields(source.links, changed);
+  editLinks(
+      source.links, studio.workspace.document.scene().objects,
+      [](const Object& object) -> const std::string& { return object.name; }, changed);
   endFields();
 }
 

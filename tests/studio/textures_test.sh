@@ -23,7 +23,6 @@ for ((i = 0; i < 10; ++i)); do step; done
 step 'save-scene plain.ray' # 43
 start scene.ray
 
-click() { goTo "$@"; xdotool click 1; next; }
 double() { goTo "${@:2}"; slowly doubleClickAndType "$1"; xdotool key Return; next; }
 material='material 1: '
 
@@ -40,17 +39,6 @@ click field diffuse a texture
 click field diffuse a kind noise
 is undo "${material}diffuse brick a noise" "the bricks have noise"
 # A picture on another field, by its name, which counts from the scene's folder; one that is not there is not taken.
-seek() { # LANDMARK...: the fields scroll down until it is well in sight
-  local place
-  for ((tries = 0; tries < 12; ++tries)); do
-    place="$(grep -- "^at [0-9-]* [0-9-]* $*\$" "$now" | cut -d' ' -f3 || true)"
-    [[ -z "$place" || "$place" -gt 700 ]] || return 0
-    goTo list
-    xdotool mousemove_relative 0 250 click 5
-    next
-  done
-  fail "step $now: \"$*\" is not to be found"
-}
 seek field specular texture
 click field specular texture
 click field specular kind image
