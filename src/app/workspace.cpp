@@ -24,6 +24,13 @@ std::string absolute(const std::string& file) {
   return error ? file : path.lexically_normal().string();
 }
 
+/// The earliest time if there is no such file.
+fs::file_time_type writtenAt(const std::string& file) {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return error ? fs::file_time_type::min() : time;
+}
+
 /// As a person would say it: from the current folder, if the file lies in it.
 std::string shown(const std::string& file) {
   const std::string near = fs::path(absolute(file)).lexically_relative(absolute(".")).string();
@@ -80,13 +87,36 @@ void Workspace::fail(const std::vector<Message>& errors) {
 }
 
 void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  opening_.start([path = absolute(file), commandLine = std::move(commandLine)](const Cancelled&) {
+  asked_ = {absolute(file), commandLine, writtenAt(file)};
+  opening_.start([path = asked_->file, commandLine = std::move(commandLine)](const Cancelled&) {
     return outcomeOf(path, [&] {
       Document opened;
       opened.open(path, commandLine);
       return opened;
     });
   });
+}
+
+void Workspace::takeOpened() {
+  if (std::optional<Document> opened = taken(opening_)) {
+    asked_.reset();
+    adopt(std::move(*opened));
+  }
+  if (!document.isOpen() && asked_ && !opening_.pending()) openIfMended();
+}
+
+void Workspace::openIfMended() {
+  if (!lookNow() || writtenAt(asked_->file) == asked_->written) return;
+  const Asked again = *asked_;
+  note(shown(again.file) + " changed on disk and is read again");
+  open(again.file, again.commandLine);
+}
+
+bool Workspace::lookNow() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_ < kLookInterval) return false;
+  looked_ = now;
+  return true;
 }
 
 void Workspace::adopt(Document opened) {
@@ -285,6 +315,13 @@ void Workspace::startRender() {
   render.start(rendered_, renderedSettings_, document.sceneAt());
 }
 
+Settings Workspace::shownSettings() const {
+  const auto session = render.session();
+  if (!document.isOpen()) return session ? session->settings() : Settings{};
+  const bool others = session && session->scene().file != document.scene().file;
+  return others ? session->settings() : document.settings();
+}
+
 bool Workspace::stale() const {
   return document.isOpen() &&
          (rendered_ != document.sharedScene() || differInPicture(renderedSettings_, document.settings()));
@@ -294,7 +331,7 @@ void Workspace::update() {
   // What is being written may be the document's own file.
   const bool looks = !saving() && !rereading_.pending();
   takeSaved();
-  if (std::optional<Document> opened = taken(opening_)) adopt(std::move(*opened));
+  takeOpened();
   takeReference();
   if (document.isOpen()) {
     takeReread();
@@ -332,9 +369,15 @@ void Workspace::reportReading() {
 }
 
 void Workspace::reloadIfChanged() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - looked_ < kLookInterval) return;
-  looked_ = now;
+  if (!lookNow()) return;
+  std::error_code error;
+  const bool gone = !fs::exists(document.file(), error) && !error;
+  if (gone && !told_)
+    log_.push_back({Level::warning,
+                    shown(document.file()) + " is no longer on the disk",
+                    "what was read stays; File, Save scene writes it again",
+                    {}});
+  told_ = gone;
   if (!document.changedOnDisk()) return;
   document.noticeDisk();
   want({.anew = true});
@@ -348,7 +391,8 @@ void Workspace::noteEnd() {
   const Size size = render.session()->size();
   const RenderResult result = render.result();
   note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +
-       durationText(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) + " rays");
+       durationText(state.elapsed) + ", " + std::to_string(result.statistics.allRays()) +
+       (result.statistics.allRays() == 1 ? " ray" : " rays"));
   if (const auto bad = result.statistics.badSamples; bad > 0)
     log_.push_back({Level::warning,
                     std::to_string(bad) + " samples were not finite and left out of the picture",

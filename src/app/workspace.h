@@ -7,6 +7,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ namespace trace {
 
 class Workspace {
  public:
-  /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays.
+  /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays; where there is
+  /// none, the file is read again as soon as it changes.
   void open(const std::string& file, std::vector<Choice> commandLine = {});
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it
   /// changed on disk, collects messages.
@@ -34,6 +36,9 @@ class Workspace {
 
   /// Renders the document as it is now.
   void startRender();
+  /// How the picture that is to be seen is developed: as the document says, or, as long as it is one of
+  /// another scene, as that did.
+  Settings shownSettings() const;
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
@@ -147,6 +152,9 @@ class Workspace {
     std::optional<Document::Saved> scene;
   };
 
+  void takeOpened();
+  void openIfMended();
+  bool lookNow();  ///< it is time to look at the disk
   void adopt(Document opened);
   void putFirst(const std::string& file);  ///< of recent()
   void want(Document::Change change);
@@ -173,6 +181,13 @@ class Workspace {
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;
   std::chrono::steady_clock::time_point looked_{};
+  struct Asked {
+    std::string file;
+    std::vector<Choice> commandLine;
+    std::filesystem::file_time_type written{};
+  };
+  std::optional<Asked> asked_;                    // to be opened; it is not open yet
+  bool told_ = false;                             // that the file is gone
   std::optional<Document::Change> wanted_;        // for which the file is being read
   std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
   BackgroundTask<Outcome<Document>> opening_;

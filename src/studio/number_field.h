@@ -17,6 +17,9 @@ struct NumberLook {
   std::string_view name{};  ///< for remarks
 };
 
+/// What stands after the number: " rays", of one " ray"; "" without a unit.
+std::string unitAfter(std::string_view unit, double number);
+
 // Each draws the widget, as wide as ImGui::SetNextItemWidth() says, and returns true when the value has
 // changed.
 bool editNumber(const char* id, double& value, const NumberLook& look);
