@@ -20,7 +20,7 @@ bool drag(const FieldFacts& facts, double* values, int count) {
     if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
-  const std::string format = kFormat + (facts.unit.empty() ? "" : " " + std::string(facts.unit));
+  const std::string format = kFormat + unitAfter(facts.unit, count == 1 ? values[0] : 0);
   return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, facts.name});
 }
 
@@ -262,11 +262,20 @@ void endFields() {
   ImGui::EndTable();
 }
 
+void rowName(std::string_view name) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+  std::string text(name);
+  for (std::size_t kept = name.size(); !fits(text) && kept > 1;)
+    text = std::string(name.substr(0, --kept)) + "..";
+  ImGui::TextUnformatted(text.c_str());
+}
+
 void fieldName(std::string_view name, std::string_view help, const std::string& range) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name.data(), name.data() + name.size());
+  rowName(name);
   landmarksOf("field " + outerFields() + std::string(name));
   if (ImGui::IsItemHovered()) {
     ImGui::BeginTooltip();

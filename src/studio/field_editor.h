@@ -83,6 +83,8 @@ void giveFile(unsigned field, std::string name);
 /// seen.
 bool beginFields(const char* id, bool buttons = false);
 void endFields();
+/// The name of a row, shortened by ".." where it does not fit.
+void rowName(std::string_view name);
 /// The name in the first column, with its help; the widget comes into the second.
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);
