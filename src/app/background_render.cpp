@@ -166,9 +166,11 @@ void BackgroundRender::run(const Request& request) {
     const std::vector<Message>& warnings = session->messages().all();
     messages_.insert(messages_.end(), warnings.begin(), warnings.end());
     if (!isCurrent()) return;
-    // Until the first coarse pass is done the picture before shows through, if it fits.
+    // Until the first coarse pass is done the picture before shows through, if it fits and is of the same
+    // scene.
     const Size size = session->size();
-    if (coarse_.width != size.width || coarse_.height != size.height)
+    const bool another = session_ && session_->scene().file != session->scene().file;
+    if (another || coarse_.width != size.width || coarse_.height != size.height)
       coarse_ = {};
     else if (session_)
       session_->film().copyDone(coarse_);

@@ -10,7 +10,7 @@ namespace trace {
 namespace {
 
 constexpr int kRoomDirections = 400;
-constexpr int kLeast =
+constexpr int kLeastMet =
     kRoomDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
 
 /// Spread evenly over the sphere: the golden angle apart, in bands of equal area (Gonzalez, "Measurement of
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, c
     walls.insert(found->object);
     ++met;
   }
-  if (met < kLeast) return {};
+  if (met < kLeastMet) return {};
   return {walls.begin(), walls.end()};
 }
 

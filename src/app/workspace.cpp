@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/output.h"
+#include "app/texture_edits.h"
 #include "base/text.h"
 #include "image/codec.h"
 #include "scene/picture_size.h"
@@ -22,6 +23,13 @@ std::string absolute(const std::string& file) {
   std::error_code error;
   const fs::path path = fs::absolute(file, error);
   return error ? file : path.lexically_normal().string();
+}
+
+/// The earliest time if there is no such file.
+fs::file_time_type writtenAt(const std::string& file) {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return error ? fs::file_time_type::min() : time;
 }
 
 /// As a person would say it: from the current folder, if the file lies in it.
@@ -80,13 +88,36 @@ void Workspace::fail(const std::vector<Message>& errors) {
 }
 
 void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  opening_.start([path = absolute(file), commandLine = std::move(commandLine)](const Cancelled&) {
+  asked_ = {absolute(file), commandLine, writtenAt(file)};
+  opening_.start([path = asked_->file, commandLine = std::move(commandLine)](const Cancelled&) {
     return outcomeOf(path, [&] {
       Document opened;
       opened.open(path, commandLine);
       return opened;
     });
   });
+}
+
+void Workspace::takeOpened() {
+  if (std::optional<Document> opened = taken(opening_)) {
+    asked_.reset();
+    adopt(std::move(*opened));
+  }
+  if (!document.isOpen() && asked_ && !opening_.pending()) openIfMended();
+}
+
+void Workspace::openIfMended() {
+  if (!lookNow() || writtenAt(asked_->file) == asked_->written) return;
+  const Asked again = *asked_;
+  note(shown(again.file) + " changed on disk and is read again");
+  open(again.file, again.commandLine);
+}
+
+bool Workspace::lookNow() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_ < kLookInterval) return false;
+  looked_ = now;
+  return true;
 }
 
 void Workspace::adopt(Document opened) {
@@ -183,6 +214,32 @@ void Workspace::undo() {
   if (anew) want({.anew = true});
 }
 
+void Workspace::edit(const std::string& what, Scene scene, bool continues) {
+  if (!lacksFiles(scene) || lacksFiles(document.scene()))
+    return document.edit(what, std::move(scene), continues);
+  completing_.start([what, of = document.sharedScene(), scene = std::move(scene)](const Cancelled&) mutable {
+    Completed completed{what, of, nullptr, {}};
+    Outcome<bool> outcome = outcomeOf(scene.file, [&] {
+      readLackingFiles(scene);
+      return true;
+    });
+    completed.errors = std::move(outcome.errors);
+    completed.scene = std::make_shared<const Scene>(std::move(scene));
+    return completed;
+  });
+}
+
+void Workspace::takeCompleted() {
+  const std::optional<Completed> completed = completing_.take();
+  if (!completed) return;
+  if (completed->errors.empty() && completed->of == document.sharedScene())
+    return document.edit(completed->what, *completed->scene);
+  ++refusals_;
+  const std::string why =
+      completed->errors.empty() ? "the scene was edited meanwhile" : completed->errors.front().what;
+  log_.push_back({Level::warning, completed->what + " was not taken: " + why, {}, {}});
+}
+
 void Workspace::openReference(const std::string& file) {
   loading_.start([path = absolute(file)](const Cancelled&) {
     return outcomeOf(path, [&] {
@@ -259,6 +316,13 @@ void Workspace::startRender() {
   render.start(rendered_, renderedSettings_, document.sceneAt());
 }
 
+Settings Workspace::shownSettings() const {
+  const auto session = render.session();
+  if (!document.isOpen()) return session ? session->settings() : Settings{};
+  const bool others = session && session->scene().file != document.scene().file;
+  return others ? session->settings() : document.settings();
+}
+
 bool Workspace::stale() const {
   return document.isOpen() &&
          (rendered_ != document.sharedScene() || differInPicture(renderedSettings_, document.settings()));
@@ -268,10 +332,11 @@ void Workspace::update() {
   // What is being written may be the document's own file.
   const bool looks = !saving() && !rereading_.pending();
   takeSaved();
-  if (std::optional<Document> opened = taken(opening_)) adopt(std::move(*opened));
+  takeOpened();
   takeReference();
   if (document.isOpen()) {
     takeReread();
+    takeCompleted();
     if (looks) reloadIfChanged();
     reportReading();
     if (seen_ != document.revision()) {
@@ -305,9 +370,15 @@ void Workspace::reportReading() {
 }
 
 void Workspace::reloadIfChanged() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - looked_ < kLookInterval) return;
-  looked_ = now;
+  if (!lookNow()) return;
+  std::error_code error;
+  const bool gone = !fs::exists(document.file(), error) && !error;
+  if (gone && !told_)
+    log_.push_back({Level::warning,
+                    shown(document.file()) + " is no longer on the disk",
+                    "what was read stays; File, Save scene writes it again",
+                    {}});
+  told_ = gone;
   if (!document.changedOnDisk()) return;
   document.noticeDisk();
   want({.anew = true});

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ namespace trace {
 
 class Workspace {
  public:
-  /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays.
+  /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays; where there is
+  /// none, the file is read again as soon as it changes.
   void open(const std::string& file, std::vector<Choice> commandLine = {});
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it
   /// changed on disk, collects messages.
@@ -34,9 +36,15 @@ class Workspace {
 
   /// Renders the document as it is now.
   void startRender();
+  /// How the picture that is to be seen is developed: as the document says, or, as long as it is one of
+  /// another scene, as that did.
+  Settings shownSettings() const;
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
+  /// One step of the Document. Files that the scene names since are read first, in the background; where one
+  /// cannot be, the step is not taken, and the log says why.
+  void edit(const std::string& what, Scene scene, bool continues = false);
   /// As of the Document, but the file is read in the background if it has to be. Throws Error(Fault::usage)
   /// if the option does not take the value.
   void choose(const std::string& option, const std::string& value, bool continues = false);
@@ -73,7 +81,9 @@ class Workspace {
   std::string defaultPictureFile() const;
 
   /// Until update() has taken what came of it.
-  bool reading() const { return opening_.pending() || rereading_.pending() || loading_.pending(); }
+  bool reading() const {
+    return opening_.pending() || rereading_.pending() || loading_.pending() || completing_.pending();
+  }
   bool saving() const { return saving_.pending(); }
   /// All that may change without a person doing something. A window need not draw while it stays the same.
   struct Pulse {
@@ -88,6 +98,8 @@ class Workspace {
   Pulse pulse();
   /// Files that could not be read or written so far. The log says which.
   std::uint64_t failures() const { return failures_; }
+  /// Edits that were not taken so far. The log says why.
+  std::uint64_t refusals() const { return refusals_; }
 
   struct LogEntry {
     enum class Level { note, warning, error };
@@ -125,6 +137,11 @@ class Workspace {
     std::uint64_t number = 0;
     Outcome<Document::Reading> reading;
   };
+  struct Completed {  ///< an edit and the files that it names
+    std::string what;
+    std::shared_ptr<const Scene> of, scene;
+    std::vector<Message> errors;
+  };
   struct Reference {
     std::string file;
     Picture picture;
@@ -135,11 +152,15 @@ class Workspace {
     std::optional<Document::Saved> scene;
   };
 
+  void takeOpened();
+  void openIfMended();
+  bool lookNow();  ///< it is time to look at the disk
   void adopt(Document opened);
   void putFirst(const std::string& file);  ///< of recent()
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();
+  void takeCompleted();
   void takeReference();
   void takeSaved();
   void fail(const std::vector<Message>& errors);
@@ -156,14 +177,22 @@ class Workspace {
   std::uint64_t seen_ = 0;      // revision of the document that update() looked at last
   std::uint64_t reading_ = 0;   // that is in the log
   std::uint64_t reported_ = 0;  // number of the render whose end is in the log
-  std::uint64_t failures_ = 0;
+  std::uint64_t failures_ = 0, refusals_ = 0;
   std::shared_ptr<const Scene> rendered_;
   Settings renderedSettings_;
   std::chrono::steady_clock::time_point looked_{};
+  struct Asked {
+    std::string file;
+    std::vector<Choice> commandLine;
+    std::filesystem::file_time_type written{};
+  };
+  std::optional<Asked> asked_;                    // to be opened; it is not open yet
+  bool told_ = false;                             // that the file is gone
   std::optional<Document::Change> wanted_;        // for which the file is being read
   std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
   BackgroundTask<Outcome<Document>> opening_;
   BackgroundTask<Reread> rereading_;
+  BackgroundTask<Completed> completing_;
   BackgroundTask<Outcome<Reference>> loading_;
   BackgroundTask<Outcome<Saved>> saving_{Jobs::all};
 };

@@ -365,20 +365,6 @@ bool takesOption(Verb command, const Option& option) {
   return takesOptions(command) || (limit && kWorking.has(command));
 }
 
-std::span<const ShortFlag> shortFlags() {
-  static constexpr std::array kTable{
-      ShortFlag{'w', "width", "", ""},
-      ShortFlag{'r', "depth", "", ""},
-      ShortFlag{'t', "threads", "", ""},
-      ShortFlag{'c', "environment", "", ""},
-      ShortFlag{'b', "accel", "bvh", "acceleration on"},
-      ShortFlag{'B', "accel", "none", "acceleration off"},
-      ShortFlag{'a', "spp", "9", "anti-aliasing on"},
-      ShortFlag{'A', "spp", "1", "anti-aliasing off"},
-  };
-  return kTable;
-}
-
 std::string_view enabledValue(const Option& option) {
   if (option.kind == Option::Kind::boolean) return "on";
   constexpr std::pair<std::string_view, std::string_view> kUseful[] = {{"spp", "9"},

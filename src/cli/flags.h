@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "cli/arguments.h"
+#include "scene/short_flags.h"
 
 namespace trace::cli {
 
@@ -29,15 +30,6 @@ std::span<const Flag> flags();
 bool takesOptions(Verb command);
 /// Whether that option is a flag of the sub-command: limits of time and memory are of every one that works.
 bool takesOption(Verb command, const Option& option);
-
-/// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
-struct ShortFlag {
-  char letter;
-  std::string_view option;
-  std::string_view value;  ///< "" when the user gives it
-  std::string_view help;
-};
-std::span<const ShortFlag> shortFlags();
 
 /// What --enable gives an option that is not on or off: a value with a visible, useful effect. "" if the
 /// option cannot be enabled.

@@ -3,9 +3,33 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "scene/short_flags.h"
 #include "studio/script.h"
 
 namespace trace::studio {
+
+namespace {
+
+/// What the renderer's other flags do is in the menus.
+const ShortFlag& shortFlag(const std::string& word) {
+  std::string known;
+  for (const ShortFlag& flag : shortFlags()) {
+    if (flag.letter == word[1]) return flag;
+    known += std::string(known.empty() ? "-" : " -") + flag.letter;
+  }
+  throw Error(Fault::usage, "unknown flag \"" + word + "\": expected --NAME VALUE, or one of " + known,
+              word.starts_with("-o")
+                  ? "the picture is written by File, Export picture... (Ctrl+E)"
+                  : "ray-studio --help lists the flags; options are in the panel Controls, too");
+}
+
+void choose(Arguments& arguments, const std::string& option, const std::string& value) {
+  Settings scratch;
+  findOption(option).assign(scratch, value);
+  arguments.choices.push_back({option, value, {}});
+}
+
+}  // namespace
 
 Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
@@ -28,12 +52,19 @@ Arguments parse(const std::vector<std::string>& words) {
             arguments.width < 1 || arguments.height < 1)
           throw Error(Fault::usage, "--window: expected WIDTHxHEIGHT, found \"" + value + "\"");
       } else {
-        Settings scratch;
-        findOption(name).assign(scratch, value);
-        arguments.choices.push_back({name, value, {}});
+        choose(arguments, name, value);
       }
     } else if (word.starts_with("-") && word.size() > 1) {
-      throw Error(Fault::usage, "unknown flag \"" + word + "\"", "ray-studio --help lists the flags");
+      const ShortFlag& flag = shortFlag(word);
+      std::string value(flag.value);
+      if (value.empty() && word.size() > 2)
+        value = word.substr(2);
+      else if (value.empty() && i + 1 < words.size())
+        value = words[++i];
+      else if (value.empty() || word.size() > 2)
+        throw Error(Fault::usage,
+                    "\"" + word + "\": expected " + (value.empty() ? "a value" : "nothing") + " after it");
+      choose(arguments, std::string(flag.option), value);
     } else if (arguments.scene.empty()) {
       arguments.scene = word;
     } else {
@@ -47,6 +78,7 @@ std::string helpText() {
   return "usage: ray-studio [SCENE] [options]\n\n"
          "Opens a window that renders the scene, changes it and shows the rays of any pixel.\n\n"
          "  --NAME VALUE              any option of \"ray help all\", over the scene's own: --width 600\n"
+         "  -w 600, -r 5, -a ...      the short ones of \"ray help all\"\n"
          "  --reference PICTURE       a picture to compare with\n"
          "  --window WIDTHxHEIGHT     size of the window; 1280x800 at first, then as it was left\n"
          "  --script FILE             do what the file says, one command a line, then close the window\n"

@@ -62,15 +62,15 @@ void tooltip(const Studio& studio, const Option& option) {
 }
 
 /// The text after the number: its unit, with % doubled for printf.
-std::string unitSuffix(const Option& option) {
+std::string unitSuffix(const Option& option, double number) {
   std::string text;
-  for (char c : option.unit) text += c == '%' ? "%%" : std::string(1, c);
-  return text.empty() ? "" : " " + text;
+  for (char c : unitAfter(option.unit, number)) text += c == '%' ? "%%" : std::string(1, c);
+  return text;
 }
 
 std::optional<std::string> editInteger(const Option& option, const std::string& value) {
   int number = std::stoi(value);
-  NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option)};
+  NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option, number)};
   look.name = option.name;
   if (option.most <= kMostSlider)
     look.logarithmic = true;
@@ -83,7 +83,7 @@ std::optional<std::string> editInteger(const Option& option, const std::string& 
 std::optional<std::string> editReal(const Option& option, const std::string& value) {
   double number = parseNumber(value)->value;
   const double range = option.most - option.least;
-  NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option)};
+  NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option, number)};
   look.name = option.name;
   if (range <= kMostSlider)
     look.logarithmic = range > 10;
@@ -197,10 +197,9 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  if (changed)
-    ImGui::TextColored(studio.palette().changed, "%s", name.c_str());
-  else
-    ImGui::TextUnformatted(name.c_str());
+  if (changed) ImGui::PushStyleColor(ImGuiCol_Text, studio.palette().changed);
+  rowName(name);
+  if (changed) ImGui::PopStyleColor();
   if (ImGui::IsItemHovered()) tooltip(studio, option);
   ImGui::TableNextColumn();
   const float resetWidth = ImGui::GetFrameHeight();
@@ -236,7 +235,9 @@ void drawControls(Studio& studio) {
   if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");
   static char filter[64] = "";
   static bool onlyChanged = false;
-  ImGui::SetNextItemWidth(-characters(20));
+  const float box = ImGui::GetFrameHeight() + ImGui::CalcTextSize("changed").x +
+                    ImGui::GetStyle().ItemInnerSpacing.x + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(-box);
   ImGui::InputTextWithHint("##filter", "find an option", filter, sizeof filter);
   landmark("find an option");
   ImGui::SameLine();

@@ -1,7 +1,9 @@
 #include "studio/field_editor.h"
 
 #include <cstdio>
+#include <utility>
 
+#include "image/codec.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/theme.h"
@@ -18,7 +20,7 @@ bool drag(const FieldFacts& facts, double* values, int count) {
     if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
-  const std::string format = kFormat + (facts.unit.empty() ? "" : " " + std::string(facts.unit));
+  const std::string format = kFormat + unitAfter(facts.unit, count == 1 ? values[0] : 0);
   return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, facts.name});
 }
 
@@ -26,6 +28,43 @@ bool drag(const FieldFacts& facts, double* values, int count) {
 bool showFile(const std::string& name) {
   ImGui::TextDisabled("%s", name.empty() ? "none" : name.c_str());
   return false;
+}
+
+struct FileChoice {
+  std::optional<FileWish> wish{};
+  unsigned field = 0;  ///< to which the name is given
+  std::string name{};
+};
+FileChoice& fileChoice() {
+  static FileChoice choice;  // of the one dialog that the window has
+  return choice;
+}
+
+std::string& outerFields() {
+  static std::string names;  // of the one table that is drawn now
+  return names;
+}
+
+/// The name, to be typed, and a button that opens the dialog.
+bool editFileName(const FieldFacts& facts, std::string& name, std::vector<std::string> suffixes) {
+  const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  FileChoice& choice = fileChoice();
+  const unsigned id = ImGui::GetID("file");
+  ImGui::SetNextItemWidth(std::max(1.0f, ImGui::GetContentRegionAvail().x - button - gap));
+  bool changed = editText("##value", name, "no file");
+  landmark("text");
+  if (!name.empty() && ImGui::IsItemHovered() && !ImGui::IsItemActive())
+    ImGui::SetTooltip("%s", name.c_str());
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("...", {button, 0}))
+    choice.wish = {id, "Choose the " + std::string(facts.name), name, std::move(suffixes)};
+  landmark("choose");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a file");
+  if (choice.field != id) return changed;
+  choice.field = 0;
+  changed = changed || choice.name != name;
+  name = std::move(choice.name);
+  return changed;
 }
 
 }  // namespace
@@ -68,7 +107,7 @@ bool editValue(const FieldFacts& facts, Color& value) {
   double numbers[3] = {value.r, value.g, value.b};
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   changed =
-      editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3f", 0.005f, false, true, facts.name}) ||
+      editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3g", 0.005f, false, true, facts.name}) ||
       changed;
   if (!changed) return false;
   const auto within = [&](double x) { return std::clamp(x, facts.least, facts.most); };
@@ -77,8 +116,47 @@ bool editValue(const FieldFacts& facts, Color& value) {
 }
 
 bool editValue(const FieldFacts&, Heights& value) { return showFile(value.file); }
-bool editValue(const FieldFacts&, Pixels& value) { return showFile(value.file); }
-bool editValue(const FieldFacts&, PhotometryFile& value) { return showFile(value.file); }
+
+bool editValue(const FieldFacts& facts, Pixels& value) {
+  std::string file = value.file;
+  if (!editFileName(facts, file, pictureSuffixes())) return false;
+  value = {std::move(file), nullptr, {}};
+  return true;
+}
+
+bool editValue(const FieldFacts& facts, PhotometryFile& value) {
+  std::string file = value.file;
+  if (!editFileName(facts, file, {".ies"})) return false;
+  value = {std::move(file), nullptr, {}};
+  return true;
+}
+
+bool editValue(const FieldFacts& facts, FormulaText& value) {
+  std::string text = value.text();
+  ImGui::SetNextItemWidth(-1);
+  const bool changed = editText("##value", text, "no formula");
+  landmark("text");
+  if (!changed) return false;
+  try {
+    value = FormulaText(text);
+    return true;
+  } catch (const Error& error) {
+    remarkOn(std::string(facts.name) + ": " + error.messages().front().what + "; not taken");
+    return false;
+  }
+}
+
+std::optional<FileWish> takeFileWish() { return std::exchange(fileChoice().wish, std::nullopt); }
+
+void giveFile(unsigned field, std::string name) {
+  fileChoice().field = field;
+  fileChoice().name = std::move(name);
+}
+
+FieldsWithin::FieldsWithin(std::string_view field) : before_(outerFields().size()) {
+  outerFields() += std::string(field) + " ";
+}
+FieldsWithin::~FieldsWithin() { outerFields().resize(before_); }
 
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);
@@ -96,6 +174,37 @@ bool editNumbers(const FieldFacts& facts, double* values, std::size_t count) {
     changed = drag(facts, values + i, static_cast<int>(std::min(most, count - i))) || changed;
     ImGui::PopID();
   }
+  return changed;
+}
+
+bool editNames(const std::vector<std::string>& names, std::vector<std::string>& chosen, const char* none) {
+  std::string shown;
+  for (const std::string& name : chosen) shown += (shown.empty() ? "" : ", ") + name;
+  ImGui::SetNextItemWidth(-1);
+  const bool open = ImGui::BeginCombo("##names", shown.empty() ? none : shown.c_str());
+  const auto row = [&](const std::string& name, std::size_t at, bool known) {
+    const auto found = std::find(chosen.begin(), chosen.end(), name);
+    bool on = found != chosen.end();
+    ImGui::PushID(static_cast<int>(at));
+    const bool changed = ImGui::Checkbox((known ? name : name + " (not in the scene)").c_str(), &on);
+    landmark("name " + name);
+    ImGui::PopID();
+    if (changed && on) chosen.push_back(name);
+    if (changed && !on) chosen.erase(found);
+    return changed;
+  };
+  bool changed = false;
+  if (open) {
+    for (std::size_t i = 0; i < names.size(); ++i) changed = row(names[i], i, true) || changed;
+    const std::vector<std::string> before = chosen;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (std::find(names.begin(), names.end(), before[i]) == names.end())
+        changed = row(before[i], names.size() + i, false) || changed;
+    if (names.empty() && before.empty()) ImGui::TextDisabled("nothing here has a name yet");
+    ImGui::EndCombo();
+  }
+  landmark("names");
+  if (!shown.empty() && !open && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", shown.c_str());
   return changed;
 }
 
@@ -140,10 +249,11 @@ void listButtons(std::size_t index, ListEdit& edit) {
 
 bool addButton() { return ImGui::SmallButton("Add"); }
 
-bool beginFields(const char* id) {
-  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) return false;
+bool beginFields(const char* id, bool buttons) {
+  if (!ImGui::BeginTable(id, buttons ? 3 : 2, ImGuiTableFlags_SizingStretchProp)) return false;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.6f);
+  if (buttons) ImGui::TableSetupColumn("button", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
   return true;
 }
 
@@ -152,12 +262,21 @@ void endFields() {
   ImGui::EndTable();
 }
 
+void rowName(std::string_view name) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+  std::string text(name);
+  for (std::size_t kept = name.size(); !fits(text) && kept > 1;)
+    text = std::string(name.substr(0, --kept)) + "..";
+  ImGui::TextUnformatted(text.c_str());
+}
+
 void fieldName(std::string_view name, std::string_view help, const std::string& range) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name.data(), name.data() + name.size());
-  landmarksOf("field " + std::string(name));
+  rowName(name);
+  landmarksOf("field " + outerFields() + std::string(name));
   if (ImGui::IsItemHovered()) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(characters(60));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "shading/lights/photometry.h"
+#include "shading/textures/formula.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::studio {
 
@@ -38,10 +41,15 @@ bool editSwatch(Color& value);
 bool editValue(const FieldFacts& facts, std::string& value);
 /// Shows the name of the picture: it is read with the scene.
 bool editValue(const FieldFacts& facts, Heights& value);
+/// A file is typed, or chosen in the dialog. It is read when the scene is edited so (Workspace::edit).
 bool editValue(const FieldFacts& facts, Pixels& value);
 bool editValue(const FieldFacts& facts, PhotometryFile& value);
+bool editValue(const FieldFacts& facts, FormulaText& value);
 /// Several numbers, in rows of at most four.
 bool editNumbers(const FieldFacts& facts, double* values, std::size_t count);
+/// Some of the names, in a list with boxes to tick; `none` is shown where none is chosen. One that is chosen
+/// and not among them is shown too, and can be taken out.
+bool editNames(const std::vector<std::string>& names, std::vector<std::string>& chosen, const char* none);
 /// One of the names.
 bool editChoice(const std::string_view* names, std::size_t count, std::size_t& value);
 
@@ -60,12 +68,38 @@ bool editValue(const FieldFacts& facts, Enum& value) {
 template <class Element>
 bool editValue(const FieldFacts& facts, std::vector<Element>& values);
 
-/// Begins a two-column table of names and values; false if it is not to be seen.
-bool beginFields(const char* id);
+/// A field that wants a file from the dialog.
+struct FileWish {
+  unsigned field;
+  std::string title, now;
+  std::vector<std::string> suffixes;
+};
+/// That of the last frame, once.
+std::optional<FileWish> takeFileWish();
+/// The field takes it when it is drawn next.
+void giveFile(unsigned field, std::string name);
+
+/// Begins a table of names and values, with a column for a button if it is so asked; false if it is not to be
+/// seen.
+bool beginFields(const char* id, bool buttons = false);
 void endFields();
+/// The name of a row, shortened by ".." where it does not fit.
+void rowName(std::string_view name);
 /// The name in the first column, with its help; the widget comes into the second.
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);
+
+/// While it lives, fields lie within the one of that name: their landmarks say so.
+class FieldsWithin {
+ public:
+  explicit FieldsWithin(std::string_view field);
+  ~FieldsWithin();
+  FieldsWithin(const FieldsWithin&) = delete;
+  FieldsWithin& operator=(const FieldsWithin&) = delete;
+
+ private:
+  std::size_t before_;
+};
 
 /// One field; calls changed(keyword) after a change. Objects are edited as objects; materials of a fractal
 /// stay as the file gave them.

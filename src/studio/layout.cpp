@@ -119,7 +119,9 @@ void drawStudio(Studio& studio) {
   const ImGuiViewport& view = *ImGui::GetMainViewport();
   const ImVec2 at = view.WorkPos, all = view.WorkSize;
   const float bar = std::max(3.0f, std::round(4 * studio.theme.scale));
-  const float left = occupied(studio, Dock::left) ? std::round(all.x * layout.left) : 0;
+  const float left = occupied(studio, Dock::left)  // wide enough for names beside values
+                         ? std::round(std::max(all.x * layout.left, std::min(characters(30), all.x * 0.32f)))
+                         : 0;
   const float rest = all.x - left;
   float right = occupied(studio, Dock::right) ? std::round(all.x * layout.right) : 0;
   if (!occupied(studio, Dock::centre)) right = rest;

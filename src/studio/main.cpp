@@ -52,12 +52,13 @@ bool update(Studio& studio, double longest) {
   Workspace& workspace = studio.workspace;
   bool due = studio.window.wait(std::min(longest, isBusy(studio) ? kBusy : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
-  const std::uint64_t failures = workspace.failures();
+  const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
   if (workspace.failures() > failures) {
     studio.show("Log");
     studio.quit = false;
   }
+  if (workspace.refusals() > refusals) studio.show("Log");
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling = studio.rays.modelTask.busy() || studio.rays.chains.busy();
   due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||

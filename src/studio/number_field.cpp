@@ -95,15 +95,20 @@ Settled<std::string> typeNumber(const char* label, ImGuiID id) {
   return settle(id, now, changed, typing);
 }
 
-/// The format, with fewer digits if the number would not fit into the field.
+/// The format; without the unit, and with fewer digits, if the number would not fit into the field.
 std::string fitting(const std::string& format, double value, float width) {
-  const std::size_t digits = format.find("%.");
-  if (digits == std::string::npos || format.substr(digits + 3, 1) != "g") return format;
-  std::string shorter = format;
-  for (char& count = shorter[digits + 2]; count > '1'; --count) {
+  const auto fits = [&](const std::string& with) {
     char text[64];
-    std::snprintf(text, sizeof text, shorter.c_str(), value);
-    if (ImGui::CalcTextSize(text).x <= width) break;
+    std::snprintf(text, sizeof text, with.c_str(), value);
+    return ImGui::CalcTextSize(text).x <= width;
+  };
+  if (fits(format)) return format;
+  std::string shorter = format;
+  const std::size_t digits = format.find("%.");
+  if (digits == std::string::npos) return format;
+  if (const std::size_t unit = format.find(' ', digits); unit != std::string::npos) shorter.resize(unit);
+  if (format.substr(digits + 3, 1) != "g") return shorter;
+  for (char& count = shorter[digits + 2]; count > '1' && !fits(shorter); --count) {
   }
   return shorter;
 }
@@ -130,8 +135,11 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
                                                           &least, &most, format.c_str(), flags)
                                       : ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least,
                                                             &most, format.c_str(), flags);
-  if (format != look.format && ImGui::IsItemHovered() && !ImGui::IsItemActive())
-    ImGui::SetTooltip("%s", toText(value).c_str());
+  if (format != look.format && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    const std::size_t unit = look.format.find(' ', look.format.find("%."));
+    ImGui::SetTooltip("%s%s", toText(value).c_str(),
+                      unit == std::string::npos ? "" : look.format.substr(unit).c_str());
+  }
   const Settled<std::string> typed = settle(id, std::string(), false, ImGui::TempInputIsActive(id));
   if (typed.typed) return takeTyped(typed);
   return changed && take(shown);
@@ -152,6 +160,17 @@ bool editNumber(const char* id, int& value, const NumberLook& look) {
   if (!editNumberField(id, number, inRange, true)) return false;
   const int now = static_cast<int>(std::lround(number));
   return std::exchange(value, now) != now;
+}
+
+void remarkOn(std::string what) { remarks().push_back(std::move(what)); }
+
+std::string unitAfter(std::string_view unit, double number) {
+  std::string text(unit);
+  if (number == 1) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    if (end > 1 && text[end - 1] == 's') text.erase(end - 1, 1);
+  }
+  return text.empty() ? "" : " " + text;
 }
 
 std::vector<std::string> takeRemarks() { return std::exchange(remarks(), {}); }

@@ -17,6 +17,9 @@ struct NumberLook {
   std::string_view name{};  ///< for remarks
 };
 
+/// What stands after the number: " rays", of one " ray"; "" without a unit.
+std::string unitAfter(std::string_view unit, double number);
+
 // Each draws the widget, as wide as ImGui::SetNextItemWidth() says, and returns true when the value has
 // changed.
 bool editNumber(const char* id, double& value, const NumberLook& look);
@@ -25,6 +28,8 @@ bool editNumber(const char* id, int& value, const NumberLook& look);
 bool editNumbersInRow(double* values, int count, const NumberLook& look);
 /// What was typed and not taken as it is, since the last call: `depth: expected 0 to 100, found 500`.
 std::vector<std::string> takeRemarks();
+/// One more.
+void remarkOn(std::string what);
 /// `hint` is shown where there is no text.
 bool editText(const char* id, std::string& value, const char* hint = "");
 

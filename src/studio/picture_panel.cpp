@@ -44,7 +44,7 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
 void refresh(Studio& studio) {
   PictureView& view = studio.picture;
   Workspace& workspace = studio.workspace;
-  const Settings settings = workspace.document.isOpen() ? workspace.document.settings() : Settings{};
+  const Settings settings = workspace.shownSettings();
   const bool toneChanged = view.exposed != view.exposure || view.development != developmentOf(settings) ||
                            view.rounding != settings.rounding;
   bool pictureChanged = false;

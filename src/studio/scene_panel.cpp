@@ -2,12 +2,15 @@
 // the menus and names come from the lists of shapes, lights and materials.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "app/edits.h"
 #include "app/placing.h"
 #include "app/scene_changes.h"
+#include "app/typed_file.h"
+#include "base/file.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
@@ -16,6 +19,7 @@
 #include "studio/object_editor.h"
 #include "studio/panels.h"
 #include "studio/selection.h"
+#include "studio/texture_editor.h"
 
 namespace trace::studio {
 namespace {
@@ -36,7 +40,7 @@ void change(Studio& studio, const std::string& what, Apply&& apply) {
   studio.editedItem = id;
   Scene scene = studio.workspace.document.scene();
   apply(scene);
-  studio.workspace.document.edit(what, std::move(scene), continues);
+  studio.workspace.edit(what, std::move(scene), continues);
 }
 
 /// The whole of the last row of the list.
@@ -128,6 +132,28 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::PopTextWrapPos();
 }
 
+/// Links between lights and objects: lists of names, chosen from those of the others that have one.
+template <class Links, class Others, class NameOf, class Changed>
+void editLinks(Links& links, const Others& others, const NameOf& nameOf, const Changed& changed) {
+  std::vector<std::string> names;
+  for (const auto& other : others)
+    if (const std::string& name = nameOf(other);
+        !name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  forEachField<Links>([&](const auto& field) {
+    auto& value = links.*field.member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::vector<std::string>>) {
+      fieldName(field.keyword, field.help);
+      ImGui::PushID(field.keyword.data());
+      const bool all = std::string_view(field.help).ends_with("none: all");
+      if (editNames(names, value, all ? "all" : "none")) changed(field.keyword);
+      ImGui::PopID();
+    } else {
+      editField(field, value, changed);
+    }
+  });
+}
+
 void editObject(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   Object object = studio.workspace.document.scene().objects[index];
@@ -143,6 +169,15 @@ void editObject(Studio& studio) {
                   [&](const std::string& what) {
                     change(studio, what, [&](Scene& scene) { scene.objects[index] = object; });
                   });
+  if (!beginFields("links")) return;
+  editLinks(
+      object.links, studio.workspace.document.scene().lights,
+      [](const LightSource& light) -> const std::string& { return light.links.name; },
+      [&](std::string_view key) {
+        change(studio, entryName(object) + ": " + std::string(key),
+               [&](Scene& scene) { scene.objects[index] = object; });
+      });
+  endFields();
 }
 
 void editLight(Studio& studio) {
@@ -157,7 +192,9 @@ void editLight(Studio& studio) {
            [&](Scene& scene) { scene.lights[index] = source; });
   };
   match(source.light, [&](auto& light) { editFields(light, changed); });
-  editFields(source.links, changed);
+  editLinks(
+      source.links, studio.workspace.document.scene().objects,
+      [](const Object& object) -> const std::string& { return object.name; }, changed);
   endFields();
 }
 
@@ -173,7 +210,7 @@ void editMaterial(Studio& studio) {
   const auto changed = [&](const std::string& what) {
     change(studio, what, [&](Scene& next) { next.materials[index] = material; });
   };
-  if (!beginFields("material")) return;
+  if (!beginFields("material", true)) return;
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
   const std::vector<std::string_view> models = modelKeywords();
@@ -186,20 +223,21 @@ void editMaterial(Studio& studio) {
     material = withModel(std::move(material), *modelCalled(models[chosen]));
     changed(name + ": model " + std::string(models[chosen]));
   }
-  match(material.model, [&](auto& model) {
-    const auto before = model;
-    editFields(model, [&](std::string_view key) {
-      followEdit(model, before, key);
-      changed(name + ": " + std::string(key));
+  std::vector<FieldTexture>& textures = material.textures;
+  match(material.model, [&]<class Model>(Model& model) {
+    const Model before = model;
+    forEachField<Model>([&](const auto& f) {
+      editTexturedField(f, model.*f.member, textures, [&](const std::string& what) {
+        followEdit(model, before, f.keyword);
+        changed(name + ": " + what);
+      });
     });
   });
   forEachField<Material>([&](const auto& f) {
-    if (f.keyword == "bump" && !textureOf(material.textures, f.keyword)) return;  // nothing to scale
-    editField(f, material.*f.member, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
+    editTexturedField(f, material.*f.member, textures,
+                      [&](const std::string& what) { changed(name + ": " + what); });
   });
   endFields();
-  for (const FieldTexture& t : material.textures)
-    ImGui::TextDisabled("%s is scaled by a texture: %s", t.field.c_str(), summary(t.texture).c_str());
 }
 
 /// The editor of a thing that a scene has once.
@@ -225,6 +263,16 @@ void editOnly(Studio& studio, Thing Scene::*member) {
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();
+}
+
+/// Names of files count from the scene's folder.
+void chooseFieldsFile(Studio& studio, const FileWish& wish) {
+  const std::string& scene = studio.workspace.document.file();
+  studio.dialog.open(wish.title, FileDialog::Purpose::read,
+                     wish.now.empty() ? scene : besideFile(scene, wish.now), wish.suffixes,
+                     [&studio, field = wish.field](const std::string& file) {
+                       giveFile(field, shownFile(file, studio.workspace.document.file()));
+                     });
 }
 
 }  // namespace
@@ -279,6 +327,7 @@ void drawScene(Studio& studio) {
   }
   ImGui::PopID();
   ImGui::EndChild();
+  if (const std::optional<FileWish> wish = takeFileWish()) chooseFieldsFile(studio, *wish);
 }
 
 }  // namespace trace::studio

@@ -175,11 +175,16 @@ void drawSwitches(Studio& studio) {
   if (ImGui::Combo("##surfaces", &surfaces, kSurfaces, 3)) view.surfaces = static_cast<Surfaces>(surfaces);
   ImGui::SameLine();
   if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
-  ImGui::SameLine();
+  const auto beside = [](const char* label, float more) {  // or on the next line
+    ImGui::SameLine();
+    const float wide = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + more;
+    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+  };
+  beside("from camera", ImGui::GetFrameHeight());
   ImGui::Checkbox("from camera", &view.fromCamera);
   landmark("from camera");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
-  ImGui::SameLine();
+  beside("Reset", 0);
   if (ImGui::Button("Reset")) {
     view.orbitFile.clear();
     view.modelScene.reset();

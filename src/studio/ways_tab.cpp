@@ -64,10 +64,10 @@ void chooseWay(Studio& studio, int way) {
 void drawWays(Studio& studio, const TracedPixel& pixel) {
   if (!ImGui::BeginTable("ways", 5, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("s + t", ImGuiTableColumnFlags_WidthFixed, characters(7));
-  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(9));
-  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("s + t", ImGuiTableColumnFlags_WidthFixed, characters(6));
+  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(8));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthStretch);
   columnHeads({"places from the light's end, and from the camera's",
                "its weight among all ways to find such a path: the more likely the way, the more it counts",

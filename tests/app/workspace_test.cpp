@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/texture_edits.h"
 #include "image/codec.h"
 #include "support/panes.h"
 #include "support/scene_files.h"
@@ -57,6 +58,71 @@ TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
   ASSERT_TRUE(settled(workspace));
   session.save(path("expected.png"));
   EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
+}
+
+TEST_F(WorkspaceTest, ASceneThatWasBrokenAtTheStartIsReadWhenItIsMended) {
+  const std::string whole = readFile(path("scene.ray"));
+  writeFile(path("broken.ray"), "SBT-raytracer 1.0\nsphere { radius = ");
+  Workspace workspace;
+  EXPECT_FALSE(opened(workspace, path("broken.ray"), {{"width", "20", {}}}));
+  EXPECT_FALSE(workspace.document.isOpen());
+  writeFile(path("broken.ray"), whole);
+  std::filesystem::last_write_time(path("broken.ray"),
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  for (int i = 0; i < 3000 && !workspace.document.isOpen(); ++i, workspace.update())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(workspace.document.isOpen());
+  EXPECT_EQ(workspace.document.settings().width, 20);
+  waitFor(workspace.render);
+}
+
+TEST_F(WorkspaceTest, AFileThatIsGoneIsToldOnce) {
+  writeFile(path("gone.ray"), readFile(path("scene.ray")));
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("gone.ray"), {{"width", "20", {}}}));
+  std::filesystem::remove(path("gone.ray"));
+  const auto told = [&] {
+    return std::count_if(workspace.log().begin(), workspace.log().end(), [](const Workspace::LogEntry& e) {
+      return e.text.find("no longer on the disk") != std::string::npos;
+    });
+  };
+  for (int i = 0; i < 1200; ++i, workspace.update()) {
+    if (told() && i < 550) i = 550;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(told(), 1);
+  EXPECT_TRUE(workspace.document.isOpen());
+}
+
+TEST_F(WorkspaceTest, ThePictureOfAnotherSceneIsDevelopedAsThatSays) {
+  writeFile(path("bright.ray"), readFile(path("scene.ray")) + "\nsettings { exposure = 3; }\n");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "20", {}}}));
+  waitFor(workspace.render);
+  ASSERT_TRUE(opened(workspace, path("bright.ray"), {{"width", "20", {}}}));
+  const auto session = workspace.render.session();
+  const Settings shown = workspace.shownSettings();
+  if (session == workspace.render.session()) {  // else it has just changed
+    EXPECT_EQ(shown.exposure, session->settings().exposure);
+  }
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.shownSettings().exposure, 3);
+}
+
+TEST_F(WorkspaceTest, AFileThatAnEditNamesIsReadOrTheEditIsNotTaken) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "20", {}}}));
+  Scene scene = workspace.document.scene();
+  setTexture(scene.materials.at(0).textures, "diffuse", pictureTexture("no_such.ppm"));
+  workspace.edit("file", scene);
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.refusals(), 1u);
+  EXPECT_EQ(workspace.undoName(), "");
+  writeFile(path("leaf.ppm"), "P3 1 1 255 0 255 0\n");
+  setTexture(scene.materials.at(0).textures, "diffuse", pictureTexture("leaf.ppm"));
+  workspace.edit("file", scene);
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.undoName(), "file");
 }
 
 TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {

@@ -515,6 +515,23 @@ TEST(RayPatch, LanternsThatAreWrittenAnewAreTheSame) {
     EXPECT_EQ(is.lights[i].light, scene.lights[i].light) << i;
 }
 
+TEST(RayPatch, ATextureOfAFieldThatKeepsItsValueIsChanged) {
+  const std::string text =
+      after("sphere { material = { diffuse = checker { }; opacity = checker { } } } // two", [](Scene& s) {
+        setTexture(s.materials.at(s.objects[0].material).textures, "diffuse", TextureNode{.model = Brick{}});
+        s.materials.at(s.objects[0].material).textures.pop_back();
+      });
+  EXPECT_EQ(text, "sphere { material = { diffuse = brick { }; opacity = 1 } } // two");
+}
+
+TEST(RayPatch, LinksOfAnObjectAreChangedInItsText) {
+  const std::string text = after("sphere { lit_by = (\"sun\"); /* warm */ } // one", [](Scene& s) {
+    s.objects[0].links = {{}, {"moon"}};
+  });
+  EXPECT_NE(text.find("/* warm */"), std::string::npos) << text;
+  EXPECT_NE(text.find("not_lit_by = (\"moon\")"), std::string::npos) << text;
+}
+
 TEST(RayPatch, WhatTheReaderRepairsIsSettledInALaterRound) {
   // A cone that would be a cylinder widens by 0.001: the other radius has to be said.
   const std::string text = after("cone { bottom_radius = 1; top_radius = 1; } // pipe",

@@ -42,7 +42,6 @@ pressUntil() { # KEY LANDMARK
   done
   fail "step $now: $1 never comes to \"$2\""
 }
-click() { goTo "$@"; xdotool click 1; next; }
 
 # Menus.
 press F10

@@ -43,3 +43,16 @@ goTo() {
 # All of it arrives at once, as if the last frame had taken that long.
 slowly() { kill -STOP "$program"; "$@"; kill -CONT "$program"; }
 doubleClickAndType() { xdotool click --repeat 2 --delay 20 1 type --delay 5 "$1"; }
+click() { goTo "$@"; xdotool click 1; next; }  # needs a step
+# Takes a step for each turn of the wheel that it needs.
+seek() { # LANDMARK...: the fields of the panel Scene scroll down until it is well in sight
+  local place
+  for ((tries = 0; tries < 12; ++tries)); do
+    place="$(grep -- "^at [0-9-]* [0-9-]* $*\$" "$now" | cut -d' ' -f3 || true)"
+    [[ -z "$place" || "$place" -gt 782 ]] || return 0
+    goTo list
+    xdotool mousemove_relative 0 250 click --repeat 3 --delay 20 5
+    next
+  done
+  fail "step $now: \"$*\" is not to be found"
+}

@@ -183,13 +183,14 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
     forEachField<Model>([&](const auto& f) {
       const std::optional<Item> given = fieldOf(block, f.keyword);
       const auto& value = model.*f.member;
-      if (given && !(value == std::get<Model>(was.model).*f.member))
-        edits_.change(given->value(), valueText(wanted, f.keyword, value));
+      const bool same = value == std::get<Model>(was.model).*f.member && sameTexture(was, wanted, f.keyword);
+      if (given && !same) edits_.change(given->value(), valueText(wanted, f.keyword, value));
     });
   });
   forEachField<Material>([&](const auto& f) {
     const auto& value = wanted.*f.member;
-    if (const auto given = fieldOf(block, f.keyword); given && was.*f.member != value)
+    const bool same = was.*f.member == value && sameTexture(was, wanted, f.keyword);
+    if (const auto given = fieldOf(block, f.keyword); given && !same)
       edits_.change(given->value(), valueText(wanted, f.keyword, value));
   });
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);

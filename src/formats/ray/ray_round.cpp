@@ -105,7 +105,8 @@ class Round {
     if (!placed || !standsAlone(from_, index)) return;  // with others; they stay as they are
     const Object& is = to_.objects[static_cast<std::size_t>(mine - wanted_.objects.data())];
     const bool fits = !rewrite_.contains(index) && change(*placed, partOf(from_.objects[index]), partOf(is));
-    if (!fits) anew(index, *placed, is);
+    if (!fits) return anew(index, *placed, is);
+    changeFields(edits_, placed->call.value(), from_.objects[index].links, is.links);
   }
 
   /// A node that is not in the outline, with the transforms around it.

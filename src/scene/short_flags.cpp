@@ -1,0 +1,21 @@
+#include "scene/short_flags.h"
+
+#include <array>
+
+namespace trace {
+
+std::span<const ShortFlag> shortFlags() {
+  static constexpr std::array kTable{
+      ShortFlag{'w', "width", "", ""},
+      ShortFlag{'r', "depth", "", ""},
+      ShortFlag{'t', "threads", "", ""},
+      ShortFlag{'c', "environment", "", ""},
+      ShortFlag{'b', "accel", "bvh", "acceleration on"},
+      ShortFlag{'B', "accel", "none", "acceleration off"},
+      ShortFlag{'a', "spp", "9", "anti-aliasing on"},
+      ShortFlag{'A', "spp", "1", "anti-aliasing off"},
+  };
+  return kTable;
+}
+
+}  // namespace trace

@@ -1,0 +1,18 @@
+// The short flags of the command line that stand for options.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace trace {
+
+/// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
+struct ShortFlag {
+  char letter;
+  std::string_view option;
+  std::string_view value;  ///< "" when the user gives it
+  std::string_view help;
+};
+std::span<const ShortFlag> shortFlags();
+
+}  // namespace trace

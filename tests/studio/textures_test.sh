@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Textures in the panel Scene, by mouse and keyboard: another kind, its numbers, a texture within, a file, back to a
+# plain value, undo; and what is saved then. Exits 77 where that cannot be tried. Usage: textures_test.sh RAY_STUDIO
+set -euo pipefail
+studio="$1"
+source "$(dirname -- "${BASH_SOURCE[0]}")/display.sh"
+source "$(dirname -- "${BASH_SOURCE[0]}")/steps.sh"
+openDisplay
+
+cat >scene.ray <<'SCENE'
+SBT-raytracer 1.0
+camera { position = (0, 0, 8); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }
+sphere { material = { diffuse = checker { a = (0.9, 0.1, 0.1); scale = (0.5, 0.5, 0.5) }; specular = (0.2, 0.2, 0.2) } } // red
+SCENE
+printf 'P3\n1 1\n255\n0 255 0\n' >leaf.ppm
+
+step 'set width 40' wait 'panel Scene' 'select material 0' # 0
+for ((i = 0; i < 30; ++i)); do step; done
+step 'save-scene saved.ray' # 31
+step 'action Undo' 'action Undo' 'action Undo' 'save-scene undone.ray' # 32
+for ((i = 0; i < 10; ++i)); do step; done
+step 'save-scene plain.ray' # 43
+start scene.ray
+
+double() { goTo "${@:2}"; slowly doubleClickAndType "$1"; xdotool key Return; next; }
+material='material 1: '
+
+# A number of the texture.
+double 0.25 field diffuse scale number 1
+is undo "${material}diffuse checker scale" "the checker was scaled"
+# Another kind: what both have is kept.
+click field diffuse kind
+click field diffuse kind brick
+is undo "${material}diffuse brick" "the checker became bricks"
+grep -q 'field diffuse mortar number 0' "$now" || fail "bricks have no field mortar"
+# A texture within it.
+click field diffuse a texture
+click field diffuse a kind noise
+is undo "${material}diffuse brick a noise" "the bricks have noise"
+# A picture on another field, by its name, which counts from the scene's folder; one that is not there is not taken.
+seek field specular texture
+click field specular texture
+click field specular kind image
+goTo field specular file text
+typeName() { xdotool click 1 key ctrl+a type --delay 5 "$1"; xdotool key Return; next; }
+typeName gone.ppm
+is undo "${material}specular image" "a file that is not there is not taken"
+line logged | grep -q 'not taken' || fail "the log does not say that it was not taken: $(line logged)"
+goTo field specular file text
+typeName leaf.ppm
+is undo "${material}specular image file" "a file that is there is"
+skipTo 31
+grep -q 'diffuse = brick { a = noise { }' saved.ray || grep -q 'diffuse = brick {.*noise {' saved.ray ||
+  fail "the bricks were not saved: $(cat saved.ray)"
+grep -q 'mage { file = "leaf.ppm"' saved.ray || fail "the picture was not saved: $(cat saved.ray)"
+grep -q '// red' saved.ray || fail "the comment went"
+skipTo 32
+grep -q 'specular = (0.2, 0.2, 0.2)' undone.ray || fail "undo keeps the texture: $(cat undone.ray)"
+# Back to a plain value, which is the one that scaled the texture.
+goTo list
+xdotool mousemove_relative 0 250 click --repeat 20 --delay 20 4
+next
+click field diffuse kind
+click field diffuse kind plain
+is undo "${material}diffuse plain" "the texture went"
+skipTo 43
+grep -q 'diffuse = (1, 1, 1)' plain.ray || fail "the plain value was not saved: $(cat plain.ray)"
