@@ -230,7 +230,6 @@ TEST(Subsurface, IsTheSameForAnyThreadsAndAsExplained) {
       model.index = 1.4, model.roughness = 0.3;
       Scene scene;
       scene.camera.position = {0, 0, 12}, scene.camera.viewdir = {0, 0, -1}, scene.camera.fov = 20;
-      scene.background.gradient = {Color(0.1), Color(0.4)};
       add(scene, Sphere{}, scaled(3), model);
       scene.lights.push_back({DirectionalLight{.direction = {0.6, 0, -0.8}, .color = Color(1)}, {}});
       Settings settings = small(integrator, 2);
@@ -244,10 +243,11 @@ TEST(Subsurface, IsTheSameForAnyThreadsAndAsExplained) {
         EXPECT_EQ(picture(scene, settings).pixels, one.pixels) << threads;
       }
       const World world = build(scene, settings);
+      const auto explained = integratorOf(world, settings);
       int bodies = 0;
       for (int x = 6; x < 14; ++x) {
-        const Explanation e = explain(world, *integratorOf(world, settings), settings,
-                                      pictureSize(settings, scene.camera), x, 9, 1);
+        const Explanation e =
+            explain(world, *explained, settings, pictureSize(settings, scene.camera), x, 9, 1);
         EXPECT_TRUE(sumsUp(e.tree)) << x;
         EXPECT_EQ(e.pixel, one.at(x, 9)) << x;
         bodies += std::any_of(e.tree.nodes.begin(), e.tree.nodes.end(), [](const RayNode& node) {
