@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Pictures of the integrators that follow light, each of the same CPU time on one thread, and how far they are off.
 
-equal_time.py RAY NAME=SCENE... [--seconds S] [--width W] [--many SAMPLES] [-o FOLDER]
+equal_time.py RAY NAME=SCENE=INTEGRATOR... [--seconds S] [--width W] [--many SAMPLES] [-o FOLDER]
 
 Writes FOLDER/equal-time-NAME.png, one row of pictures, with the one they are compared with last, and prints a Markdown
-table. That one is by chains of very many samples (mlt). Of each pixel's luminance the square of the difference counts,
+table. That one is of very many samples by the integrator that is named, mlt or bdpt. Of each pixel's luminance the square of the difference counts,
 over reference^2 + 0.01 (mean of the reference)^2, averaged over the pixels; and over all but the hundredth that is worst,
 which is that of rare bright paths. The samples are chosen by two short renders of each.
 """
@@ -108,7 +108,7 @@ def render(ray, scene, width, how, samples):
 
 
 def samples_for(ray, scene, width, how, seconds):
-    few, more = 4, 16
+    few, more = 4, 32
     short, longer = (render(ray, scene, width, how, n)[1] for n in (few, more))
     each = max(1e-4, (longer - short) / (more - few))
     return max(1, round((seconds - short) / each + few))
@@ -118,16 +118,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ray")
     parser.add_argument("scenes", nargs="+")
-    parser.add_argument("--seconds", type=float, default=20)
-    parser.add_argument("--width", type=int, default=160)
-    parser.add_argument("--many", type=int, default=4096)
+    parser.add_argument("--seconds", type=float, default=8)
+    parser.add_argument("--width", type=int, default=128)
+    parser.add_argument("--many", type=int, default=2000)
     parser.add_argument("-o", "--output", default=".")
     given = parser.parse_args()
     print("| scene | integrator | samples | CPU s | error | s x error | of 99 % |\n|---|---|--:|--:|--:|--:|--:|")
     for named in given.scenes:
-        name, scene = named.split("=", 1)
-        (width, height, reference), _ = render(given.ray, scene, given.width, ["mlt", "--chain-starts", "1000000"],
-                                               given.many)
+        name, scene, by = named.split("=")
+        many = ["mlt", "--chain-starts", "500000"] if by == "mlt" else [by]
+        (width, height, reference), _ = render(given.ray, scene, given.width, many, given.many)
         pictures = []
         for title, how in INTEGRATORS.items():
             samples = samples_for(given.ray, scene, given.width, how, given.seconds)
