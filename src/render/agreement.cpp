@@ -1,5 +1,6 @@
 #include "render/agreement.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,12 +45,21 @@ Moments wholeOf(const std::vector<std::vector<double>>& tiles) {
 
 }  // namespace
 
-Agreement agreement(const Scene& scene, const Settings& a, const Settings& b, int seeds, int tile) {
+Agreement agreement(const Scene& scene, const Settings& a, const Settings& b, int seeds, int tile,
+                    double bias) {
   const auto ofA = tilesOf(scene, a, seeds, tile), ofB = tilesOf(scene, b, seeds, tile);
   Agreement result;
-  for (std::size_t i = 0; i < ofA.size(); ++i)
-    result.p.push_back(welch(momentsOf(ofA[i]), momentsOf(ofB[i])));
+  double smallest = 1;
+  for (std::size_t i = 0; i < ofA.size(); ++i) {
+    const Moments tileA = momentsOf(ofA[i]);
+    Moments tileB = momentsOf(ofB[i]);
+    const double may = bias * tileA.mean;
+    tileB.mean += std::clamp(tileA.mean - tileB.mean, -may, may);
+    result.p.push_back(welch(tileA, tileB));
+    smallest = std::min(smallest, result.p.back());
+  }
   result.uniform = kolmogorovSmirnov(result.p);
+  result.least = 1 - std::pow(1 - smallest, static_cast<double>(result.p.size()));
   const Moments wholeA = wholeOf(ofA), wholeB = wholeOf(ofB);
   result.meanA = wholeA.mean;
   result.meanB = wholeB.mean;

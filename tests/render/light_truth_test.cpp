@@ -173,6 +173,24 @@ TEST(LightTruth, AVisiblePanelInAMirrorCountsOnce) {
   EXPECT_NEAR(mean(picture(scene, bent)) / expected, 1, 0.03);
 }
 
+TEST(LightTruth, AVisiblePanelInAMirrorIsFoundByAMirror) {
+  // The floor is seen in the mirror that shows it the panel: no path from the panel can be joined with that.
+  Scene scene = floorScene();
+  RectangleLight panel;
+  panel.position = {0, 0.9, 0};
+  panel.u = {1, 0, 0}, panel.v = {0, 0, -1};  // upward
+  panel.color = Color(1.2);
+  panel.visible = true;
+  scene.lights.push_back({panel, {}});
+  addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({3, 3, 1}), mirror());
+  scene.camera.position = {0, 0.5, 3.8};
+  scene.camera.viewdir = {0, 1.6, -3};
+  scene.camera.fov = 10;
+  const Real expected = meanOf(scene, IntegratorKind::path, 1024);
+  ASSERT_GT(expected, 0.01);
+  EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 1024) / expected, 1, 0.01);
+}
+
 TEST(LightTruth, NarrowLampsShineThroughGlass) {
   const auto behindPane = [](const Light& light) {
     Scene scene;

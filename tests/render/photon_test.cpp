@@ -90,6 +90,21 @@ TEST(Photon, GlassAndMirrorsThrowTheLightOfALamp) {
   expectAlike(scene, 0.05, 128);
 }
 
+TEST(Photon, WhatMirrorsBroadlyGetsGatheredLightOnce) {
+  // A floor of rough metal below a lamp and a mirror on the wall: its lobe meets the lamp in the mirror, too.
+  Scene scene = openRoom();
+  Conductor metal;
+  metal.roughness = 0.6;
+  scene.materials.push_back({"", metal, {}});
+  scene.objects[3].material = scene.objects[4].material =
+      static_cast<std::uint32_t>(scene.materials.size() - 1);
+  Phong mirror;
+  mirror.reflective = Color(0.9);
+  addObject(scene, Square{}, ceiling(0.8), diffuse(Color(0.5), 4));
+  addObject(scene, Square{}, Affine::translation({0, -0.4, -0.98}) * Affine::scaling({1.6, 1, 1}), mirror);
+  expectAlike(scene, 0.03);
+}
+
 TEST(Photon, ARoomThatShinesHasTheSumOfItsBounces) {
   // Closed, and all of it sends out 1 and scatters half: 2 everywhere.
   Scene scene = openRoom();
