@@ -4,138 +4,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <type_traits>
 
-#include "base/match.h"
-#include "image/srgb.h"
+#include "image/mipmap_texels.h"
 
 namespace trace {
 namespace {
 
 /// An ellipse may be so many times as long as wide; a longer one is made wider.
 constexpr Real kMostAnisotropy = 8;
-
-/// Two numbers that processors add and multiply at once.
-using Pair = double __attribute__((vector_size(16)));
-
-/// The channels of a texel as the level stores them, or colours that were made linear.
-struct Sample {
-  Pair redGreen{}, blueAlpha{};
-
-  Sample operator-(const Sample& o) const { return {redGreen - o.redGreen, blueAlpha - o.blueAlpha}; }
-  void add(double weight, const Sample& o) {
-    redGreen += weight * o.redGreen;
-    blueAlpha += weight * o.blueAlpha;
-  }
-};
-
-/// From a to b; of two equal ones the same.
-Sample mixed(double share, Sample a, const Sample& b) {
-  a.add(share, b - a);
-  return a;
-}
-
-/// The largest whole number up to x, and the least from it on; of a size that int holds. std::floor is a
-/// call.
-int floorOf(Real x) {
-  const int whole = static_cast<int>(x);
-  return whole - (x < whole);
-}
-int ceilOf(Real x) { return -floorOf(-x); }
-
-/// The column or row that stands at place i of a row of n; -1 where it is black.
-int wrapped(int i, int n, Wrap wrap) {
-  if (static_cast<unsigned>(i) < static_cast<unsigned>(n)) return i;
-  switch (wrap) {
-    case Wrap::repeat: i %= n; return i < 0 ? i + n : i;
-    case Wrap::mirror:
-      i %= 2 * n;
-      if (i < 0) i += 2 * n;
-      return i < n ? i : 2 * n - 1 - i;
-    case Wrap::clamp: return i < 0 ? 0 : n - 1;
-    case Wrap::black: break;
-  }
-  return -1;
-}
-
-/// An equal place, so near to the picture that its texels can be numbered; 0 to n are the picture's edges.
-Real nearby(Real x, Real n, Wrap wrap) {
-  if (x >= 0 && x < n) return x;
-  constexpr Real kFar = 1 << 28, kFarthest = 1e300;  // beyond that even a difference is infinite
-  x = std::clamp(x, -kFarthest, kFarthest);
-  switch (wrap) {
-    case Wrap::repeat: x -= std::floor(x / n) * n; break;
-    case Wrap::mirror: x -= std::floor(x / (2 * n)) * (2 * n); break;
-    case Wrap::clamp: return std::clamp(x, 0.0, n);
-    case Wrap::black: break;
-  }
-  return std::clamp(x, -kFar, kFar);
-}
-
-/// Reads the texels of a level. It is compiled for each case of what does not change from texel to texel.
-template <class T, int kChannels, bool kDecodes>
-struct Texels {
-  const T* samples;
-  int width, height;
-  const float* linear;  ///< of each sample that an integer can be; null for floats
-  double alphaMost;
-  Wrap u, v;
-
-  double color(T sample) const {
-    if constexpr (!kDecodes)
-      return double(sample);
-    else if constexpr (std::is_floating_point_v<T>)
-      return linearOfSrgb(sample);
-    else
-      return double(linear[sample]);
-  }
-  Sample at(std::size_t pixel) const {
-    const T* s = samples + pixel * kChannels;
-    if constexpr (kChannels >= 3)
-      return {Pair{color(s[0]), color(s[1])}, Pair{color(s[2]), kChannels == 4 ? double(s[3]) : alphaMost}};
-    const double grey = color(s[0]);
-    return {Pair{grey, grey}, Pair{grey, kChannels == 2 ? double(s[1]) : alphaMost}};
-  }
-  /// Black, and transparent, where there is none.
-  Sample at(int x, int y) const { return stored(wrapped(x, width, u), wrapped(y, height, v)); }
-  Sample stored(int column, int row) const {
-    if (column < 0 || row < 0) return {};
-    return at(static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-              static_cast<std::size_t>(column));
-  }
-};
-
-/// Calls use(Texels<...>) and makes a Texel of the Sample that it returns. `linear` is null where colours
-/// stay as they are stored.
-template <class Use>
-Texel lookedUp(const MipMap::Level& level, const std::vector<float>* linear, const Lookup& lookup,
-               const Use& use) {
-  const auto read = [&]<class T, int kChannels, bool kDecodes>(const std::vector<T>& samples) {
-    return use(Texels<T, kChannels, kDecodes>{samples.data(), level.width, level.height,
-                                              kDecodes ? linear->data() : nullptr, level.alphaMost, lookup.u,
-                                              lookup.v});
-  };
-  const auto decoded = [&]<class T, int kChannels>(const std::vector<T>& samples) {
-    return linear ? read.template operator()<T, kChannels, true>(samples)
-                  : read.template operator()<T, kChannels, false>(samples);
-  };
-  const Sample s = match(level.samples, [&]<class T>(const std::vector<T>& samples) {
-    switch (level.channels) {
-      case 1: return decoded.template operator()<T, 1>(samples);
-      case 2: return decoded.template operator()<T, 2>(samples);
-      case 3: return decoded.template operator()<T, 3>(samples);
-      default: return decoded.template operator()<T, 4>(samples);
-    }
-  });
-  const double most = linear ? 1 : level.colorMost;
-  return {Color(s.redGreen[0], s.redGreen[1], s.blueAlpha[0]) / most, s.blueAlpha[1] / level.alphaMost};
-}
-
-Texel mixed(Real share, const Texel& a, const Texel& b) {
-  const auto between = [&](Real x, Real y) { return x + (y - x) * share; };
-  return {{between(a.color.r, b.color.r), between(a.color.g, b.color.g), between(a.color.b, b.color.b)},
-          between(a.alpha, b.alpha)};
-}
 
 /// exp(-2 r^2) - exp(-2), by r^2 from 0 to 1 (pbrt 4th ed., 10.4.4).
 struct Gaussian {
@@ -150,19 +26,25 @@ const Gaussian kGaussian;
 }  // namespace
 
 /// The ellipse that a circle of radius 1 pixel makes, in texels: (a c - b^2) = c x^2 - 2 b x y + a y^2.
-struct MipMap::Ellipse {
+struct MipMap::Footprint {
   Real a = 0, b = 0, c = 0;
-  Real longest = 0, shortest = 0;  ///< half axes
+  Real longest = 0;  ///< half axis
 
   /// Through the ends of the footprint p, q.
-  Ellipse(const Vec2& p, const Vec2& q)
+  Footprint(const Vec2& p, const Vec2& q)
       : a(p.x * p.x + q.x * q.x), b(p.x * p.y + q.x * q.y), c(p.y * p.y + q.y * q.y) {
-    const Real half = (a - c) / 2, area = std::abs(p.x * q.y - p.y * q.x);
+    const Real half = (a - c) / 2;
     longest = std::sqrt((a + c) / 2 + std::sqrt(half * half + b * b));
-    shortest = longest > 0 ? area / longest : 0;
   }
-  /// Makes it so wide that it is no more than `most` times as long.
-  void widen(Real most) {
+};
+
+/// One whose half axes are both known, at most `most` times as long as wide.
+struct MipMap::Ellipse : Footprint {
+  Real shortest = 0;
+
+  /// Precondition: it has a length.
+  Ellipse(const Footprint& footprint, const Vec2& p, const Vec2& q, Real most) : Footprint(footprint) {
+    shortest = std::abs(p.x * q.y - p.y * q.x) / longest;
     const Real wanted = longest / most;
     if (!(shortest < wanted)) return;
     const Real square = longest * longest, narrow = shortest * shortest;
@@ -179,24 +61,31 @@ Texel MipMap::texel(int x, int y) const {
 }
 
 Texel MipMap::bilinear(const Level& level, const Vec2& place, const Lookup& lookup) const {
-  const Real x = place.x * level.width / base_.width - 0.5, y = place.y * level.height / base_.height - 0.5;
-  const int i = floorOf(x), j = floorOf(y);
-  const Real s = x - i, t = y - j;
+  const Spot spot(level, base_, place);
   const bool decodes = lookup.srgb && &level == &base_;
   return lookedUp(level, decodes ? &linear() : nullptr, lookup, [&](const auto& texels) {
-    if (lookup.filter == TexelFilter::nearest) return texels.at(floorOf(x + 0.5), floorOf(y + 0.5));
-    const int left = wrapped(i, level.width, lookup.u), right = wrapped(i + 1, level.width, lookup.u),
-              top = wrapped(j, level.height, lookup.v), bottom = wrapped(j + 1, level.height, lookup.v);
-    if ((left | right | top | bottom) < 0)
-      return mixed(t, mixed(s, texels.stored(left, top), texels.stored(right, top)),
-                   mixed(s, texels.stored(left, bottom), texels.stored(right, bottom)));
-    const auto row = [&](int number) {
-      const std::size_t start = static_cast<std::size_t>(number) * static_cast<std::size_t>(level.width);
-      return mixed(s, texels.at(start + static_cast<std::size_t>(left)),
-                   texels.at(start + static_cast<std::size_t>(right)));
-    };
-    return mixed(t, row(top), row(bottom));
+    return lookup.filter == TexelFilter::nearest ? texels.at(floorOf(spot.x + 0.5), floorOf(spot.y + 0.5))
+                                                 : between(texels, spot);
   });
+}
+
+/// Both levels in one go where they are stored alike.
+Texel MipMap::trilinear(const Level& larger, const Level& smaller, Real share, const Vec2& place,
+                        const Lookup& lookup) const {
+  if (&larger == &base_)
+    return mixed(share, bilinear(larger, place, lookup), bilinear(smaller, place, lookup));
+  const Spot first(larger, base_, place), second(smaller, base_, place);
+  Sample other;
+  const Texel texel = lookedUp(larger, nullptr, lookup,
+                               [&]<class T, int kChannels>(const Texels<T, kChannels, false>& texels) {
+                                 Texels<T, kChannels, false> below = texels;
+                                 below.samples = std::get<std::vector<T>>(smaller.samples).data();
+                                 below.width = smaller.width;
+                                 below.height = smaller.height;
+                                 other = between(below, second);
+                                 return between(texels, first);
+                               });
+  return mixed(share, texel, texelOf(other, smaller.colorMost, smaller.alphaMost));
 }
 
 /// The mean of the texels in the ellipse (Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989,
@@ -256,23 +145,29 @@ Texel MipMap::at(const Vec2& uv, const Lookup& lookup) const {
   };
   const Vec2 at{place(uv.x, width(), lookup.u), place(1 - uv.y, height(), lookup.v)};
   const auto inTexels = [&](const Vec2& d) { return Vec2{d.x * width(), -d.y * height()}; };
-  Ellipse ellipse(inTexels(lookup.uvX), inTexels(lookup.uvY));
   const bool ewa = lookup.filter == TexelFilter::ewa, wide = ewa || lookup.filter == TexelFilter::trilinear;
-  if (!wide || !(ellipse.longest > 0)) return bilinear(base_, at, lookup);
+  if (!wide) return bilinear(base_, at, lookup);
+  const Vec2 p = inTexels(lookup.uvX), q = inTexels(lookup.uvY);
+  const Footprint footprint(p, q);
+  if (!(footprint.longest > 0)) return bilinear(base_, at, lookup);
 
-  if (ewa) ellipse.widen(kMostAnisotropy);
-  const Real size = ewa ? ellipse.shortest : ellipse.longest;
-  const std::vector<Level>& smaller = pyramid(lookup.srgb).levels;
+  const std::vector<Level>& smaller = pyramid(lookup.srgb);
   const auto level = [&](std::size_t i) -> const Level& { return i == 0 ? base_ : smaller[i - 1]; };
-  if (!(size < static_cast<Real>(std::uint64_t{1} << smaller.size())))
-    return bilinear(level(smaller.size()), at, lookup);
+  const auto last = static_cast<Real>(std::uint64_t{1} << smaller.size());
   // The texels of a level are as many times as large as those of the picture, rounded down.
-  const auto number = static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(max(size, 1))) - 1);
-  if (ewa) return weighted(level(number), at, ellipse, lookup);
-  const Texel texel = bilinear(level(number), at, lookup);
-  return size > 1 ? mixed(std::log2(size) - static_cast<Real>(number), texel,
-                          bilinear(level(number + 1), at, lookup))
-                  : texel;
+  const auto numberOf = [](Real size) {
+    return static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(max(size, 1))) - 1);
+  };
+  if (ewa) {
+    const Ellipse ellipse(footprint, p, q, kMostAnisotropy);
+    if (!(ellipse.shortest < last)) return bilinear(level(smaller.size()), at, lookup);
+    return weighted(level(numberOf(ellipse.shortest)), at, ellipse, lookup);
+  }
+  const Real size = footprint.longest;
+  if (!(size < last)) return bilinear(level(smaller.size()), at, lookup);
+  const std::size_t number = numberOf(size);
+  if (!(size > 1)) return bilinear(level(number), at, lookup);
+  return trilinear(level(number), level(number + 1), std::log2(size) - static_cast<Real>(number), at, lookup);
 }
 
 }  // namespace trace

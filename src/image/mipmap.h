@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -88,24 +89,46 @@ class MipMap {
     Raster::Samples samples{};
   };
   /// The next smaller one. With `linear`, an entry for each sample of the level, the colours become those.
-  static Level halved(const Level& level, const std::vector<float>& linear);
+  static Level halved(const Level& level, const std::vector<double>& linear);
 
  private:
-  struct Pyramid {
+  /// Made by whoever asks first; then known at a glance.
+  template <class T>
+  struct Lazy {
     std::once_flag once;
-    std::vector<Level> levels;  ///< without the picture itself
+    std::atomic<bool> made{false};
+    T value;
+
+    template <class Make>
+    const T& get(const Make& make) {
+      if (!made.load(std::memory_order_acquire)) [[unlikely]]
+        std::call_once(once, [&] {
+          value = make();
+          made.store(true, std::memory_order_release);
+        });
+      return value;
+    }
   };
-  const std::vector<float>& linear() const;
-  const Pyramid& pyramid(bool srgb) const;
+  using Levels = std::vector<Level>;  ///< without the picture itself
+  const std::vector<double>& linear() const {
+    return linear_.get([this] { return makeLinear(); });
+  }
+  const Levels& pyramid(bool srgb) const {
+    return pyramids_[srgb ? 1 : 0].get([&] { return makePyramid(srgb); });
+  }
+  std::vector<double> makeLinear() const;
+  Levels makePyramid(bool srgb) const;
   Texel bilinear(const Level& level, const Vec2& place, const Lookup& lookup) const;
+  Texel trilinear(const Level& larger, const Level& smaller, Real share, const Vec2& place,
+                  const Lookup& lookup) const;
+  struct Footprint;
   struct Ellipse;
   Texel weighted(const Level& level, const Vec2& place, const Ellipse& ellipse, const Lookup& lookup) const;
 
   Level base_;
   // Made when first wanted; what they are follows from the picture.
-  mutable std::once_flag linearOnce_;
-  mutable std::vector<float> linear_;  ///< of each sample that an integer can be
-  mutable std::array<Pyramid, 2> pyramids_;
+  mutable Lazy<std::vector<double>> linear_;  ///< of each sample that an integer can be
+  mutable std::array<Lazy<Levels>, 2> pyramids_;
 };
 
 }  // namespace trace

@@ -71,7 +71,7 @@ std::vector<Out> means(const MipMap::Level& from, const std::vector<In>& samples
 
 }  // namespace
 
-MipMap::Level MipMap::halved(const Level& level, const std::vector<float>& linear) {
+MipMap::Level MipMap::halved(const Level& level, const std::vector<double>& linear) {
   Level next{std::max(1, level.width / 2),
              std::max(1, level.height / 2),
              level.channels,
@@ -141,45 +141,37 @@ std::shared_ptr<const MipMap> MipMap::decode(std::string_view bytes, const std::
   return std::make_shared<const MipMap>(decodeRaster(bytes, name, limits));
 }
 
-const std::vector<float>& MipMap::linear() const {
-  std::call_once(linearOnce_, [this] {
-    const auto fill = [this](std::size_t count) {
-      std::vector<float> table;
-      for (std::size_t i = 0; i < count; ++i)
-        table.push_back(static_cast<float>(linearOfSrgb(double(i) / base_.colorMost)));
-      linear_ = std::move(table);
-    };
-    match(base_.samples, Overloaded{[](const std::vector<float>&) {},
-                                    [&]<class T>(const std::vector<T>&) {
-                                      fill(std::size_t{std::numeric_limits<T>::max()} + 1);
-                                    }});
-  });
-  return linear_;
+std::vector<double> MipMap::makeLinear() const {
+  std::vector<double> table;
+  match(base_.samples,
+        Overloaded{[](const std::vector<float>&) {},
+                   [&]<class T>(const std::vector<T>&) {
+                     const std::size_t count = std::size_t{std::numeric_limits<T>::max()} + 1;
+                     for (std::size_t i = 0; i < count; ++i)
+                       table.push_back(static_cast<float>(linearOfSrgb(double(i) / base_.colorMost)));
+                   }});
+  return table;
 }
 
-const MipMap::Pyramid& MipMap::pyramid(bool srgb) const {
-  Pyramid& pyramid = pyramids_[srgb ? 1 : 0];
-  std::call_once(pyramid.once, [&] {
-    const std::vector<float> asTheyAre;
-    std::vector<Level> levels;
-    const Level* last = &base_;
-    Level first;
-    if (srgb && std::holds_alternative<std::vector<float>>(base_.samples)) {
-      first = base_;
-      auto& values = std::get<std::vector<float>>(first.samples);
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (!hasAlpha() ||
-            i % static_cast<std::size_t>(base_.channels) + 1 != static_cast<std::size_t>(base_.channels))
-          values[i] = static_cast<float>(linearOfSrgb(values[i]));
-      last = &first;
-    }
-    while (last->width > 1 || last->height > 1) {
-      levels.push_back(halved(*last, srgb && last == &base_ ? linear() : asTheyAre));
-      last = &levels.back();
-    }
-    pyramid.levels = std::move(levels);
-  });
-  return pyramid;
+MipMap::Levels MipMap::makePyramid(bool srgb) const {
+  const std::vector<double> asTheyAre;
+  std::vector<Level> levels;
+  const Level* last = &base_;
+  Level first;
+  if (srgb && std::holds_alternative<std::vector<float>>(base_.samples)) {
+    first = base_;
+    auto& values = std::get<std::vector<float>>(first.samples);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!hasAlpha() ||
+          i % static_cast<std::size_t>(base_.channels) + 1 != static_cast<std::size_t>(base_.channels))
+        values[i] = static_cast<float>(linearOfSrgb(values[i]));
+    last = &first;
+  }
+  while (last->width > 1 || last->height > 1) {
+    levels.push_back(halved(*last, srgb && last == &base_ ? linear() : asTheyAre));
+    last = &levels.back();
+  }
+  return levels;
 }
 
 int MipMap::levels() const {
@@ -192,9 +184,9 @@ std::size_t MipMap::bytes() const {
   const auto bytesOf = [](const Level& level) {
     return match(level.samples, [](const auto& samples) { return samples.size() * sizeof(samples[0]); });
   };
-  std::size_t sum = bytesOf(base_) + linear_.size() * sizeof(float);
-  for (const Pyramid& pyramid : pyramids_)
-    for (const Level& level : pyramid.levels) sum += bytesOf(level);
+  std::size_t sum = bytesOf(base_) + linear_.value.size() * sizeof(double);
+  for (const Lazy<Levels>& pyramid : pyramids_)
+    for (const Level& level : pyramid.value) sum += bytesOf(level);
   return sum;
 }
 

@@ -113,9 +113,14 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
     const Gradients g = gradientsOf(tree->data(), number, tree->data().uvs);
     place.uvX = {dot(g.u, place.pointX), dot(g.v, place.pointX)};
     place.uvY = {dot(g.u, place.pointY), dot(g.v, place.pointY)};
-    const Gradients other = second ? gradientsOf(*second, number, second->secondUvs) : g;
-    place.secondUvX = {dot(other.u, place.pointX), dot(other.v, place.pointX)};
-    place.secondUvY = {dot(other.u, place.pointY), dot(other.v, place.pointY)};
+    if (second) {
+      const Gradients other = gradientsOf(*second, number, second->secondUvs);
+      place.secondUvX = {dot(other.u, place.pointX), dot(other.v, place.pointX)};
+      place.secondUvY = {dot(other.u, place.pointY), dot(other.v, place.pointY)};
+    } else {
+      place.secondUvX = place.uvX;
+      place.secondUvY = place.uvY;
+    }
   } else {
     const SurfaceSlopes along = slopes(object, part, surface);
     place.uvX = {dot(along.u, arrived->originX), dot(along.v, arrived->originX)};
