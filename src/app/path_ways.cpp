@@ -37,6 +37,13 @@ std::vector<PathWay> pathWays(const RayTree& tree) {
       ways.push_back(way);
     }
   }
+  for (int i = 0; i < static_cast<int>(tree.nodes.size());
+       ++i) {  // those that the camera sees from the light's end
+    const RayNode& node = rayAt(tree, i);
+    const auto from = std::find(fromLight.begin(), fromLight.end(), node.parent);
+    if (node.kind != RayKind::shadow || from == fromLight.end()) continue;
+    ways.push_back({static_cast<int>(from - fromLight.begin()) + 2, 1, -1, *from, i, 0, {}});
+  }
   std::stable_sort(ways.begin(), ways.end(), [](const PathWay& a, const PathWay& b) {
     return a.places() != b.places() ? a.places() < b.places() : a.light < b.light;
   });
@@ -56,6 +63,11 @@ std::string sentence(const PathWay& way, const RayTree& tree, const Scene& scene
   if (way.light == 0) {
     const RayNode& end = rayAt(tree, way.end);
     return end.hit ? "met " + objectName(scene, end.hit->object) + ", which shines" : "met the background";
+  }
+  if (way.camera == 1) {
+    const RayNode& ray = rayAt(tree, way.between);
+    return isBlack(ray.radiance) ? "not seen by the camera: " + sentence(ray, scene)
+                                 : "seen by the camera, elsewhere in the picture";
   }
   std::string text = way.light == 1 ? "asked a light" : "joined both paths";
   if (way.between < 0) return text;

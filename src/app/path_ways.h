@@ -9,11 +9,11 @@
 
 namespace trace {
 
-/// One path: `light` places from the light's end and `camera` from the camera's, which is one of them. The
-/// straight way to the camera (camera = 1) is not here: its light lands in other pixels.
+/// One path: `light` places from the light's end and `camera` from the camera's, which is one of them. One that goes
+/// straight to the camera (camera = 1) lands in another pixel: it has no end here, and brings nothing.
 struct PathWay {
   int light = 0, camera = 0;
-  int end = 0;       ///< the ray to the last place from the camera's end
+  int end = 0;       ///< the ray to the last place from the camera's end; -1: of camera = 1
   int start = -1;    ///< the ray to the last place from the light's end, of light > 1
   int between = -1;  ///< the ray that joins the two, or asks a light; -1: none was sent
   Real share = 1;    ///< what it counts among all ways that find such paths

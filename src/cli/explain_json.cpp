@@ -291,7 +291,7 @@ std::string explainJson(const PixelFacts& facts) {
                         {"t", way.camera},
                         {"share", way.share},
                         {"brings", toJson(way.brings)},
-                        {"end", way.end},
+                        {"end", way.end < 0 ? Json(nullptr) : Json(way.end)},
                         {"start", way.start < 0 ? Json(nullptr) : Json(way.start)},
                         {"between", way.between < 0 ? Json(nullptr) : Json(way.between)},
                         {"sentence", sentence(way, e.tree, facts.scene)}});

@@ -247,8 +247,10 @@ std::string waysText(const RayTree& tree, const Scene& scene) {
       lines = "The paths of the sample, s places from the light's end and t from the camera's:\n";
     if (way.places() != places) lines += "  " + std::to_string(way.places()) + " places\n";
     places = way.places();
-    lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + "  counts " +
-             text(way.share) + ", brings " + text(way.brings) + ", alone " + text(way.alone()) + "; #" +
+    const std::string counts = way.camera == 1 ? "  "
+                                               : "  counts " + text(way.share) + ", brings " +
+                                                     text(way.brings) + ", alone " + text(way.alone()) + "; ";
+    lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + counts + "#" +
              std::to_string(way.between < 0 ? way.end : way.between) + " " +
              printable(sentence(way, tree, scene)) + "\n";
   }

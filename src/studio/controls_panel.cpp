@@ -156,6 +156,7 @@ std::optional<std::string> editFile(Studio& studio, const Option& option, const 
   const std::string& scene = studio.workspace.document.file();
   std::string text = shownFile(value, scene);
   const bool typed = editText("##value", text, "no file");
+  landmark("type " + std::string(option.name));
   ImGui::SameLine(0, gap);
   if (ImGui::Button("...", {button, 0})) chooseFile(studio, option);
   landmark("choose " + std::string(option.name));

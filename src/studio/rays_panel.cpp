@@ -186,7 +186,7 @@ void drawRays(Studio& studio) {
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("space", {0, height * (pixel ? 0.52f : 0.88f)}, false,
+  ImGui::BeginChild("space", {0, height * (!pixel ? 0.88f : view.pyramid.open ? 0.3f : 0.52f)}, false,
                     ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
@@ -209,6 +209,7 @@ void drawRays(Studio& studio) {
       ImGui::PopTextWrapPos();
       landmark("note on rays");
     }
+    view.pyramid.open = false;
     if (ImGui::BeginTabBar("about rays")) {
       const auto tab = [&](const char* name, void (*draw)(Studio&, const TracedPixel&)) {
         const ImGuiTabItemFlags flags = studio.raysTab == name ? ImGuiTabItemFlags_SetSelected : 0;
@@ -224,6 +225,7 @@ void drawRays(Studio& studio) {
       tab("Tree", drawTree);
       tab("Ray", drawNumbers);
       if (!pixel->ways.empty()) tab("Ways", drawWays);
+      if (pixel->session->settings().integrator == IntegratorKind::bdpt) tab("Pyramid", drawPyramid);
       tab("Difference", drawDifference);
       ImGui::EndTabBar();
     }

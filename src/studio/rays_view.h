@@ -9,10 +9,24 @@
 #include "app/orbit_camera.h"
 #include "app/pixel_inspector.h"
 #include "app/scene_model.h"
+#include "app/way_pyramid.h"
+#include "image/development.h"
 #include "render/visited_boxes.h"
 #include "studio/scene_drawer.h"
+#include "studio/texture.h"
 
 namespace trace::studio {
+
+/// The tab Pyramid.
+struct PyramidView {
+  PyramidMaker maker;
+  bool open = false;  ///< it was drawn in the last frame
+  bool unweighted = false;
+  int places = 5;                                    ///< of the longest paths
+  std::vector<std::unique_ptr<Texture>> textures{};  ///< of its pictures
+  double exposure = 0;                               ///< with which they are shown
+  Development development{};
+};
 
 enum class Surfaces { shaded, wireframe, none };
 
@@ -35,6 +49,8 @@ struct RaysView {
   int way = -1;              ///< of the ways that paths from both ends were joined in; -1: none is chosen
   std::vector<int> wayRays;  ///< its rays, drawn before all others
   bool revealWay = false;    ///< the table scrolls to it
+
+  PyramidView pyramid;
 
   ChainInspector chains;    ///< of `mlt`: a chain that comes by the pixel
   int chainMove = -1;       ///< whose rays are asked for; -1: the one that came nearest to the pixel
@@ -82,6 +98,8 @@ void drawChain(Studio& studio, const TracedPixel& pixel);
 void chooseWay(Studio& studio, int way);
 /// The tab that lists them.
 void drawWays(Studio& studio, const TracedPixel& pixel);
+/// The tab that shows what each way brings to the whole picture.
+void drawPyramid(Studio& studio, const TracedPixel& pixel);
 /// The tab that compares the rays with those that were pinned.
 void drawDifference(Studio& studio, const TracedPixel& traced);
 /// The scene and the rays in space, with its switches and legend, in the rest of the child window.

@@ -99,9 +99,9 @@ void checkNumbers(const Words& words) {
 }
 void checkPicture(const Words& words) { pictureFormatFor(words[0]); }
 void checkTab(const Words& words) {
-  if (words[0] != "Tree" && words[0] != "Ray" && words[0] != "Ways" && words[0] != "Chain" &&
-      words[0] != "Difference")
-    throw Error(Fault::usage, "expected Tree, Ray, Ways, Chain or Difference, found " + words[0]);
+  if (words[0] != "Tree" && words[0] != "Ray" && words[0] != "Ways" && words[0] != "Pyramid" &&
+      words[0] != "Chain" && words[0] != "Difference")
+    throw Error(Fault::usage, "expected Tree, Ray, Ways, Pyramid, Chain or Difference, found " + words[0]);
 }
 void checkOption(const Words& words) {
   Settings scratch;
@@ -175,7 +175,9 @@ constexpr std::array kCommands{
               whole(a[1]);
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown", nullptr, nullptr, 3,
-            [](Studio& s, const Words&) { return !s.workspace.inspector.busy() && !s.rays.chains.busy(); }},
+            [](Studio& s, const Words&) {
+              return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.maker.busy();
+            }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
             [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
@@ -202,7 +204,7 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) { stepRays(s, whole(a[0])); }, checkNumbers},
     Command{"boxes", "", 0, 0, "show the hierarchy boxes that the selected ray visited",
             [](Studio& s, const Words&) { showBoxes(s); }},
-    Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray, Ways, Chain or Difference",
+    Command{"tab", "NAME", 1, 1, "a tab of the panel Rays: Tree, Ray, Ways, Pyramid, Chain or Difference",
             [](Studio& s, const Words& a) { s.raysTab = a[0]; }, checkTab},
     Command{"save", "FILE", 1, 1, "write the picture",
             [](Studio& s, const Words& a) { s.workspace.savePicture(a[0]); }, checkPicture},

@@ -31,6 +31,7 @@ std::string state(const Studio& studio) {
          << studio.rays.way << "\n";
   if (const ChainWalk* walk = studio.rays.chains.walk(); walk && studio.rays.chains.offered())
     text << "chain " << studio.rays.chains.index() << " of " << walk->moves.size() << "\n";
+  text << "pyramid " << studio.rays.pyramid.maker.pyramid().pictures.size() << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
   if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
   text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";

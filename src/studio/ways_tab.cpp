@@ -37,12 +37,13 @@ void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
         "path "
         "alone in space",
         way.light, way.light == 1 ? "place" : "places", way.camera);
-  ImGui::TableNextColumn();
-  ImGui::Text("%.1f %%", 100 * way.share);
-  ImGui::TableNextColumn();
-  wayNumber("%.4g", maxComponent(way.brings));
-  ImGui::TableNextColumn();
-  wayNumber("%.4g", maxComponent(way.alone()));
+  const auto number = [&](const char* format, double value) {
+    ImGui::TableNextColumn();
+    if (way.camera > 1) wayNumber(format, value);  // else it is of another pixel
+  };
+  number("%.1f %%", 100 * way.share);
+  number("%.4g", maxComponent(way.brings));
+  number("%.4g", maxComponent(way.alone()));
   ImGui::TableNextColumn();
   cutText(sentence(way, pixel.tree(), pixel.scene()));
   ImGui::PopID();

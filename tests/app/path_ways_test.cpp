@@ -69,8 +69,15 @@ int checkedWays(const RayTree& tree) {
     EXPECT_EQ(fromCamera, way.camera);
     EXPECT_EQ(fromLight, way.light);
     const std::vector<int> rays = raysOf(tree, way);
-    EXPECT_EQ(rays.front(), 0);
     EXPECT_EQ(static_cast<int>(rays.size()), way.places() - 1);
+    if (way.camera == 1) {  // straight to the eye
+      const Ray& seen = ray(way.between).ray;
+      EXPECT_LT(length(seen.origin - ray(way.start).hit->surface.point), 1e-9);
+      EXPECT_LT(length(seen.at(ray(way.between).tMost) - ray(0).ray.origin), 1e-3);
+      EXPECT_EQ(way.brings, Color());
+      continue;
+    }
+    EXPECT_EQ(rays.front(), 0);
     if (way.light < 2) continue;
     ++joined;
     // The ray between leads from the one end's last place to the other's.
@@ -89,6 +96,16 @@ TEST(PathWays, HaveAsManyPlacesAsTheySay) {
     joined += checkedWays(traced.explained.tree);
   }
   EXPECT_GT(joined, 4);
+}
+
+TEST(PathWays, SomeAreSeenByTheCameraElsewhere) {
+  int seen = 0;
+  for (int sample = 0; sample < 16; ++sample) {
+    TracedWays traced;
+    traceWays(traced, 12, 20, IntegratorKind::bdpt, sample);
+    for (const PathWay& way : pathWays(traced.explained.tree)) seen += way.camera == 1;
+  }
+  EXPECT_GT(seen, 4);
 }
 
 TEST(PathWays, AreOfBdptAlone) {

@@ -201,6 +201,11 @@ rays
 tab Ways
 way 0
 state ways
+tab Pyramid
+rays
+rays
+screenshot pyramid.png pyramid 1 2
+state pyramid
 set integrator mlt
 wait
 rays
@@ -219,6 +224,12 @@ END
 "$studio" --script script >log 2>&1 || fail "ways or chains are not shown"
 grep -q '^ways [1-9]' ways || fail "a pixel of bdpt has no ways"
 grep -q '^way 0' ways || fail "a way cannot be chosen"
+grep -q '^pyramid 14$' pyramid || fail "the pyramid has not all its pictures"
+grep -q ' pyramid 0 5$' pyramid || fail "the last row of the pyramid is not to be seen"
+if command -v convert >/dev/null; then
+  bright="$(convert pyramid.png -format '%[fx:mean]' info:)"
+  awk "BEGIN { exit !($bright > 0.001) }" || fail "the pyramid's picture of s = 1, t = 2 is black"
+fi
 grep -q '^chain [0-9]* of [1-9]' chain || fail "no chain is followed"
 at() { grep '^chain ' "$1" | cut -d' ' -f2; }
 (($(at moved) == $(at chain) + 1)) || fail "the chain does not go on"

@@ -123,11 +123,12 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   return true;
 }
 
-/// t = 1: the camera sees the place.
+/// t = 1: the camera sees the place. Where rays are recorded this one is, too, though it brings the pixel
+/// nothing.
 void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const Sampler& sampler,
                          const Sample& sample) const {
   const PathPlace& place = light.place;
-  if (!lands_ || !sample.thrown || !sample.ways.shows(s, 1) || !place.joins()) return;
+  if (!lands_ || !(sample.thrown || tracer.records()) || !sample.ways.shows(s, 1) || !place.joins()) return;
   if (!allows(light.counts, light.last)) return;
   const Vec2 lens = camera_.hasLens() ? sampler.branch(kLens).next2() : kCenter;
   const auto seen = camera_.sees(place.point(), lens);
@@ -144,6 +145,7 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const S
   const Interfaces there = place.side(toEye);
   const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(kLand)) *
                        (there.nested() ? Color(1) : there.passed(seen->distance));
+  if (!sample.thrown) return;
   const Fog fog(tracer.settings());
   const Real clear = fog.none() || !isInOpenAir(there, tracer.world()) ? 1 : fog.passes(ray, seen->distance);
   sample.thrown->push_back({seen->place, factor * passed * (perArea * counts * clear)});
