@@ -127,7 +127,7 @@ def main():
     for named in given.scenes:
         name, scene, by = named.split("=")
         many = ["mlt", "--chain-starts", "500000"] if by == "mlt" else [by]
-        (width, height, reference), _ = render(given.ray, scene, given.width, many, given.many)
+        (width, height, reference), _ = render(given.ray, scene, given.width, many + ["--seed", "99"], given.many)
         pictures = []
         for title, how in INTEGRATORS.items():
             samples = samples_for(given.ray, scene, given.width, how, given.seconds)
