@@ -9,8 +9,9 @@
 
 namespace trace {
 
-/// One path: `light` places from the light's end and `camera` from the camera's, which is one of them. One that goes
-/// straight to the camera (camera = 1) lands in another pixel: it has no end here, and brings nothing.
+/// One path: `light` places from the light's end and `camera` from the camera's, which is one of them. One
+/// that goes straight to the camera (camera = 1) lands in another pixel: it has no end here, and brings
+/// nothing.
 struct PathWay {
   int light = 0, camera = 0;
   int end = 0;       ///< the ray to the last place from the camera's end; -1: of camera = 1

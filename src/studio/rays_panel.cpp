@@ -186,8 +186,11 @@ void drawRays(Studio& studio) {
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("space", {0, height * (!pixel ? 0.88f : view.pyramid.open ? 0.3f : 0.52f)}, false,
-                    ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::BeginChild("space",
+                    {0, height * (!pixel              ? 0.88f
+                                  : view.pyramid.open ? 0.3f
+                                                      : 0.52f)},
+                    false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
   if (!inspector.traced()) {
