@@ -19,9 +19,14 @@ int ChainWalk::before(int index) const {
   return -1;
 }
 
-int ChainWalk::made() const {
-  return static_cast<int>(
-      std::count_if(moves.begin(), moves.end(), [](const ChainMove& m) { return m.number >= 0 && m.made; }));
+std::string ChainWalk::summary() const {
+  const auto count = [&](bool anywhere, bool onlyMade) {
+    return std::to_string(std::count_if(moves.begin(), moves.end(), [&](const ChainMove& m) {
+      return m.number >= 0 && m.anywhere == anywhere && (m.made || !onlyMade);
+    }));
+  };
+  return count(false, true) + " of " + count(false, false) + " moves nearby and " + count(true, true) +
+         " of " + count(true, false) + " anywhere were made";
 }
 
 std::string sentence(const ChainMove& move) {

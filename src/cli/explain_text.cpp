@@ -262,9 +262,8 @@ std::string chainText(const ChainWalk* chain) {
   constexpr int kAround = 8;
   if (!chain || chain->moves.empty()) return "";
   const auto last = static_cast<int>(chain->moves.size()) - 1;
-  std::string lines = "A chain of the picture, which made " + std::to_string(chain->made()) +
-                      " of its first " + std::to_string(last) +
-                      " moves, and the one that came nearest to the pixel:\n";
+  std::string lines =
+      "A chain of the picture (" + chain->summary() + "), and the move that came nearest to the pixel:\n";
   for (int i = std::max(0, chain->nearest - kAround); i <= std::min(last, chain->nearest + kAround); ++i) {
     const ChainMove& move = chain->moves[static_cast<std::size_t>(i)];
     lines += (i == chain->nearest ? "  > " : "    ") +

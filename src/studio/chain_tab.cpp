@@ -51,7 +51,7 @@ void drawChain(Studio& studio, const TracedPixel&) {
   landmark("move on");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  cutText(std::to_string(walk.made()) + " of " + std::to_string(count - 1) + " moves were made");
+  cutText(walk.summary());
   if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(7));
