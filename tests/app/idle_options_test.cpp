@@ -34,7 +34,7 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
 constexpr const char* kLit = R"(
 ambient_light { color = (0.2, 0.2, 0.2); }
 point_light { position = (0, 5, 5); color = (1, 1, 1); }
-sphere { material = { diffuse = (1, 1, 1); reflective = (0.5, 0.5, 0.5); } }
+sphere { material = { diffuse = (0.5, 0.5, 0.5); reflective = (0.5, 0.5, 0.5); } }
 )";
 
 TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
