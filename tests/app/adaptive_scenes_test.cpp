@@ -62,10 +62,10 @@ void expectNearlyTheSame(const Part& part, double most, const std::vector<Choice
 // Of parts of pictures; docs/sampling.md has the figures of the whole.
 
 TEST(AdaptiveScenes, SubdivideByItsDefaultIsWithinALevelForLessThanTwoFifthsOfTheRays) {
-  for (const Part& part : {Part{"antialias.ray", "0,0,240,160"},
-                           {"corners.ray", "0,0,240,160"},
-                           {"glass.ray", "0,0,240,160"},
-                           {"mirrors.ray", "0,0,240,160"}})
+  for (const Part& part : {Part{"antialias.ray", "0,70,60,110"},
+                           {"corners.ray", "0,40,60,80"},
+                           {"glass.ray", "150,30,210,70"},
+                           {"mirrors.ray", "80,70,140,110"}})
     expectNearlyTheSame(part, 64, {{"subdivide", "3", {}}},
                         {{"subdivide", "3", {}}, {"subdivide-threshold", "0", {}}});
 }

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/session.h"
 #include "base/file.h"
 #include "shading/material.h"
 #include "support/paths.h"
+#include "support/small_renders.h"
 
 namespace trace::test {
 namespace {
@@ -35,14 +37,18 @@ TEST(Extensions, EachChangesThePictureOfItsExample) {
   for (const Extension& e : extensions()) {
     SCOPED_TRACE(e.name);
     ASSERT_TRUE(std::filesystem::exists(kExampleFolder + "/" + std::string(e.scene)));
-    std::vector<Choice> small;
-    if (e.view.empty()) small.push_back({"width", "40", {}});
-    if (!e.view.empty()) small.push_back({"spp", "1", {}});
-    const Picture off = pictureOf(e, false, kExampleFolder, small),
-                  on = pictureOf(e, true, kExampleFolder, small);
+    const bool isPart = e.view.find("--region") != e.view.npos;
+    const auto small = [&](bool on) {
+      Session said;
+      said.open(kExampleFolder + "/" + std::string(e.scene), choicesIn(on ? e.on : e.off));
+      std::vector<Choice> choices = smallChoices(said.settings(), 24, 64);
+      if (isPart) choices = {{"spp", "1", {}}};
+      return pictureOf(e, on, kExampleFolder, choices);
+    };
+    const Picture off = small(false), on = small(true);
     ASSERT_EQ(off.width, on.width);
     EXPECT_NE(off, on);
-    if (!e.view.empty()) {
+    if (isPart) {
       EXPECT_EQ(off.width, 200) << "the region alone";
     }
   }

@@ -14,6 +14,7 @@
 #include "support/paths.h"
 #include "support/random.h"
 #include "support/shared.h"
+#include "support/small_renders.h"
 
 namespace trace::test {
 namespace {
@@ -28,29 +29,24 @@ Picture renderFile(const std::string& file, std::vector<Choice> choices) {
   return developed(finished(session.picture(), session.settings()), developmentOf(session.settings()));
 }
 
-/// For a small picture: waves of all lengths, and photons and chains for each of seven threads.
-std::vector<Choice> smallChoices(const Settings& s) {
-  std::vector<Choice> choices{{"width", "40", {}}, {"spp", std::to_string(std::min(s.spp, 16)), {}}};
-  if (s.integrator == IntegratorKind::photon) choices.push_back({"photons", "20000", {}});
-  if (s.integrator == IntegratorKind::mlt) choices.push_back({"chain-starts", "10000", {}});
-  if (s.caustics > 0) choices.push_back({"caustics", "20000", {}});
-  return choices;
-}
-
 TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
   const std::vector<std::string> scenes = filesUnder(kExamples, ".ray");
   ASSERT_FALSE(scenes.empty());
   for (const std::string& scene : scenes) {
-    Session asSaid, session;
+    Session asSaid;
     asSaid.open(scene, {});
-    const std::vector<Choice> small = smallChoices(asSaid.settings());
-    session.open(scene, small);
-    session.build();
-    EXPECT_TRUE(session.messages().all().empty()) << toString(session.messages().all().front());
+    const std::vector<Choice> small = smallChoices(asSaid.settings(), 28, 16);  // waves of all lengths
+    std::unique_ptr<Session> before;
     const auto rendered = [&](const char* threads) {
       std::vector<Choice> choices = small;
       choices.push_back({"threads", threads, {}});
-      return renderFile(scene, choices);
+      auto session = std::make_unique<Session>();
+      session->open(scene, choices);
+      session->build(before.get());  // what is not of the threads is built once
+      EXPECT_TRUE(session->messages().all().empty()) << toString(session->messages().all().front());
+      session->renderPicture();
+      before = std::move(session);
+      return developed(finished(before->picture(), before->settings()), developmentOf(before->settings()));
     };
     const Picture one = rendered("1");
     double brightest = 0;

@@ -74,10 +74,10 @@ TEST_F(ResumeTest, SamplesAreAddedToAFinishedPicture) {
 }
 
 TEST_F(ResumeTest, AStartOfManySamplesServesFewer) {
-  ASSERT_EQ(run(words("whole.png", {"-w", "300", "--spp", "200"})).code, 0);
-  const Run first = run(words("out.png", {"-w", "300", "--spp", "9999", "-t", "1", "--time-limit", "0.5"}));
+  ASSERT_EQ(run(words("whole.png", {"--spp", "100"})).code, 0);
+  const Run first = run(words("out.png", {"--spp", "9999", "-t", "1", "--time-limit", "0.2"}));
   ASSERT_EQ(first.code, 5) << first.err;
-  const Run second = run(words("out.png", {"-w", "300", "--spp", "200"}));
+  const Run second = run(words("out.png", {"--spp", "100"}));
   EXPECT_EQ(second.code, 0);
   EXPECT_TRUE(contains(second.err, "going on from out.png.checkpoint, ")) << second.err;
   EXPECT_EQ(bytes("out.png"), bytes("whole.png"));

@@ -46,7 +46,7 @@ double crossingsAlong(const Shape& shape, const Box3& box, int axis) {
 
 TEST(Tessellate, EveryShapeHasTrianglesWithinItsBounds) {
   for (const Shape& shape : analyticShapes()) {
-    const auto corners = tessellate(shape, 16);
+    const auto corners = tessellate(shape, 10);
     const std::string_view name = shape.keyword();
     ASSERT_FALSE(corners.empty()) << name;
     const Box3 bounds = drawnBounds(shape);

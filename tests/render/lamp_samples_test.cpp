@@ -80,14 +80,14 @@ TEST(LampSamples, TheSameBitsForAnyNumberOfThreadsAndExplained) {
   addObject(scene, Square{}, Affine::translation({0, 3, -4}) * kFlat, diffuse(Color(0.5), 4));
   addObject(scene, Sphere{}, Affine::translation({-2, 1, -2}), diffuse(Color(0), 2));
   Settings settings = settingsOf(IntegratorKind::whitted, 3);
-  settings.width = settings.height = 24;
+  settings.width = settings.height = 12;
   settings.spp = 4;
   const Picture one = sameForAnyThreads(scene, settings);
   const World world = build(scene, settings);
   const auto integrator = integratorOf(world, settings);
   std::size_t lamps = 0;
-  for (int at = 0; at < 24; at += 3) {
-    const Explanation e = explain(world, *integrator, settings, {24, 24}, at, at, at % 4);
+  for (int at = 0; at < 12; at += 2) {
+    const Explanation e = explain(world, *integrator, settings, {12, 12}, at, at, at % 4);
     EXPECT_EQ(e.pixel, one.at(at, at)) << at;
     EXPECT_TRUE(sumsUp(e.tree)) << at;
     for (const RayNode& node : e.tree.nodes)
