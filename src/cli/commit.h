@@ -1,4 +1,5 @@
-// Which commit the program was built from. The file that says it is written by each build (cmake/commit.cmake).
+// Which commit the program was built from. The file that says it is written by each build
+// (cmake/commit.cmake).
 #pragma once
 
 #include <string_view>

@@ -42,7 +42,7 @@ class Progress {
   RemainingTime estimate_;
   std::optional<double> remaining_;
   double before_ = 0;
-  double shown_ = 0;  // the largest share
+  double shown_ = 0;       // the largest share
   double lastPrint_ = -1;  // seconds
   int lastTenth_ = 0;
   bool drawn_ = false;

@@ -499,9 +499,10 @@ TEST(RayFormat, WarnsOfNumbersThatNothingHas) {
             "2:23: emissive of material: expected 0 to 1e12, found 1e+30 [the sun's disk is 50000 times as "
             "bright as white paper in it]");
   EXPECT_EQ(warningsOf("sphere { material = { emissive = (1e9, 1, 1); } }"), "");
-  EXPECT_EQ(warningsOf("sphere { material = { bump = texture(noise { }, 1e30); } }"),
-            "2:23: bump of material: expected heights of the object's size, found 1e+30: every normal lies in "
-            "the surface [bump = texture(noise { }, 0.1) is usual]");
+  EXPECT_EQ(
+      warningsOf("sphere { material = { bump = texture(noise { }, 1e30); } }"),
+      "2:23: bump of material: expected heights of the object's size, found 1e+30: every normal lies in "
+      "the surface [bump = texture(noise { }, 0.1) is usual]");
 }
 
 TEST(RayFormat, ReadsWhatMeshesSayPerPoint) {
