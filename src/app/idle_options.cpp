@@ -44,15 +44,29 @@ bool seesBeyond(const World& world) {
   return false;
 }
 
-/// The first object whose model is a drawing, made for the light of lamps alone; null if none is.
-const Object* firstDrawn(const Scene& scene) {
-  const auto draws = [&](const Object& object) {
-    return match(scene.materials[object.material].model, []<class Model>(const Model&) {
-      return !std::is_same_v<Model, Phong> && !Model::kReciprocal && !Model::kKeepsEnergy;
-    });
-  };
-  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), draws);
+/// The first object whose material is so; null if none is.
+template <class Is>
+const Object* firstWith(const Scene& scene, Is&& is) {
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    return is(scene.materials[object.material].model);
+  });
   return found == scene.objects.end() ? nullptr : &*found;
+}
+
+/// A drawing, made for the light of lamps alone.
+bool draws(const MaterialModel& model) {
+  return match(model, []<class Model>(const Model&) {
+    return !std::is_same_v<Model, Phong> && !Model::kReciprocal && !Model::kKeepsEnergy;
+  });
+}
+
+/// Phong's model lets it surely give back more light than it gets.
+bool gainsLight(const MaterialModel& model) {
+  constexpr Real kMuch = 1.25;  // less is lost again in most scenes
+  const auto* phong = std::get_if<Phong>(&model);
+  if (!phong) return false;
+  return maxComponent(phong->diffuse + (phong->transmits() ? phong->transmissive : phong->reflective)) >
+         kMuch;
 }
 
 /// To what is farthest from the camera, of objects that have an end; 0 where none has.
@@ -65,20 +79,6 @@ Real distanceAcross(const World& world) {
   };
   return length(Vec3{far(eye.x, box.low.x, box.high.x), far(eye.y, box.low.y, box.high.y),
                      far(eye.z, box.low.z, box.high.z)});
-}
-
-/// The first object that surely gives back more light than it gets, as Phong's model lets it; null if none
-/// does.
-const Object* firstThatGains(const Scene& scene) {
-  constexpr Real kMuch = 1.25;  // less is lost again in most scenes
-  const auto gains = [&](const Object& object) {
-    const auto* phong = std::get_if<Phong>(&scene.materials[object.material].model);
-    if (!phong) return false;
-    const Color more = phong->transmits() ? phong->transmissive : phong->reflective;
-    return maxComponent(phong->diffuse + more) > kMuch;
-  };
-  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), gains);
-  return found == scene.objects.end() ? nullptr : &*found;
 }
 
 /// Options that say something of what another one switches on.
@@ -272,7 +272,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              " the fog is as bright as --medium-depth and the size of the scene let it be",
          "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
   if (paths && s.integrator != IntegratorKind::direct)
-    if (const Object* gains = firstThatGains(scene))
+    if (const Object* gains = firstWith(scene, gainsLight))
       messages.warn(
           gains->place,
           "its material gives back more light than it gets (diffuse beside transmissive or reflective, "
@@ -280,7 +280,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
               integrator + " it and its surroundings grow brighter with --depth",
           "diffuse = 0 makes clear glass and plain mirrors");
   if (paths)
-    if (const Object* drawn = firstDrawn(scene))
+    if (const Object* drawn = firstWith(scene, draws))
       messages.warn(drawn->place,
                     std::string(keywordOf(scene.materials[drawn->material].model)) +
                         " draws, and may give back more light than it gets: with --integrator " + integrator +

@@ -1,5 +1,6 @@
 // Options that were chosen and change nothing in a scene: a warning for each, since nobody chooses them for
-// that.
+// that. Likewise where the integrator that was chosen does not suit the scene: there is no light for it, or
+// no end of light.
 #pragma once
 
 #include "base/error.h"

@@ -154,15 +154,21 @@ TEST(LightTruth, WithBlackShadowsOfGlassAVisiblePanelIsSeenThroughIt) {
   EXPECT_NEAR(mean(picture(scene, settings)) / open, 1, 0.03);
 }
 
-TEST(LightTruth, AVisiblePanelInAMirrorCountsOnce) {
+/// A floor, a panel at that height that shines upward and is seen, and a mirror above it.
+Scene panelBelowMirror(Real height) {
   Scene scene = floorScene();
   RectangleLight panel;
-  panel.position = {0, 1, 0};
+  panel.position = {0, height, 0};
   panel.u = {1, 0, 0}, panel.v = {0, 0, -1};  // upward
   panel.color = Color(1.2);
   panel.visible = true;
   scene.lights.push_back({panel, {}});
   addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({3, 3, 1}), mirror());
+  return scene;
+}
+
+TEST(LightTruth, AVisiblePanelInAMirrorCountsOnce) {
+  Scene scene = panelBelowMirror(1);
   const Real expected = meanOf(scene, IntegratorKind::path, 4096);
   ASSERT_GT(expected, 0.01);
   EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 512) / expected, 1, 0.03);
@@ -175,14 +181,7 @@ TEST(LightTruth, AVisiblePanelInAMirrorCountsOnce) {
 
 TEST(LightTruth, AVisiblePanelInAMirrorIsFoundByAMirror) {
   // The floor is seen in the mirror that shows it the panel: no path from the panel can be joined with that.
-  Scene scene = floorScene();
-  RectangleLight panel;
-  panel.position = {0, 0.9, 0};
-  panel.u = {1, 0, 0}, panel.v = {0, 0, -1};  // upward
-  panel.color = Color(1.2);
-  panel.visible = true;
-  scene.lights.push_back({panel, {}});
-  addObject(scene, Square{}, Affine::translation({0, 2, 0}) * kDown * Affine::scaling({3, 3, 1}), mirror());
+  Scene scene = panelBelowMirror(0.9);
   scene.camera.position = {0, 0.5, 3.8};
   scene.camera.viewdir = {0, 1.6, -3};
   scene.camera.fov = 10;
