@@ -7,9 +7,12 @@
 #include "geometry/shapes/sphere.h"
 #include "render/tracer.h"
 #include "render/world.h"
+#include "support/seen.h"
 
 namespace trace::bump_test {
 namespace {
+
+using test::Seen;
 
 Material bumped(std::string formula, Real height) {
   Formula heights;
@@ -20,26 +23,6 @@ Material bumped(std::string formula, Real height) {
   material.bump = height;
   return material;
 }
-
-struct Seen {
-  Scene scene;
-  World world;
-  explicit Seen(Scene s)
-      : scene(std::move(s)), world([&] {
-          Messages messages;
-          return compile(scene, Settings{}, messages);
-        }()) {}
-
-  /// Where the ray meets the one object.
-  SurfacePoint at(const Vec3& from, const Vec3& direction) const { return hit(from, direction).surface; }
-  Hit hit(const Vec3& from, const Vec3& direction) const {
-    const Ray ray{from, normalize(direction)};
-    Statistics statistics;
-    const auto found = world.closest(ray, Faces::both, statistics);
-    EXPECT_TRUE(found.has_value());
-    return Hit(world, ray, *found);
-  }
-};
 
 Seen seen(Shape shape, const Affine& worldFromObject, Material material) {
   Scene scene;

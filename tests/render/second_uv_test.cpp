@@ -6,24 +6,12 @@
 #include "geometry/mesh/mesh.h"
 #include "render/tracer.h"
 #include "render/world.h"
+#include "support/seen.h"
 
 namespace trace::second_uv_test {
 namespace {
 
-struct Seen {
-  Scene scene;
-  World world;
-  explicit Seen(Scene s)
-      : scene(std::move(s)), world([&] {
-          Messages messages;
-          return compile(scene, Settings{}, messages);
-        }()) {}
-  Hit at(const Vec3& from) const {
-    const Ray ray{from, {0, 0, -1}};
-    Statistics statistics;
-    return {world, ray, world.closest(ray, Faces::both, statistics).value()};
-  }
-};
+using test::Seen;
 
 /// A triangle in the plane of x and y that is twice as large in the world. Its first coordinates are x and y,
 /// the second 3 y and 1 - x.
@@ -51,7 +39,7 @@ TEST(SecondUv, LieWhereTheMeshSays) {
   map.filter = TexelFilter::trilinear;
   TextureNode node{.model = map};
   const Seen seen = triangle(kSecond, {{"diffuse", Texture(node)}});
-  const Hit hit = seen.at({0.5, 1, 5});
+  const Hit hit = seen.hit({0.5, 1, 5}, {0, 0, -1});
   Differentials arrived;
   arrived.originX = {0.2, 0, 0};
   arrived.originY = {0, 0.4, 0};
@@ -72,7 +60,7 @@ TEST(SecondUv, LieWhereTheMeshSays) {
 
 TEST(SecondUv, AreTheFirstWhereThereAreNoOthers) {
   const Seen seen = triangle({});
-  const TexturePlace place = seen.world.place(seen.at({0.5, 1, 5}));
+  const TexturePlace place = seen.world.place(seen.hit({0.5, 1, 5}, {0, 0, -1}));
   EXPECT_EQ(place.secondUv, place.uv);
 }
 
@@ -87,7 +75,7 @@ TEST(SecondUv, TurnPicturesOfNormals) {
     map.file.map = std::make_shared<const MipMap>(picture);
     TextureNode node{.model = map};
     const Seen seen = triangle(kSecond, {{"bump", Texture(node)}});
-    const Vec3 normal = seen.at({0.5, 1, 5}).surface.shading;
+    const Vec3 normal = seen.hit({0.5, 1, 5}, {0, 0, -1}).surface.shading;
     EXPECT_GT(dot(normal, second ? Vec3{0, 1, 0} : Vec3{1, 0, 0}), 0.7) << second;
   }
 }
