@@ -69,6 +69,7 @@ struct Arguments {
   std::optional<std::string> format;  ///< --format
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
+  bool lightImage = false;            ///< explain: --light-image
   bool markdown = false;              ///< features: as docs/options.md
   std::string examples;               ///< features: --examples, the folder of the scenes
   std::array<int, 2> size{256, 256};  ///< texture: --size, width and height

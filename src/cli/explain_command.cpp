@@ -98,6 +98,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     choices.push_back({"integrator", "path", {}});
     opened.emplace().open(arguments.files[0], choices, arguments.strict);
   }
+  if (arguments.lightImage && !(rowOf(opened->settings()).throws && !byChains))
+    throw Error(Fault::usage, "--light-image: expected --integrator bdpt, which has one, found " +
+                                  std::string(byChains ? "mlt" : rowOf(opened->settings()).name));
   Session& session = *opened;
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
@@ -114,6 +117,13 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (const RenderResult result = session.renderPicture();
       result.end != End::finished)  // not the whole pixel
     throw Error(Fault::limit, "the pixel was not finished: " + whyStopped(result));
+  std::optional<LightLandings> light;
+  if (arguments.lightImage) {
+    Session whole;  // not built: of its settings the region counts
+    whole.open(arguments.files[0], arguments.choices, arguments.strict);
+    Job job;
+    light = lightLandings(session, whole.settings().region, x, y, job);
+  }
   const Size size = session.size();
   const PixelFacts facts{session.scene(),
                          explanation,
@@ -121,7 +131,8 @@ int explainCommand(const Arguments& arguments, const Console& console) {
                          size.height,
                          session.film().ofSamples(x, y),
                          session.settings(),
-                         chain ? &*chain : nullptr};
+                         chain ? &*chain : nullptr,
+                         light ? &*light : nullptr};
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {

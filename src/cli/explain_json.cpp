@@ -283,7 +283,24 @@ std::string explainJson(const PixelFacts& facts) {
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
-  json["lacksLightImage"] = facts.settings.integrator == IntegratorKind::bdpt;
+  json["lacksLightImage"] = facts.settings.integrator == IntegratorKind::bdpt && !facts.light;
+  if (facts.light) {
+    const LightImagePixel& image = facts.light->image;
+    json["lightImage"] = {{"value", toJson(image.value)},
+                          {"picture", toJson(facts.rendered + image.value)},
+                          {"paths", image.paths},
+                          {"landed", image.landed},
+                          {"brightest", Json::list()}};
+    for (std::size_t i = 0; i < image.brightest.size(); ++i) {
+      const Landing& l = image.brightest[i];
+      json["lightImage"]["brightest"].add({{"x", l.x},
+                                           {"y", l.y},
+                                           {"sample", l.sample},
+                                           {"s", l.light},
+                                           {"brings", toJson(l.brings)},
+                                           {"route", facts.light->routes[i]}});
+    }
+  }
   if (const std::vector<PathWay> ways = pathWays(e.tree); !ways.empty()) {
     json["ways"] = Json::list();
     for (const PathWay& way : ways)

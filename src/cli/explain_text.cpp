@@ -272,6 +272,25 @@ std::string chainText(const ChainWalk* chain) {
   return lines + "\n";
 }
 
+/// What paths from lights, those of all pixels, bring straight to the camera.
+std::string lightImageText(const PixelFacts& facts) {
+  if (!facts.light)
+    return "            the picture has more: what paths from lights, those of all pixels, bring straight to "
+           "the "
+           "camera, as\n            caustics on matt things; --light-image finds it\n";
+  const LightImagePixel& image = facts.light->image;
+  std::string lines = "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
+                      " paths that landed here, of " + std::to_string(image.paths) + "\nthe picture " +
+                      exact(facts.rendered + image.value) + "\n";
+  if (!image.brightest.empty()) lines += "The brightest of these paths:\n";
+  for (std::size_t i = 0; i < image.brightest.size(); ++i) {
+    const Landing& l = image.brightest[i];
+    lines += "  " + text(l.brings) + "  " + printable(facts.light->routes[i]) + ": --pixel " +
+             std::to_string(l.x) + "," + std::to_string(l.y) + " --sample " + std::to_string(l.sample) + "\n";
+  }
+  return lines;
+}
+
 /// What an 8-bit file shows of the light, if that is not the light itself.
 std::string shownText(const PixelFacts& facts) {
   const Development development = developmentOf(facts.settings);
@@ -334,12 +353,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
           exact(facts.rendered) + "\n";
   if (facts.chain)
     text += "            chains make the picture, in no order of pixels: it tends to the same\n";
-  if (throws)
-    text +=
-        "            the picture has more: what paths from lights, those of all pixels, bring straight to "
-        "the "
-        "camera, as\n            caustics on matt things; a render with --camera-vertices 1 shows that "
-        "alone\n";
+  if (throws) text += lightImageText(facts);
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   const bool whole =
       !facts.chain && !throws && !facts.settings.denoise;  // nothing else has a part in the pixel

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/chain_walk.h"
+#include "app/light_landings.h"
 #include "render/explain.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,7 @@ struct PixelFacts {
   /// Chains make the picture that was asked for: the one that comes nearest to the pixel. Then the settings
   /// are those of `path`. Else null.
   const ChainWalk* chain = nullptr;
+  const LightLandings* light = nullptr;  ///< what the light image brings; null where nobody asked
   /// The tree's sum, the pixel's samples and the render agree bit for bit.
   bool agrees() const;
 };

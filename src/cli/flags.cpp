@@ -320,6 +320,10 @@ std::span<const Flag> flags() {
       Flag{"sample", 0, Takes::value, "K", "", kExplain, true,
            "which of the pixel's camera rays; default 0, the first",
            [](Arguments& a, std::string_view value) { a.sample = value; }},
+      Flag{"light-image", 0, Takes::nothing, "", "", kExplain, false,
+           "also find what the light image of bdpt brings the pixel, and by which paths; takes about half as "
+           "long as a render of the picture",
+           [](Arguments& a, std::string_view) { a.lightImage = true; }},
       Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", kAnswering, true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) { a.format = value; }},  // each command knows its own

@@ -233,6 +233,11 @@ Color Film::ofSamples(int x, int y) const {
   return ofCorners(x, y, static_cast<int>(levelsOf(tile(static_cast<std::int64_t>(own)), waves)));
 }
 
+Color Film::ofSplats(int x, int y) const {
+  const auto splats = lockSplats();
+  return splats_ ? splats_->mean(x, y) : Color(0);
+}
+
 Picture Film::picture() const {
   Picture picture(width_, height_);
   copyDone(picture);

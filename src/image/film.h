@@ -228,6 +228,8 @@ class Film {
 
   /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
   Color ofSamples(int x, int y) const;
+  /// What others have brought there so far. From any thread while others add.
+  Color ofSplats(int x, int y) const;
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
   /// The same of a layer, blank elsewhere.

@@ -11,8 +11,8 @@
 namespace trace {
 
 ValueRange finiteRange(const Picture& picture) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  ValueRange range{kInfinity, -kInfinity};
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  ValueRange range{kBeyond, -kBeyond};
   for (const Color& c : picture.pixels)
     for (double channel : {c.r, c.g, c.b}) {
       if (!std::isfinite(channel)) continue;

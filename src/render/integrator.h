@@ -19,6 +19,7 @@ namespace trace {
 struct Thrown {
   Vec2 place;
   Color color;
+  int light = 0;  ///< how many places the path has, without the camera
 };
 
 /// A camera ray and the first surface that it meets.

@@ -76,14 +76,14 @@ Color less(const Color& c) { return {std::exp(-c.r), std::exp(-c.g), std::exp(-c
 /// Walks along a ray from stretch to stretch.
 class Walk {
  public:
-  Walk(Tracer& tracer, const Ray& ray, const Color& importance, int places, Sampler& numbers)
+  Walk(Tracer& tracer, const Ray& ray, const Color& importance, int draws, Sampler& numbers)
       : tracer_(tracer),
         ray_(ray),
         fog_(tracer.settings()),
         importance_(importance),
-        wantsPlaces_(places > 0),
-        draws_(std::max(1, places)),
-        leastSteps_(kLeastSteps + 3 * places),
+        wantsPlaces_(draws > 0),
+        draws_(std::max(1, draws)),
+        leastSteps_(kLeastSteps + 3 * draws),
         numbers_(numbers) {}
 
   void begin(const World::MediumBody* body) { active_.push_back(body); }

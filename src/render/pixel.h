@@ -33,6 +33,13 @@ class PixelTracer {
 
   /// From now on what samples throw at other places of the picture is left there; null: nowhere.
   void collect(std::vector<Splat>* splats) { splats_ = splats; }
+  /// What the last sample threw, if that is collected.
+  const std::vector<Thrown>& thrown() const { return thrown_; }
+  /// Calls use(Splat) for each pixel that sees it.
+  template <class Use>
+  void spread(const Thrown& t, const Use& use) const {
+    rules_.spread(t.place, [&](int x, int y, Real share) { use(Splat{x, y, t.color * share}); });
+  }
 
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
@@ -125,8 +132,7 @@ class PixelTracer {
     for (const Thrown& t : thrown_)  // it is a part of the sample, which is as bad as that
       if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y))
         return Color(std::numeric_limits<Real>::quiet_NaN());
-    for (const Thrown& t : thrown_)
-      rules_.spread(t.place, [&](int x, int y, Real share) { splats_->push_back({x, y, t.color * share}); });
+    for (const Thrown& t : thrown_) spread(t, [&](const Splat& splat) { splats_->push_back(splat); });
     return radiance;
   }
 

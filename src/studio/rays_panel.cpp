@@ -166,10 +166,19 @@ void updatePixel(Studio& studio) {
   view.boxesOf = -1;
 }
 
+/// What the light image has brought the pixel so far; "" where there is none.
+std::string lightImageAt(const TracedPixel& pixel) {
+  const Film& film = pixel.session->film();
+  if (!film.takesSplats() || rowOf(pixel.session->settings()).byChains) return "";
+  const Color light = film.ofSplats(pixel.x, pixel.y);
+  return " So far " + toText(light.r) + " " + toText(light.g) + " " + toText(light.b) + ".";
+}
+
 /// What the pixel's rays leave unsaid, or which move of a chain they belong to.
 std::string noteOn(const RaysView& view, const TracedPixel& pixel) {
   if (!view.chains.offered())
-    return pixel.note + (view.chains.busy() ? " A chain that comes by this pixel is looked for." : "");
+    return pixel.note + lightImageAt(pixel) +
+           (view.chains.busy() ? " A chain that comes by this pixel is looked for." : "");
   const ChainMove& move = view.chains.walk()->moves[static_cast<std::size_t>(view.chains.index())];
   const std::string which = move.number < 0 ? " " : ", move " + std::to_string(move.number) + ": ";
   return "A chain of this picture" + which + sentence(move) +

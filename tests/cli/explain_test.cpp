@@ -66,6 +66,24 @@ TEST_F(Explain, TellsOfWaysAndOfAChain) {
   EXPECT_TRUE(nearest["made"].get<bool>());
 }
 
+TEST_F(Explain, FindsWhatTheLightImageBrings) {
+  std::vector<std::string> words{"explain", kScenes + "uplight.ray", "--width", "40", "--spp", "4", "--pixel",
+                                 "20,16"};
+  EXPECT_NE(out(words).find("--light-image finds it"), std::string::npos);
+  words.push_back("--light-image");
+  const std::string text = out(words);
+  EXPECT_NE(text.find("paths that landed here, of 4320"), std::string::npos) << text;
+  EXPECT_NE(text.find("from a light by "), std::string::npos) << text;
+  words.insert(words.end(), {"--format", "json"});
+  const json all = json::parse(out(words));
+  EXPECT_FALSE(all["lacksLightImage"].get<bool>());
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_EQ(all["lightImage"]["picture"][c].get<double>(),
+              all["rendered"][c].get<double>() + all["lightImage"]["value"][c].get<double>());
+  words.insert(words.end(), {"--integrator", "path"});
+  EXPECT_NE(error(words, 2).find("--light-image: expected --integrator bdpt"), std::string::npos);
+}
+
 /// What the schema promises: each ray's radiance follows from its terms.
 std::array<double, 3> sum(const json& rays, const json& ray) {
   std::array<double, 3> all{};

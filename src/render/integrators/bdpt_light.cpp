@@ -145,10 +145,10 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const S
   const Interfaces there = place.side(toEye);
   const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(kLand)) *
                        (there.nested() ? Color(1) : there.passed(seen->distance));
-  if (!sample.thrown) return;
+  if (!sample.thrown || isBlack(passed)) return;
   const Fog fog(tracer.settings());
   const Real clear = fog.none() || !isInOpenAir(there, tracer.world()) ? 1 : fog.passes(ray, seen->distance);
-  sample.thrown->push_back({seen->place, factor * passed * (perArea * counts * clear)});
+  sample.thrown->push_back({seen->place, factor * passed * (perArea * counts * clear), s});
 }
 
 }  // namespace trace
