@@ -56,10 +56,9 @@ Outside::View Outside::view(const Ray& ray, RayKind kind) const {
   const EnvironmentMap::Spot spot = EnvironmentMap::cubeSpot(turnedBack(ray.direction));
   const Pixels& face = *background_.faces()[static_cast<std::size_t>(spot.face)];
   const Texel texel =
-      face.map ? face.map->at(fromTopLeft(spot.uv), {.u = Wrap::clamp, .v = Wrap::clamp}) : Texel{.alpha = 0};
+      face.map ? face.map->at(fromTopLeft(spot.uv), {.u = Wrap::clamp, .v = Wrap::clamp}) : Texel{Color(), 0};
   if (texel.alpha <= 0) return seen(behind, ray);
-  View view{.source = Source::panorama, .place = spot.uv, .face = spot.face, .direction = ray.direction};
-  view.color = texel.color * brightness_;
+  View view{Source::panorama, spot.uv, spot.face, ray.direction, texel.color * brightness_};
   if (texel.alpha < 1) view.color = lerp(texel.alpha, seen(behind, ray).color, view.color);
   return view;
 }

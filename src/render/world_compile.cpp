@@ -12,14 +12,6 @@
 #include "scene/displacement.h"
 
 namespace trace {
-namespace {
-
-std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
-  return std::make_shared<const Bvh>(settings.accel == Accel::none
-                                         ? Bvh::bruteForce(boxes)
-                                         : Bvh(boxes, Bvh::Leaves::single, settings.threads));
-}
-
 /// Hierarchies of meshes, by the data of the scene and what displaces it.
 class TreesOfMeshes {
  public:
@@ -45,6 +37,14 @@ class TreesOfMeshes {
 
   std::multimap<const MeshData*, std::pair<Displacement, Tree>> trees_;
 };
+
+namespace {
+
+std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
+  return std::make_shared<const Bvh>(settings.accel == Accel::none
+                                         ? Bvh::bruteForce(boxes)
+                                         : Bvh(boxes, Bvh::Leaves::single, settings.threads));
+}
 
 /// The materials as the settings want them.
 std::vector<Material> shownAs(std::vector<Material> materials, const Settings& settings) {

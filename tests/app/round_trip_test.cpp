@@ -102,7 +102,9 @@ TEST(RoundTrip, ScenesWithPicturesInsideLookTheSame) {
       const Scene back = readScene(out, found);
       for (const Message& message : found.all())
         EXPECT_EQ(message.what.find("cannot be read"), std::string::npos) << message.what;
-      if (suffix == ".ray") EXPECT_EQ(small(back), small(scene)) << c.file;
+      if (suffix == ".ray") {
+        EXPECT_EQ(small(back), small(scene)) << c.file;
+      }
     }
   }
 }
