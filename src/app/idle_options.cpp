@@ -6,6 +6,8 @@
 #include <type_traits>
 
 #include "base/text.h"
+#include "math/low_discrepancy.h"
+#include "math/warp.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/render.h"
@@ -33,13 +35,20 @@ bool hasSun(const Scene& scene) {
                      [](const LightSource& l) { return std::holds_alternative<DirectionalLight>(l.light); });
 }
 
-/// Some of the camera's rays meet nothing.
+/// Some rays of the camera meet nothing, or some that go on from where they end, in any direction: in a room
+/// with a window the air outside is lit, too.
 bool seesBeyond(const World& world) {
-  constexpr int kAcross = 8;
+  constexpr int kAcross = 16, kPlaces = 6;
   Statistics uncounted;
+  std::uint32_t number = 0;
   for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Vec2 place{(i % kAcross + 0.5) / kAcross, (i / kAcross + 0.5) / kAcross};
-    if (!world.closest(world.camera().ray(place), Faces::both, uncounted)) return true;
+    Ray ray = world.camera().ray({(i % kAcross + 0.5) / kAcross, (i / kAcross + 0.5) / kAcross});
+    for (int place = 0; place < kPlaces; ++place) {
+      const auto found = world.closest(ray, Faces::both, uncounted);
+      if (!found) return true;
+      constexpr Real kBefore = 0.999;  // air, where fog scatters
+      ray = {ray.at(found->t * kBefore), toCone(sobolPoint(++number), {0, 0, 1}, -1)};
+    }
   }
   return false;
 }
@@ -129,7 +138,9 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                            (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    if (given && !otherwise && !switchedOff &&
+    const std::string_view concerned = findOption(row.option).integrators;
+    const bool idleAnyway = concerned != "all" && concerned.find(integrator) == concerned.npos;
+    if (given && !idleAnyway && !otherwise && !switchedOff &&
         findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));

@@ -119,12 +119,18 @@ void indexBelowOne(const LintScene& s, Findings& findings) {
 }
 
 void depthTooLow(const LintScene& s, Findings& findings) {
-  constexpr double kFew = 0.04;
+  constexpr double kOfPicture = 0.04, kOfObject = 0.2, kFewest = 5;
   const double samples = s.survey.samples;
-  if (s.survey.cutShort.size() < kFew * samples || s.survey.cutShort.empty()) return;
+  if (s.survey.cutShort.empty()) return;
+  // One glass on a large table is to be told of, too.
+  const auto cut = static_cast<double>(s.survey.cutShort.size());
+  const double few = cut >= kOfPicture * samples
+                         ? kOfPicture * samples
+                         : std::max(kFewest, kOfObject * s.survey.objects[s.survey.cutShortIn].places);
+  if (cut < few) return;
   const std::vector<int> darker = changedByDepth(s.settings, s.world, s.survey);
   // With the depth set, and with each depth above it.
-  const auto enough = std::find_if(darker.begin(), darker.end(), [&](int n) { return n < kFew * samples; });
+  const auto enough = std::find_if(darker.begin(), darker.end(), [&](int n) { return n < few; });
   if (darker.empty() || enough == darker.begin()) return;
   const std::string depth = std::to_string(s.settings.depth + static_cast<int>(enough - darker.begin()));
   warn(findings, "depth-too-low", placeOf(s, s.survey.cutShortIn),

@@ -9,11 +9,11 @@ namespace trace::lint_checks {
 namespace {
 
 /// The object throws much of the light that it meets on others, gathered.
-bool gathersLight(const LintScene& s, std::uint32_t object) {
+bool gathersLight(const LintScene& s, std::uint32_t object, bool byGlassAlone = false) {
   constexpr Real kMuch = 0.3;
   const WhittedTerms& terms = s.world.termsOf(object);
   const Real refracted = terms.passage == Passage::straight ? 0 : maxComponent(terms.transmissive);
-  return std::max(maxComponent(terms.reflective), refracted) >= kMuch;
+  return std::max(byGlassAlone ? 0 : maxComponent(terms.reflective), refracted) >= kMuch;
 }
 
 /// The render shows the light that such objects throw.
@@ -32,8 +32,17 @@ bool shinesOn(const LintScene& s, std::size_t light, std::uint32_t object) {
 
 }  // namespace
 
-/// Paths by chance never meet a light without a size, so they bring nothing of its light by mirrors and
-/// glass.
+/// Paths may meet the light by chance: it has a size, and they see it.
+bool isMet(const Light& light) {
+  return match(light, [](const auto& l) {
+    if constexpr (requires { l.visible; }) return l.visible && l.hasSize();
+    return false;
+  });
+}
+
+/// Paths by chance never meet a light without a size, or one that they do not see, so they bring nothing of
+/// its light by mirrors and glass. What glass gathers is missing wherever shadow rays run straight through
+/// it.
 void causticsMissing(const LintScene& s, Findings& findings) {
   const IntegratorKind kind = s.settings.integrator;
   const bool direct = kind == IntegratorKind::direct;
@@ -41,17 +50,22 @@ void causticsMissing(const LintScene& s, Findings& findings) {
     return;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Light& light = s.scene.lights[i].light;
-    const bool hasSize = match(light, [](const auto& l) { return l.hasSize(); });
-    if (hasSize && !direct) continue;
+    const bool hasSize = match(light, [](const auto&l) { return l.hasSize(); }), met = isMet(light);
+    const bool straight = s.settings.glassShadows == GlassShadows::filtered;
+    if (met && !direct && !straight) continue;
     for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
-      if (s.survey.objects[object].places == 0 || !gathersLight(s, object)) continue;
+      if (s.survey.objects[object].places == 0 || !gathersLight(s, object, met && !direct)) continue;
       if (s.survey.lights[i].places == 0 && !shinesOn(s, i, object)) continue;
-      return warn(findings, "caustics-missing", s.scene.lights[i].place,
-                  "what " + quoted(s, object) + " throws of this light on other things is missing: " +
-                      (direct ? "--integrator direct follows no light that bounces"
-                              : "the light has no size, so no path meets it by chance"),
-                  "--integrator photon shows such caustics, and so does whitted with --caustics 200000" +
-                      std::string(hasSize ? "; path finds them with many samples" : ""));
+      return warn(
+          findings, "caustics-missing", s.scene.lights[i].place,
+          "what " + quoted(s, object) + " throws of this light on other things is missing: " +
+              (direct    ? "--integrator direct follows no light that bounces"
+               : met     ? "shadow rays run straight through glass"
+               : hasSize ? "the light is not visible, so no path meets it by chance"
+                         : "the light has no size, so no path meets it by chance"),
+          "--integrator photon or bdpt shows such caustics, and so does whitted with --caustics "
+          "200000" +
+              std::string(met ? "; path finds them with many samples and --glass-shadows black" : ""));
     }
   }
 }
@@ -82,6 +96,11 @@ void unlit(const LintScene& s, Findings& findings) {
   const std::string ambient = s.settings.integrator == IntegratorKind::whitted
                                   ? ", or add an ambient light with `ambient` in the material"
                                   : "";
+  std::uint32_t shines = 0;
+  while (shines < all && !(maxComponent(s.world.termsOf(shines).emissive) > 1)) ++shines;
+  const bool asksLamps = s.settings.integrator != IntegratorKind::whitted || s.settings.lampSamples > 0;
+  const std::string lamp =
+      shines < all && !asksLamps ? "; --lamp-samples 4 lets " + quoted(s, shines) + " light it" : "";
   const std::string thrown =
       gathers < all ? "; --integrator photon shows what " + quoted(s, gathers) + " throws on it" : "";
   const bool isCauseSaid = spotsOnNothing(s, findings);
@@ -111,7 +130,7 @@ void unlit(const LintScene& s, Findings& findings) {
     }
     warn(findings, "unlit", placeOf(s, object),
          quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" + cause,
-         hint + ambient + thrown);
+         hint + ambient + lamp + thrown);
   }
 }
 

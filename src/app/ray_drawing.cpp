@@ -1,6 +1,7 @@
 #include "app/ray_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -145,19 +146,38 @@ DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls,
   return {at, std::move(picture)};
 }
 
+/// Where most of the rays are: a few that get far, such as to the end of a wide floor, do not make the others
+/// small. Along these axes.
+Box3 boxOf(const std::vector<RaySegment>& segments, const std::array<Vec3, 3>& axes) {
+  constexpr std::size_t kMany = 20;
+  std::array<std::vector<Real>, 3> along;
+  const auto note = [&](const Vec3& p) {
+    if (!isFinite(p)) return;
+    for (std::size_t i = 0; i < 3; ++i) along[i].push_back(dot(p, axes[i]));
+  };
+  for (const RaySegment& segment : segments) {
+    note(segment.from);
+    if (!segment.leaves || along[0].size() < 2) note(segment.to);  // the first is that of the camera
+  }
+  Vec3 low, high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<Real>& all = along[i];
+    if (all.empty()) return {};
+    const auto few = all.size() < kMany ? std::ptrdiff_t{0} : std::ssize(all) / 20;
+    const Real eye = all.front(), first = all[std::min<std::size_t>(1, all.size() - 1)];
+    std::sort(all.begin(), all.end());
+    low[static_cast<int>(i)] = std::min({all[static_cast<std::size_t>(few)], eye, first});
+    high[static_cast<int>(i)] = std::max({all[all.size() - 1 - static_cast<std::size_t>(few)], eye, first});
+  }
+  return {low, high};
+}
+
 /// From the camera's right, far away, so that nothing is foreshortened; the camera looks to the right there,
 /// and what is up for the scene's camera is up.
 Camera sideCamera(const CameraFrame& front, const Vec3& updir, const std::vector<RaySegment>& segments,
                   double aspect) {
   const Vec3 right = normalize(front.right), ahead = normalize(cross(updir, right)), up = cross(right, ahead);
-  Box3 box;  // in the coordinates ahead, up, right
-  const auto extend = [&](const Vec3& p) {
-    if (isFinite(p)) box.extend({dot(p, ahead), dot(p, up), dot(p, right)});
-  };
-  for (const RaySegment& segment : segments) {
-    extend(segment.from);
-    extend(segment.to);
-  }
+  const Box3 box = boxOf(segments, {ahead, up, right});
   const Vec3 center = box.center(), size = box.size();
   const Real half = std::max({size.y / 2, size.x / 2 / aspect, 1e-3 * size.z}) * 1.1;
   const Real distance = 30 * half + size.z;
@@ -203,14 +223,7 @@ class RayDrawing {
   const RayNode& at(const RaySegment& segment) const {
     return tree_.nodes[static_cast<std::size_t>(segment.node)];
   }
-  Real size() const {
-    Box3 box;
-    for (const RaySegment& segment : segments_) {
-      box.extend(segment.from);
-      box.extend(segment.to);
-    }
-    return length(box.size());
-  }
+  Real size() const { return length(boxOf(segments_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).size()); }
 
   const RayTree& tree_;
   std::vector<RaySegment> segments_;
@@ -226,7 +239,7 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   const double top = kEdge + 2 * kLine, right = 2 * kEdge + kPanelWidth;
   Drawing drawing;
   drawing.width = static_cast<int>(2 * kPanelWidth + 3 * kEdge);
-  const std::size_t legendRows = (kRayLooks.size() + 3) / 3;
+  const std::size_t legendRows = (kRayLooks.size() + 4) / 3;
   drawing.height = static_cast<int>(top + height + 2 * kEdge + static_cast<double>(legendRows) * kLine);
   const DrawnFrame whole{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)};
 
@@ -281,6 +294,7 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   };
   for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
   entry("dashed: goes on without end", kInk, true);
+  entry("short: the surface's normal", kInk, false);
   return drawing;
 }
 

@@ -65,7 +65,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (arguments.pixel.empty())
     throw Error(Fault::usage, "ray explain: expected --pixel X,Y, found none",
                 "--pixel 0,0 is at the top left of the picture");
-  const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y");
+  const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y from 0 on");
   const int sample =
       arguments.sample.empty() ? 0 : wholeNumbers<1>("--sample", arguments.sample, "a whole number")[0];
   for (const Choice& choice : arguments.choices) {

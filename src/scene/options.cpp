@@ -166,8 +166,8 @@ void parse(const Option& option, std::string_view text, Region& value) {
     if (comma) rest.remove_prefix(1);
   }
   const Region region{numbers[0], numbers[1], numbers[2], numbers[3]};
-  if (!good || (region.whole() && !(region == Region{})))
-    refuse(option, "x0,y0,x1,y1 with x0 < x1 and y0 < y1", text);
+  if (!good) refuse(option, "four whole numbers x0,y0,x1,y1 from 0 on", text);
+  if (region.whole() && !(region == Region{})) refuse(option, "x0,y0,x1,y1 with x0 < x1 and y0 < y1", text);
   value = region;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/text.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/ray_rows.h"

@@ -66,6 +66,10 @@ TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
   EXPECT_EQ(by(sunny, "path", "1"), "");
   EXPECT_EQ(by("settings { fog-height = 2; } " + sunny, "path", "100"), "");
   EXPECT_EQ(by("scale(50, sphere { }) " + sunny, "path", "100"), "") << "nothing beyond is seen";
+  const std::string room =  // whose window the camera does not see
+      "polymesh { points = ((-9,-9,9), (9,-9,9), (9,9,9), (-9,9,9), (-9,-9,-12), (9,-9,-12), (9,9,-12), "
+      "(-9,9,-12)); faces = ((0,1,5,4), (3,2,6,7), (0,3,7,4), (1,2,6,5), (4,5,6,7)); } ";
+  EXPECT_NE(by(room + sunny, "path", "100"), "") << "light comes in behind the camera";
   EXPECT_EQ(by(kLit, "path", "100"), "");
 }
 
@@ -119,6 +123,9 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
   about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
+  EXPECT_EQ(warnings(kLit, {{"integrator", "path", {}}, {"caustic-radius", "0.1", {}}}),
+            "--caustic-radius changes nothing: it concerns whitted, photon, and --integrator is path\n")
+      << "one reason is enough";
   about(kLit, {{"fog-color", "0.5", {}}}, "--fog-color changes nothing without --fog");
   about(kLit, {{"moments", "4", {}}}, "--moments changes nothing without --shutter");
   about(kLit, {{"subdivide-threshold", "0.2", {}}},

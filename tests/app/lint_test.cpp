@@ -163,6 +163,36 @@ TEST(Lint, TheSunMayShineThroughGlass) {
             Checks{});
 }
 
+TEST(Lint, CausticsAreMissingOfLightsThatNoPathMeets) {
+  const auto by = [](const std::string& light, const std::string& material, const std::string& settings) {
+    return checksOf("settings { integrator = path; spp = 4; " + settings + " }" + kCamera + kFloor +
+                    "point_light { position = (3, 4, 3); color = (1, 1, 1); " + light + " }" +
+                    "translate(0, 0.5, 0, sphere { material = { diffuse = (0, 0, 0); " + material +
+                    " } })\n");
+  };
+  const std::string glass = "transmissive = (0.9, 0.9, 0.9); index = 1.5;",
+                    mirror = "reflective = (0.9, 0.9, 0.9);";
+  const Checks missing{"caustics-missing"};
+  for (const std::string& material : {glass, mirror}) {
+    EXPECT_EQ(by("", material, ""), missing);
+    EXPECT_EQ(by("radius = 0.3;", material, ""), missing) << "no path sees it";
+    EXPECT_EQ(by("radius = 0.3; visible = true;", material, "glass-shadows = black;"), Checks{});
+  }
+  EXPECT_EQ(by("radius = 0.3; visible = true;", mirror, ""), Checks{});
+  EXPECT_EQ(by("radius = 0.3; visible = true;", glass, ""), missing) << "shadow rays pass straight";
+}
+
+TEST(Lint, OneGlassOnALargeFloorIsToldOf) {
+  const auto by = [](const char* depth) {
+    return checksOf(
+        std::string("settings { depth = ") + depth + "; }" + kCamera + kSun + kFloor +
+        "translate(0, 0.3, 0, scale(0.3, sphere { material = { diffuse = (0, 0, 0); transmissive = "
+        "(1, 1, 1); index = 1.5; } }))\n");
+  };
+  EXPECT_EQ(by("1"), Checks{"depth-too-low"});
+  EXPECT_EQ(by("5"), Checks{});
+}
+
 TEST(Lint, DepthIsTooLowOnlyWhereMoreOfItIsSeen) {
   // Rays that stay in the glass for long, and hold little.
   const std::string glass =

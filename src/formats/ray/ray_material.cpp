@@ -214,8 +214,12 @@ void Materials::unknownField(const Block& block, const Item& field) {
       return findings_.error(
           field,
           "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
-          "it has " + list(keywords<Model>({"name", "bump", kOpacity, "displacement", "displacement_levels"}),
-                           "and"));
+          [&] {
+            const auto fields =
+                keywords<Model>({"name", "bump", kOpacity, "displacement", "displacement_levels"});
+            const std::string meant = didYouMean(key, fields);
+            return meant.empty() ? "it has " + list(fields, "and") : meant;
+          }());
     std::vector<std::string_view> having;
     forEachType<MaterialModel>([&]<class Other>(Other*) {
       forEachField<Other>([&](const auto& f) {
