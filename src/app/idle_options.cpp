@@ -118,16 +118,17 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     messages.warn(Place{.file = scene.file}, what, hint);
   };
   const std::string integrator = findOption("integrator").get(s);
+  const auto isConcerned = [&](const Option& option) {
+    return option.integrators == "all" || option.integrators.find(integrator) != std::string_view::npos;
+  };
   std::string meant = findOption("integrator").get({});  // the integrator that the scene is made for
   for (const Choice& choice : scene.choices)
     if (choice.option == "integrator") meant = choice.value;
   for (const Option& option : options()) {
-    const bool concerned =
-        option.integrators == "all" || option.integrators.find(integrator) != option.integrators.npos;
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
     const bool told = ofScene ? option.extra && integrator == meant : true;
-    if (told && !concerned && option.get(s) != option.get({}))
+    if (told && !isConcerned(option) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
@@ -138,9 +139,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                            (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    const std::string_view concerned = findOption(row.option).integrators;
-    const bool idleAnyway = concerned != "all" && concerned.find(integrator) == concerned.npos;
-    if (given && !idleAnyway && !otherwise && !switchedOff &&
+    if (given && isConcerned(findOption(row.option)) && !otherwise && !switchedOff &&
         findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
@@ -260,10 +259,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              ": how bright the picture is follows from so few samples",
          "choose " + std::to_string(kFewStarts) + " at least");
 
-  const auto isConcerned = [&](std::string_view option) {
-    return findOption(option).integrators.find(integrator) != std::string_view::npos;
-  };
-  if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned("subsurface-samples") &&
+  if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned(findOption("subsurface-samples")) &&
       !world.hasSubsurface())
     warn("--subsurface-samples changes nothing: in no body of the scene does light spread",
          "library = marble and millimetres = 10 in a material let it");

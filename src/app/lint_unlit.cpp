@@ -30,8 +30,6 @@ bool shinesOn(const LintScene& s, std::size_t light, std::uint32_t object) {
   return isFinite(middle) && arriving && !isBlack(arriving->intensity());
 }
 
-}  // namespace
-
 /// Paths may meet the light by chance: it has a size, and they see it.
 bool isMet(const Light& light) {
   return match(light, [](const auto& l) {
@@ -39,6 +37,8 @@ bool isMet(const Light& light) {
     return false;
   });
 }
+
+}  // namespace
 
 /// Paths by chance never meet a light without a size, or one that they do not see, so they bring nothing of
 /// its light by mirrors and glass. What glass gathers is missing wherever shadow rays run straight through
@@ -50,8 +50,8 @@ void causticsMissing(const LintScene& s, Findings& findings) {
     return;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Light& light = s.scene.lights[i].light;
-    const bool hasSize = match(light, [](const auto&l) { return l.hasSize(); }), met = isMet(light);
-    const bool straight = s.settings.glassShadows == GlassShadows::filtered;
+    const bool hasSize = match(light, [](const auto& l) { return l.hasSize(); });
+    const bool met = isMet(light), straight = s.settings.glassShadows == GlassShadows::filtered;
     if (met && !direct && !straight) continue;
     for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
       if (s.survey.objects[object].places == 0 || !gathersLight(s, object, met && !direct)) continue;

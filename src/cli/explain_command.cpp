@@ -78,6 +78,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
                   "pixels are counted from the top left of the whole picture");
   }
   const std::string_view format = formatOf(arguments);
+  if (arguments.lightImage && format != "text" && format != "json")
+    throw Error(Fault::usage, "--light-image: expected --format text or json, found " + std::string(format),
+                "a drawing shows the rays of one sample; the text names samples whose paths landed here");
   if (format == "png" && arguments.output.empty())
     throw Error(Fault::usage, "ray explain --format png: expected the name of a file, found none",
                 "-o rays.png");
@@ -89,7 +92,11 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
   opened->open(arguments.files[0], choices, arguments.strict);
-  const bool byChains = rowOf(opened->settings()).byChains;
+  const IntegratorRow& row = rowOf(opened->settings());
+  const bool byChains = row.byChains;
+  if (arguments.lightImage && (!row.throws || byChains))
+    throw Error(Fault::usage,
+                "--light-image: expected --integrator bdpt, which has one, found " + std::string(row.name));
   if (byChains) {
     console.line(
         LogLevel::info,
@@ -98,9 +105,6 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     choices.push_back({"integrator", "path", {}});
     opened.emplace().open(arguments.files[0], choices, arguments.strict);
   }
-  if (arguments.lightImage && !(rowOf(opened->settings()).throws && !byChains))
-    throw Error(Fault::usage, "--light-image: expected --integrator bdpt, which has one, found " +
-                                  std::string(byChains ? "mlt" : rowOf(opened->settings()).name));
   Session& session = *opened;
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();

@@ -279,9 +279,11 @@ std::string lightImageText(const PixelFacts& facts) {
            "the "
            "camera, as\n            caustics on matt things; --light-image finds it\n";
   const LightImagePixel& image = facts.light->image;
-  std::string lines = "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
-                      " paths that landed here, of " + std::to_string(image.paths) + "\nthe picture " +
-                      exact(facts.rendered + image.value) + "\n";
+  std::string lines =
+      "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
+      " paths that landed here, of " + std::to_string(image.paths) +
+      (facts.settings.noiseTarget > 0 ? "\nof all samples (--noise-target takes fewer) " : "\nthe picture ") +
+      exact(facts.rendered + image.value) + "\n";
   if (!image.brightest.empty()) lines += "The brightest of these paths:\n";
   for (std::size_t i = 0; i < image.brightest.size(); ++i) {
     const Landing& l = image.brightest[i];

@@ -80,8 +80,15 @@ TEST_F(Explain, FindsWhatTheLightImageBrings) {
   for (std::size_t c = 0; c < 3; ++c)
     EXPECT_EQ(all["lightImage"]["picture"][c].get<double>(),
               all["rendered"][c].get<double>() + all["lightImage"]["value"][c].get<double>());
-  words.insert(words.end(), {"--integrator", "path"});
-  EXPECT_NE(error(words, 2).find("--light-image: expected --integrator bdpt"), std::string::npos);
+  words.back() = "svg";
+  EXPECT_NE(error(words, 2).find("--light-image: expected --format text or json"), std::string::npos);
+  words.back() = "text";
+  for (const std::string integrator : {"path", "mlt"}) {
+    std::vector<std::string> others = words;
+    others.insert(others.end(), {"--integrator", integrator});
+    EXPECT_NE(error(others, 2).find("expected --integrator bdpt, which has one, found " + integrator),
+              std::string::npos);
+  }
 }
 
 /// What the schema promises: each ray's radiance follows from its terms.

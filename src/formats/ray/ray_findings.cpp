@@ -117,9 +117,7 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   if (again(key)) return;
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = didYouMean(name, known);
-  constexpr std::string_view kRadius = "radius";
-  const bool has = std::find(known.begin(), known.end(), kRadius) != known.end();
-  if (name == kRadius && !has) hint = "scale(2, sphere { }) makes it twice as large";
+  if (owner == "sphere" && name == "radius") hint = "scale(2, sphere { }) makes it twice as large";
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   add(key, field, "unknown field " + quotedStart(name) + " of " + std::string(owner) + " is ignored",
       std::move(hint));
