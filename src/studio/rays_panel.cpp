@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/text.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/ray_rows.h"
@@ -172,7 +171,9 @@ std::string lightImageAt(const TracedPixel& pixel) {
   const Film& film = pixel.session->film();
   if (!film.takesSplats() || rowOf(pixel.session->settings()).byChains) return "";
   const Color light = film.ofSplats(pixel.x, pixel.y);
-  return " So far " + toText(light.r) + " " + toText(light.g) + " " + toText(light.b) + ".";
+  char text[96];
+  std::snprintf(text, sizeof text, " They have brought %.4g %.4g %.4g here.", light.r, light.g, light.b);
+  return text;
 }
 
 /// What the pixel's rays leave unsaid, or which move of a chain they belong to.
