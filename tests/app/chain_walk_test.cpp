@@ -61,8 +61,8 @@ TEST(ChainWalk, EachMoveStartsWhereTheLastOneThatWasMadeLed) {
     EXPECT_EQ(move.chance, move.before > 0 ? std::min(1.0, move.light / move.before) : 1);
     EXPECT_TRUE(move.made || move.chance < 1);
     EXPECT_TRUE(!move.made || move.chance > 0);
-    ++offered[move.anywhere];
-    made[move.anywhere] += move.made;
+    ++offered[move.kind == MoveKind::anywhere];
+    made[move.kind == MoveKind::anywhere] += move.made;
   }
   EXPECT_GT(made[0], 10);
   EXPECT_EQ(walk.summary(), std::to_string(made[0]) + " of " + std::to_string(offered[0]) +
