@@ -113,7 +113,7 @@ Offer Moves::caustic(Path& from) {
       reached = std::make_unique<Vertex>(paths_.tracer, ray, std::move(inside), *hit);
       targets.push_back(targetOf(*hit));
     }
-    if (!reached->place.joins() || !!paths_.follow(path, RayKind::camera, targets.back())) return false;
+    if (!reached->place.joins() || !paths_.follow(path, RayKind::camera, targets.back())) return false;
     for (std::size_t i = 1; i + 1 < start; ++i)
       if (!paths_.follow(path, from.nodes[i].leaves, targets[targets.size() - 1 - i])) return false;
     return paths_.attach(path, from.nodes[start - 1].leaves, from, start, RayKind::bounce);
