@@ -26,8 +26,8 @@ std::string ChainWalk::summary() const {
     for (const ChainMove& m : moves)
       if (m.number >= 0 && m.kind == static_cast<MoveKind>(kind)) ++offered, made += m.made;
     if (offered == 0) continue;
-    parts.push_back(std::to_string(made) + " of " + std::to_string(offered) + (parts.empty() ? " moves " : " ") +
-                    std::string(kMoveLooks[kind].of));
+    parts.push_back(std::to_string(made) + " of " + std::to_string(offered) +
+                    (parts.empty() ? " moves " : " ") + std::string(kMoveLooks[kind].of));
   }
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -72,14 +72,15 @@ ChainWalk ChainWalker::near(int x, int y, const Cancelled& cancelled) const {
     if (moves == 0) continue;
     ChainWalk walk{tile};
     double distance = kInfinity;
-    chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves, [&](const ChainMove& move, const OfferedSample&) {
-      const double from = std::hypot(move.x - x, move.y - y);
-      if (move.made && move.light > 0 && from < distance) {
-        distance = from;
-        walk.nearest = static_cast<int>(walk.moves.size());
-      }
-      walk.moves.push_back(move);
-    });
+    chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves,
+                  [&](const ChainMove& move, const OfferedSample&) {
+                    const double from = std::hypot(move.x - x, move.y - y);
+                    if (move.made && move.light > 0 && from < distance) {
+                      distance = from;
+                      walk.nearest = static_cast<int>(walk.moves.size());
+                    }
+                    walk.moves.push_back(move);
+                  });
     followed += moves;
     if (distance < least) {
       least = distance;

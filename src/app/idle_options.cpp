@@ -247,8 +247,10 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--mutations changes nothing: the chains change numbers of samples",
          "--chains veach changes paths place by place");
   if (changesPaths(s) && s.fireflyLimit > 0)
-    warn("--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it is",
-         "more samples (--spp) spread them");
+    warn(
+        "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
+        "is",
+        "more samples (--spp) spread them");
   if (changesPaths(s) && (s.lightSamples > 1 || s.lightChoices > 0))
     warn("--light-samples and --light-choices change nothing: a path of --chains veach ends at one light");
   constexpr int kFewStarts = 1000;

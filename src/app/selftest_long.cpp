@@ -107,24 +107,21 @@ std::vector<Choice> choices(std::initializer_list<std::pair<const char*, const c
   return list;
 }
 
-const std::vector<Choice> kPath = choices({{"integrator", "path"}, {"spp", "96"}}),
-                          kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}}),
-                          kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}}),
-                          kMltBdpt = choices({{"integrator", "mlt"},
-                                              {"chains", "bdpt"},
-                                              {"spp", "192"},
-                                              {"chain-starts", "400000"}}),
-                          kMltVeach = choices({{"integrator", "mlt"},
-                                               {"chains", "veach"},
-                                               {"spp", "192"},
-                                               {"chain-starts", "400000"}}),
-                          // Photons have bounces of their own: only without an end are both the same.
+const std::vector<Choice>
+    kPath = choices({{"integrator", "path"}, {"spp", "96"}}),
+    kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}}),
+    kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}}),
+    kMltBdpt =
+        choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}}),
+    kMltVeach =
+        choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "400000"}}),
+    // Photons have bounces of their own: only without an end are both the same.
     kPathDeep = choices({{"integrator", "path"}, {"spp", "96"}, {"depth", "20"}}),
-                          kPhotonDeep = choices({{"integrator", "photon"},
-                                                 {"photons", "100000"},
-                                                 {"photon-passes", "4"},
-                                                 {"spp", "16"},
-                                                 {"depth", "20"}});
+    kPhotonDeep = choices({{"integrator", "photon"},
+                           {"photons", "100000"},
+                           {"photon-passes", "4"},
+                           {"spp", "16"},
+                           {"depth", "20"}});
 constexpr int kSeeds = 8;
 
 /// The p-value of all tiles' p-values together.

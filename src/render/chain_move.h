@@ -13,10 +13,10 @@ namespace trace {
 struct ChainMove {
   std::int64_t number = 0;  ///< from 0; -1 is where the chain starts
   MoveKind kind = MoveKind::nearby;
-  int x = 0, y = 0;         ///< the pixel that the offered sample looks at
-  Real light = 0;           ///< how bright it is
-  Real before = 0;          ///< and the sample where the chain was
-  Real chance = 1;          ///< with which the move is made
+  int x = 0, y = 0;  ///< the pixel that the offered sample looks at
+  Real light = 0;    ///< how bright it is
+  Real before = 0;   ///< and the sample where the chain was
+  Real chance = 1;   ///< with which the move is made
   bool made = true;
 };
 /// Takes the sample that is offered once more, by who wants to see its rays.

@@ -63,7 +63,8 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
   sums_.resize(static_cast<std::size_t>(starts));
   Work work("looking for light", chunks);
-  if (changesPaths(settings_)) paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
+  if (changesPaths(settings_))
+    paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
   std::atomic<std::int64_t> looked{0};
   parallelChunks(chunks, settings.threads, job, [&](std::int64_t chunk, int) {
     Budget budget(interrupt);
@@ -118,8 +119,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   Stop here = samples.at(numbers);
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
-  if (watch)
-    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, again);
+  if (watch) watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, again);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;

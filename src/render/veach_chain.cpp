@@ -68,8 +68,7 @@ Offer Chains::offer(PixelTracer& tracer, Path& here, Numbers& numbers, MoveKind&
     Offer offer{start(tracer, numbers)};
     if (!(offer.path.brightness > 0)) return offer;
     const Paths there = this->paths(tracer, offer.path.moment);
-    const Real density =
-        Moves(there, rules_, numbers, settings_.moveSize).anywhereDensity(offer.path);
+    const Real density = Moves(there, rules_, numbers, settings_.moveSize).anywhereDensity(offer.path);
     const Real before = here.brightness / moves.anywhereDensity(here);
     if (density > 0)
       offer.ratio = offer.path.brightness / (density * before) *

@@ -17,7 +17,8 @@ class Chains {
 
   /// How bright the picture is by the path that is made from nothing with these numbers: over its density.
   Real light(PixelTracer& tracer, std::uint64_t seed) const;
-  /// What a chain leaves in the picture that starts at that path, in so many moves; `mean` is that of light().
+  /// What a chain leaves in the picture that starts at that path, in so many moves; `mean` is that of
+  /// light().
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t start, std::uint64_t seed, std::int64_t moves,
                            Real mean, const ChainWatch& watch) const;
 

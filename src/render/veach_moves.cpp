@@ -20,9 +20,17 @@ Vec2 Numbers::next2() {
 
 namespace {
 
-/// How likely so many places in a row are taken out: one more often than others, none to put some in (Veach's
-/// p_d).
-Real takenOut(std::size_t n) { return n == 0 ? 0.25 : std::ldexp(1.0, -static_cast<int>(n)); }
+/// 1/2 to that power.
+Real halved(std::size_t times) {
+  return times < 60 ? 1 / static_cast<Real>(std::uint64_t{1} << times) : 0x1p-60;
+}
+
+/// How likely so many places in a row are taken out, of all `places` but for one: a single one more often
+/// than others, none to put some in (Veach's p_d).
+Real takenOut(std::size_t n, std::size_t places) {
+  const Real all = 1.25 - halved(places - 1);  // 1/4 + 1/2 + 1/4 + 1/8 ...
+  return (n == 0 ? 0.25 : halved(n)) / all;
+}
 
 /// Where they may begin. The lens and what shines stay unless others are put in.
 std::size_t positions(std::size_t n, std::size_t places) { return n == 0 ? places - 1 : places - n + 1; }
@@ -30,26 +38,23 @@ std::size_t positions(std::size_t n, std::size_t places) { return n == 0 ? place
 }  // namespace
 
 Kept Moves::choose(std::size_t places) {
-  Real all = 0;
-  for (std::size_t n = 0; n < places; ++n) all += takenOut(n);
-  Real rest = numbers_.next() * all;
+  Real rest = numbers_.next();
   std::size_t n = 0;
-  while (n + 1 < places && rest >= takenOut(n)) rest -= takenOut(n++);
+  while (n + 1 < places && rest >= takenOut(n, places)) rest -= takenOut(n++, places);
   const std::size_t count = positions(n, places);
-  const auto first = std::min(static_cast<std::size_t>(numbers_.next() * static_cast<Real>(count)), count - 1);
+  const auto first =
+      std::min(static_cast<std::size_t>(numbers_.next() * static_cast<Real>(count)), count - 1);
   const std::size_t atLens = first + (n == 0 ? 1 : 0);
   return {atLens, places - n - atLens};
 }
 
 Real Moves::chance(const Kept& kept, std::size_t places) const {
-  Real all = 0;
-  for (std::size_t n = 0; n < places; ++n) all += takenOut(n);
   const std::size_t n = places - kept.atLens - kept.atLight;
-  return takenOut(n) / all / static_cast<Real>(positions(n, places));
+  return takenOut(n, places) / static_cast<Real>(positions(n, places));
 }
 
-/// How many places the new path may have, and how likely: about as many as before (Veach's p_a), few if nothing
-/// is kept.
+/// How many places the new path may have, and how likely: about as many as before (Veach's p_a), few if
+/// nothing is kept.
 struct Moves::Lengths {
   std::size_t least, most, before;
   bool fromNothing;
@@ -59,20 +64,31 @@ struct Moves::Lengths {
     if (places < least || places > most) return 0;
     if (fromNothing) return 1 / static_cast<Real>(places);
     if (places == before) return kept == before ? 0 : 0.5;  // all is kept: something has to be put in
-    const auto away = static_cast<int>(places > before ? places - before : before - places);
-    return away == 1 ? 0.15 : 0.2 * std::ldexp(1.0, -away);
+    const std::size_t away = places > before ? places - before : before - places;
+    return away == 1 ? 0.15 : 0.2 * halved(away);
+  }
+  Real all() const {
+    Real sum = 0;
+    for (std::size_t n = least; n <= most; ++n) sum += weight(n);
+    return sum;
   }
   Real chance(std::size_t places) const {
-    Real all = 0;
-    for (std::size_t n = least; n <= most; ++n) all += weight(n);
-    return all > 0 ? weight(places) / all : 0;
+    const Real one = weight(places);
+    return one > 0 ? one / all() : 0;
+  }
+  std::size_t choose(Real u) const {
+    Real rest = u * all();
+    std::size_t places = least;
+    while (places < most && rest >= weight(places)) rest -= weight(places++);
+    return places;
   }
 };
 
 Moves::Lengths Moves::lengths(const Kept& kept, std::size_t before) const {
   const std::size_t all = kept.atLens + kept.atLight;
   const std::size_t least = all + (kept.atLens == 0) + (kept.atLight == 0);
-  return {std::max<std::size_t>(2, least), static_cast<std::size_t>(stage_.mostPlaces), before, all == 0, all};
+  return {std::max<std::size_t>(2, least), static_cast<std::size_t>(stage_.mostPlaces), before, all == 0,
+          all};
 }
 
 // --- the density of what is put in ------------------------------------------------------------------------
@@ -121,7 +137,7 @@ struct Moves::Walk {
     RayKind leaves = RayKind::bounce;  ///< how the path goes on from there toward the light
   };
   std::vector<Step> steps{};
-  std::unique_ptr<Vertex> at{};       ///< as the walk met the last one
+  std::unique_ptr<Vertex> at{};        ///< as the walk met the last one
   RayKind fromKept = RayKind::bounce;  ///< how the path goes on from the first place that is kept
 };
 
@@ -164,8 +180,8 @@ bool Moves::goOn(Walk& walk, const Vertex& from, RayKind& leaves) {
   const auto next = from.onward.choose(numbers_.next(), lobes_, true);
   if (!next) return false;
   leaves = next->kind;
-  const Ray ray = next->kind == RayKind::bounce ? from.at.leaveToLight(next->direction)
-                                                : from.hit.leave(next->direction);
+  const Ray ray =
+      next->kind == RayKind::bounce ? from.at.leaveToLight(next->direction) : from.hit.leave(next->direction);
   Interfaces inside = next->there;
   const auto hit = paths_.tracer.cast(ray, RayKind::light, inside);
   if (!hit) return false;
@@ -259,10 +275,7 @@ bool Moves::build(Path& path, Path& from, const Kept& kept, std::size_t places) 
 }
 
 Path Moves::anywhere() {
-  const Lengths lengths = this->lengths({}, 0);
-  Real rest = numbers_.next();
-  std::size_t places = lengths.least;
-  while (places < lengths.most && rest >= lengths.chance(places)) rest -= lengths.chance(places++);
+  const std::size_t places = lengths({}, 0).choose(numbers_.next());
   Path none, path;
   if (!build(path, none, {}, places) || !paths_.weigh(path, 0, path.last())) path.brightness = 0;
   return path;
@@ -272,9 +285,7 @@ Offer Moves::bidirectional(Path& from) {
   const std::size_t before = from.nodes.size();
   const Kept kept = choose(before);
   const Lengths lengths = this->lengths(kept, before);
-  Real rest = numbers_.next();
-  std::size_t places = lengths.least;
-  while (places < lengths.most && rest >= lengths.chance(places)) rest -= lengths.chance(places++);
+  const std::size_t places = lengths.choose(numbers_.next());
   Offer offer;
   Path& path = offer.path;
   if (!(lengths.chance(places) > 0) || !build(path, from, kept, places)) return offer;

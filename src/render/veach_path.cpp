@@ -12,15 +12,14 @@ namespace {
 
 Real cosineAt(const Vertex& vertex, const Vec3& direction) { return vertex.place.cosine(direction); }
 
-/// Light's part of a density, at a mirror or glass, over that of what the camera sees: radiance over the square
-/// of the index is kept, and a normal between those of a mesh's points turns rays, but no area (Veach 1997,
-/// sections 5.2 and 5.3).
+/// Light's part of a density, at a mirror or glass, over that of what the camera sees: radiance over the
+/// square of the index is kept, and a normal between those of a mesh's points turns rays, but no area (Veach
+/// 1997, sections 5.2 and 5.3).
 Real kappaOf(const Vertex& vertex, const Onward::Ray& next) {
   const Vec3 toEye = -vertex.ray.direction;
   const Vec3 &flat = vertex.hit.surface.normal, &shaded = vertex.at.normal;
   const Real turned = dot(toEye, shaded) * dot(next.direction, flat);
-  const Real narrowed =
-      turned != 0 ? std::abs(dot(toEye, flat) * dot(next.direction, shaded) / turned) : 0;
+  const Real narrowed = turned != 0 ? std::abs(dot(toEye, flat) * dot(next.direction, shaded) / turned) : 0;
   return narrowed / (next.ratio * next.ratio);
 }
 
@@ -76,8 +75,7 @@ bool Paths::follow(Path& path, RayKind kind, const Vec3& direction) const {
     if (!only) return false;
     ray = from.vertex->hit.leave(only->direction);
     inside = std::move(only->there);
-    next.asked =
-        kind == RayKind::refraction && from.asked && tracer.lightPasses(from.vertex->at.material);
+    next.asked = kind == RayKind::refraction && from.asked && tracer.lightPasses(from.vertex->at.material);
   }
   const auto hit = tracer.cast(ray, kind, inside);
   const auto end = [&](Path::End what, const Color& shines) {
@@ -186,8 +184,8 @@ bool Paths::weighPlace(Path& path, std::size_t i) const {
     node.factor = Color(density);
     node.eye = density / stage.filmArea();
     if (known && next)
-      node.edge = cosineAt(*next, path.ray.direction) /
-                   (stage.camera.parallel() ? 1 : next->hit.t * next->hit.t);
+      node.edge =
+          cosineAt(*next, path.ray.direction) / (stage.camera.parallel() ? 1 : next->hit.t * next->hit.t);
     return density > 0;
   }
   const Vertex& at = *node.vertex;
@@ -221,13 +219,13 @@ bool Paths::weighPlace(Path& path, std::size_t i) const {
 /// Whether a path of --integrator path would end so.
 bool Paths::allowed(const Path& path) const {
   const std::size_t end = path.last();
-  if (std::ssize(path.nodes) == stage.mostPlaces && path.nodes[end - 1].leaves != RayKind::bounce) return false;
+  if (std::ssize(path.nodes) == stage.mostPlaces && path.nodes[end - 1].leaves != RayKind::bounce)
+    return false;
   // Whether the rays in the part of the path that is kept see lights.
   for (std::size_t i = 1; i + (path.end == Path::End::light) < end; ++i) {
     const Node& from = path.nodes[i];
-    const bool asked =
-        from.leaves == RayKind::bounce || (from.leaves == RayKind::refraction && from.asked &&
-                                           tracer.lightPasses(from.vertex->at.material));
+    const bool asked = from.leaves == RayKind::bounce || (from.leaves == RayKind::refraction && from.asked &&
+                                                          tracer.lightPasses(from.vertex->at.material));
     if (path.nodes[i + 1].asked != asked) return false;
   }
   return true;
@@ -291,8 +289,7 @@ Real Paths::askDensity(const Path& path) const {
   const std::size_t end = path.last();
   if (end < 2 || path.end == Path::End::seen || path.nodes[end - 1].leaves != RayKind::bounce) return 0;
   const Vertex& from = path.vertex(end - 1);
-  if (path.end == Path::End::light)
-    return (1 - stage.lampShare()) / static_cast<Real>(stage.lights);
+  if (path.end == Path::End::light) return (1 - stage.lampShare()) / static_cast<Real>(stage.lights);
   const Vec3& toLight = path.toLight(end - 1);
   const Real density = path.end == Path::End::lamp
                            ? stage.lamps.density(from.place.point(), path.vertex(end).hit)

@@ -11,8 +11,8 @@
 // areas by the geometric term G of the edge; a mirror or glass hands it on to the place behind it, whatever
 // the surfaces' curvature does. Each G stands in f and, but for the edge that joins the two halves, in the
 // density of a path: so f and densities are kept without it, as if directions were counted by their cosine
-// to the surface (Veach 1997, sections 8.2 and 11.4). Places of mirrors and glass lie on no area of their own:
-// their part in a density is the chance of the choice of that ray.
+// to the surface (Veach 1997, sections 8.2 and 11.4). Places of mirrors and glass lie on no area of their
+// own: their part in a density is the chance of the choice of that ray.
 //
 // Places are those that rays from the camera meet. Rays from lights only propose them.
 #pragma once
@@ -73,11 +73,12 @@ struct Vertex {
 struct Node {
   std::shared_ptr<const Vertex> vertex{};  ///< none: the lens, or what shines and is no surface
   RayKind leaves = RayKind::camera;        ///< by which ray
-  bool asked = false;  ///< lights of the scene were asked before the ray that arrives, which does not see them
-  Color factor{1};     ///< of f: what is scattered, over the cosine
-  Real eye = 0;        ///< density of going on so
-  Real kappa = 1;      ///< of mirrors and glass: light's part of it over the part of what the camera sees
-  Real edge = 0;       ///< G of the way to the next place; 0 from mirrors and glass
+  bool asked =
+      false;        ///< lights of the scene were asked before the ray that arrives, which does not see them
+  Color factor{1};  ///< of f: what is scattered, over the cosine
+  Real eye = 0;     ///< density of going on so
+  Real kappa = 1;   ///< of mirrors and glass: light's part of it over the part of what the camera sees
+  Real edge = 0;    ///< G of the way to the next place; 0 from mirrors and glass
   // Worked out where somebody asks.
   std::shared_ptr<const Vertex> turned{};  ///< the place as a path from the light meets it
   std::optional<Real> light{};             ///< density of going on toward the camera
@@ -129,7 +130,8 @@ class Paths {
 
   /// The path is the lens, and looks at the place of the film.
   bool begin(Path& path, const Vec2& film, const Vec2& lens) const;
-  /// It goes on by such a ray, into the lobe in that direction, to the next surface or to an end that is none.
+  /// It goes on by such a ray, into the lobe in that direction, to the next surface or to an end that is
+  /// none.
   bool follow(Path& path, RayKind kind, const Vec3& direction = {}) const;
   /// The same, to the target, at which the camera is aimed.
   bool follow(Path& path, RayKind kind, const Target& target) const;

@@ -56,7 +56,8 @@ Offer Moves::lens(const Path& from) {
     if (joint < end)
       return path.nodes.back().vertex->place.joins() &&
              paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
-    return path.end == from.end || (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
+    return path.end == from.end ||
+           (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
   };
   if (!build() || !paths_.weigh(path, 0, joint + 1)) {
     path.brightness = 0;
@@ -158,7 +159,8 @@ Offer Moves::multiChain(const Path& from) {
     if (joint < end)
       return path.nodes.back().vertex->place.joins() &&
              paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
-    return path.end == from.end || (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
+    return path.end == from.end ||
+           (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
   };
   if (!build() || !paths_.weigh(path, 0, joint + 1)) {
     path.brightness = 0;

@@ -19,7 +19,8 @@ void addLight(Gather& sum, const Path& path, const Interaction& at) {
   if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
   Ray ray = place.leave(arriving->toLight);
   if (at.material.litThrough) ray.leaves = at.hit.object;
-  const Color all = place.scattered(*arriving), passed = tracer.visible(at.hit, ray, arriving->distance, at.inside);
+  const Color all = place.scattered(*arriving),
+              passed = tracer.visible(at.hit, ray, arriving->distance, at.inside);
   const Scatter parts = scatter(at.bsdf(), at.frame, arriving->toLight, place.from());
   sum.addLight(path.light, *arriving, parts, all * at.material.shadow, passed);
   if (at.material.shadow < 1)

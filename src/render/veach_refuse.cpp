@@ -6,8 +6,7 @@ namespace trace::veach {
 
 void refuseUnknown(const World& world, const Settings& settings) {
   const auto refuse = [](const std::string& what) {
-    throw Error(Fault::usage, "--chains veach does not know " + what,
-                "--chains bdpt and --chains path do");
+    throw Error(Fault::usage, "--chains veach does not know " + what, "--chains bdpt and --chains path do");
   };
   if (settings.fog > 0) refuse("fog");
   if (!world.media().empty()) refuse("media that fill bodies");

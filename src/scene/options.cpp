@@ -548,9 +548,8 @@ const std::array kOptions{
     row<&Settings::chains>(
         {.name = "chains",
          .group = "Tracing",
-         .help =
-             "what chains move among: the samples of path, those of bdpt, each by one way to choose its "
-             "places, or paths, which they change place by place (veach)",
+         .help = "what chains move among: the samples of path, those of bdpt, each by one way to choose its "
+                 "places, or paths, which they change place by place (veach)",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; Veach and Guibas 1997; docs/metropolis.md",
          .integrators = "mlt",
          .extra = true}),

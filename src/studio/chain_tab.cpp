@@ -60,13 +60,14 @@ void drawChain(Studio& studio, const TracedPixel&) {
   ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(10));
   ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("was", ImGuiTableColumnFlags_WidthStretch);
-  columnHeads({"its number in the chain",
-               "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
-               "place by place",
-               "that the offered path goes through", "how bright it is",
-               "with which the move is made: how bright it is beside the path where the chain was, and how likely "
-               "the way there is beside the way back",
-               "what came of it"});
+  columnHeads(
+      {"its number in the chain",
+       "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
+       "place by place",
+       "that the offered path goes through", "how bright it is",
+       "with which the move is made: how bright it is beside the path where the chain was, and how likely "
+       "the way there is beside the way back",
+       "what came of it"});
   if (std::exchange(view.revealMove, false)) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     ImGui::SetScrollY(

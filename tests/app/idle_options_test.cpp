@@ -62,9 +62,10 @@ TEST(IdleOptions, WhatChainsThatChangePathsLeaveOutIsTold) {
   EXPECT_EQ(told({veach, {"mutations", "lens", {}}}), "");
   EXPECT_EQ(told({{"mutations", "lens", {}}}),
             "--mutations changes nothing: the chains change numbers of samples\n");
-  EXPECT_EQ(told({veach, {"firefly-limit", "3", {}}}),
-            "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
-            "is\n");
+  EXPECT_EQ(
+      told({veach, {"firefly-limit", "3", {}}}),
+      "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
+      "is\n");
 }
 
 TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {

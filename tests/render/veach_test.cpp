@@ -1,5 +1,6 @@
-// Chains that change paths place by place: every mutation shows what paths show, of lights, cameras and surfaces
-// of every kind; moves there and back are as frequent; densities do not depend on how a path came about.
+// Chains that change paths place by place: every mutation shows what paths show, of lights, cameras and
+// surfaces of every kind; moves there and back are as frequent; densities do not depend on how a path came
+// about.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +66,8 @@ Settings settingsOf(int spp = 80, int depth = 3) {
 }
 
 /// Chains show the light of --integrator path, and no quarter is another one; the error of the mean is a part
-/// `known` of it. What chains leave in a quarter is not spread normally: a few bright paths hold many of them.
+/// `known` of it. What chains leave in a quarter is not spread normally: a few bright paths hold many of
+/// them.
 void expectTheLightOfPaths(const Scene& scene, const Settings& settings, Real known = 0.08) {
   Settings paths = settings;
   paths.integrator = IntegratorKind::path;
@@ -103,7 +105,8 @@ TEST(Veach, LightComesThroughADoorAjar) {
       scene, Cube{},
       Affine::translation({-0.5, 0, 0.1}) * turned({0, 1, 0}, 0.42) * Affine::scaling({0.05, 1.98, 1.3}),
       diffuse(0.6));
-  addObject(scene, Square{}, Affine::translation({-0.75, 0.8, -0.5}) * kDownward * Affine::scaling({0.4, 0.4, 1}),
+  addObject(scene, Square{},
+            Affine::translation({-0.75, 0.8, -0.5}) * kDownward * Affine::scaling({0.4, 0.4, 1}),
             diffuse(0.5, 40));
   expectTheLightOfPaths(scene, settingsOf(200, 4));
 }
@@ -134,7 +137,8 @@ TEST(Veach, LightsOfEveryKindAreShown) {
       Scene scene = corner(diffuse(0.7), withLamp ? mirror() : glass());
       scene.lights.push_back({light, {}});
       if (withLamp)
-        addObject(scene, Square{}, Affine::translation({1, 1, 0.2}) * turned({0, 1, 0}, 0.5), diffuse(0.3, 2));
+        addObject(scene, Square{}, Affine::translation({1, 1, 0.2}) * turned({0, 1, 0}, 0.5),
+                  diffuse(0.3, 2));
       expectTheLightOfPaths(scene, settingsOf());
     }
 }
@@ -190,8 +194,8 @@ TEST(Veach, SurfacesOfEveryKindAreShown) {
   RoughGlass rough;
   rough.roughness = 0.6;
   const std::vector<std::pair<const char*, MaterialModel>> models{
-      {"shiny", shiny},   {"half a mirror", half}, {"glass with paint", pane},
-      {"metal", Conductor{}}, {"clay", OrenNayar{}}, {"rough glass", rough}};
+      {"shiny", shiny},       {"half a mirror", half}, {"glass with paint", pane},
+      {"metal", Conductor{}}, {"clay", OrenNayar{}},   {"rough glass", rough}};
   for (const auto& [name, model] : models) {
     SCOPED_TRACE(name);
     expectTheLightOfPaths(lit(model, model), settingsOf());
@@ -236,10 +240,11 @@ TEST(Veach, WaterKeepsTheLight) {
 // ------------------------------------------------------------------------------------------------------
 
 TEST(Veach, MovesThereAndBackAreAsFrequent) {
-  // A chain that starts as it goes on: of each kind of move those that cross a border are made as often one way
-  // as the other. Borders lie between light and dark paths, and across the picture.
+  // A chain that starts as it goes on: of each kind of move those that cross a border are made as often one
+  // way as the other. Borders lie between light and dark paths, and across the picture.
   Scene scene = corner(diffuse(0.7), glass());
-  addObject(scene, Square{}, Affine::translation({-0.2, 1.3, 0.3}) * kDownward * Affine::scaling({0.3, 0.3, 1}),
+  addObject(scene, Square{},
+            Affine::translation({-0.2, 1.3, 0.3}) * kDownward * Affine::scaling({0.3, 0.3, 1}),
             diffuse(0, 20));
   Settings settings = settingsOf();
   settings.moveAnywhere = 0.05, settings.moveSize = 0.03, settings.chainStarts = 300000;
@@ -327,8 +332,10 @@ TEST(Veach, DensitiesDoNotDependOnHowAPathCameAbout) {
     for (std::size_t a = 0; a <= places; ++a)
       for (std::size_t b = 0; a + b <= places; ++b)
         if (a + b > 0) {
-          const Real one = moves.density(path, {a, b}, places + 1), other = moves.density(again, {a, b}, places + 1);
-          ASSERT_TRUE(near(one, other)) << one << " " << other << " with " << a << ", " << b << " of " << places;
+          const Real one = moves.density(path, {a, b}, places + 1),
+                     other = moves.density(again, {a, b}, places + 1);
+          ASSERT_TRUE(near(one, other))
+              << one << " " << other << " with " << a << ", " << b << " of " << places;
         }
   }
   EXPECT_GT(compared, 5000);
@@ -376,7 +383,8 @@ TEST(Veach, ShowsThingsThatMove) {
   Settings paths = settings;
   paths.integrator = IntegratorKind::path;
   const auto found = quarters(pictureOf(settings, {&before, &after})),
-             wanted = quarters(pictureOf(paths, {&before, &after})), one = quarters(pictureOf(paths, {&before}));
+             wanted = quarters(pictureOf(paths, {&before, &after})),
+             one = quarters(pictureOf(paths, {&before}));
   Real most = 0;
   for (std::size_t q = 0; q < 4; ++q) {
     EXPECT_NEAR(luminanceOf(found[q]) / luminanceOf(wanted[q]), 1, 0.1) << q;
@@ -411,7 +419,8 @@ TEST(Veach, WhatIsNotKnownIsRefused) {
   settings = settingsOf();
   Scene holes = lit();
   holes.materials[1].opacity = 0.5;
-  EXPECT_EQ(refused(holes, settings), "--chains veach does not know surfaces that are there in part (opacity)");
+  EXPECT_EQ(refused(holes, settings),
+            "--chains veach does not know surfaces that are there in part (opacity)");
   Scene cloud = lit();
   addCloud(cloud, Sphere{}, Affine::translation({0.5, 0.5, 0.5}) * scaled(0.3), 1);
   EXPECT_EQ(refused(cloud, settings), "--chains veach does not know media that fill bodies");
