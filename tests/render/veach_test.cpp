@@ -237,6 +237,42 @@ TEST(Veach, WaterKeepsTheLight) {
   }
 }
 
+TEST(Veach, LightThatEntersWaterIsAsBrightFromBothEnds) {
+  // From under water the camera sees places that a small lamp above it lights: nearly all of these paths come
+  // from the lamp, and their density changes where they enter the water.
+  Scene scene;
+  Phong water = glass();
+  water.index = 1.33;
+  addObject(scene, Cube{}, Affine::translation({0, 0.25, 0}) * Affine::scaling({5, 1.5, 5}), water);
+  addObject(scene, Square{}, Affine::translation({0, -0.2, 0}) * kUpward * Affine::scaling({4, 4, 1}),
+            diffuse(0.8));
+  addObject(scene, Square{}, Affine::translation({0, 1.8, 0}) * kDownward * Affine::scaling({0.6, 0.6, 1}),
+            diffuse(0, 20));
+  scene.camera.position = {0, 0.6, 0.6}, scene.camera.viewdir = {0, -1, -0.8};
+  scene.camera.fov = 60;
+  Settings settings = settingsOf(50, 2);
+  settings.chainStarts = 100000;
+  expectTheLightOfPaths(scene, settings, 0.06);
+}
+
+TEST(Veach, AWideCameraIsNotBrighterAtItsBorder) {
+  // Pieces of the picture are small angles there, which the mutation of the lens has to know.
+  Scene scene;
+  addObject(scene, Square{}, Affine::translation({0, 0, -1}) * Affine::scaling({20, 20, 1}), diffuse(0, 1));
+  scene.camera.fov = 130;
+  Settings settings = settingsOf(4000);
+  settings.mutations = {Mutation::lens};
+  settings.moveAnywhere = 0.02, settings.moveSize = 0.05;
+  const Picture shown = picture(scene, settings);
+  Real middle = 0, corners = 0;
+  for (const int x : {0, 1, 10, 11})
+    for (const int y : {0, 1, 10, 11}) corners += luminanceOf(shown.at(x, y)) / 16;
+  for (int x = 4; x < 8; ++x)
+    for (int y = 4; y < 8; ++y) middle += luminanceOf(shown.at(x, y)) / 16;
+  EXPECT_NEAR(corners, 1, 0.1);
+  EXPECT_NEAR(middle, 1, 0.1);
+}
+
 // ------------------------------------------------------------------------------------------------------
 
 TEST(Veach, MovesThereAndBackAreAsFrequent) {
