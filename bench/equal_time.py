@@ -22,6 +22,7 @@ INTEGRATORS = {
     "photon": ["photon", "--photons", "200000", "--photon-passes", "4"],
     "mlt": ["mlt", "--chain-starts", "50000"],
     "mlt --chains bdpt": ["mlt", "--chains", "bdpt", "--chain-starts", "50000"],
+    "mlt --chains veach": ["mlt", "--chains", "veach", "--chain-starts", "50000"],
 }
 
 
@@ -141,4 +142,5 @@ def main():
                   max(1e-9, bright[int(0.97 * len(bright))]))
 
 
-main()
+if __name__ == "__main__":
+    main()

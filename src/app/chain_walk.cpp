@@ -20,13 +20,19 @@ int ChainWalk::before(int index) const {
 }
 
 std::string ChainWalk::summary() const {
-  const auto count = [&](bool anywhere, bool onlyMade) {
-    return std::to_string(std::count_if(moves.begin(), moves.end(), [&](const ChainMove& m) {
-      return m.number >= 0 && m.anywhere == anywhere && (m.made || !onlyMade);
-    }));
-  };
-  return count(false, true) + " of " + count(false, false) + " moves nearby and " + count(true, true) +
-         " of " + count(true, false) + " anywhere were made";
+  std::vector<std::string> parts;
+  for (std::size_t kind = 0; kind < kMoveKinds; ++kind) {
+    int offered = 0, made = 0;
+    for (const ChainMove& m : moves)
+      if (m.number >= 0 && m.kind == static_cast<MoveKind>(kind)) ++offered, made += m.made;
+    if (offered == 0) continue;
+    parts.push_back(std::to_string(made) + " of " + std::to_string(offered) +
+                    (parts.empty() ? " moves " : " ") + std::string(kMoveLooks[kind].of));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+  return text + " were made";
 }
 
 std::string sentence(const ChainMove& move) {
@@ -35,7 +41,7 @@ std::string sentence(const ChainMove& move) {
     std::snprintf(text, sizeof text, "starts at pixel %d, %d, with light %.4g", move.x, move.y, move.light);
   else
     std::snprintf(text, sizeof text, "%s, to pixel %d, %d: light %.4g after %.4g, a chance of %.3g: %s",
-                  move.anywhere ? "anywhere" : "nearby", move.x, move.y, move.light, move.before, move.chance,
+                  look(move.kind).name.data(), move.x, move.y, move.light, move.before, move.chance,
                   move.made ? "made" : "not made");
   return text;
 }
@@ -66,14 +72,15 @@ ChainWalk ChainWalker::near(int x, int y, const Cancelled& cancelled) const {
     if (moves == 0) continue;
     ChainWalk walk{tile};
     double distance = kInfinity;
-    chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves, [&](const ChainMove& move, PrimarySample&) {
-      const double from = std::hypot(move.x - x, move.y - y);
-      if (move.made && move.light > 0 && from < distance) {
-        distance = from;
-        walk.nearest = static_cast<int>(walk.moves.size());
-      }
-      walk.moves.push_back(move);
-    });
+    chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves,
+                  [&](const ChainMove& move, const OfferedSample&) {
+                    const double from = std::hypot(move.x - x, move.y - y);
+                    if (move.made && move.light > 0 && from < distance) {
+                      distance = from;
+                      walk.nearest = static_cast<int>(walk.moves.size());
+                    }
+                    walk.moves.push_back(move);
+                  });
     followed += moves;
     if (distance < least) {
       least = distance;
@@ -90,9 +97,9 @@ TracedPixel ChainWalker::offered(const ChainWalk& walk, int index) const {
   PixelTracer plain = chains_.tracer();
   PixelTracer recording(session_->moments(), chains_.settings(), session_->size(), &tree);
   chains_.chain(plain, Metropolis::numberOf(walk.tile, 0), wanted.number + 1,
-                [&](const ChainMove& move, PrimarySample& numbers) {
+                [&](const ChainMove& move, const OfferedSample& show) {
                   if (move.number != wanted.number) return;
-                  const Splat seen = recording.sample(numbers, chains_.area());
+                  const Splat seen = show(recording);
                   explanation.samples = {tree.nodes.front().radiance};
                   explanation.weights = {1};
                   explanation.pixel = explanation.samples.front();

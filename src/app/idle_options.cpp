@@ -253,6 +253,16 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
     warn("--light-vertices and --camera-vertices show nothing: with --depth " + std::to_string(s.depth) +
              " a path has " + std::to_string(s.depth + 3) + " places at most",
          "choose a larger --depth, or fewer places");
+  if (chains && !changesPaths(s) && !(s.mutations == Settings{}.mutations))
+    warn("--mutations changes nothing: the chains change numbers of samples",
+         "--chains veach changes paths place by place");
+  if (changesPaths(s) && s.fireflyLimit > 0)
+    warn(
+        "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
+        "is",
+        "more samples (--spp) spread them");
+  if (changesPaths(s) && (s.lightSamples > 1 || s.lightChoices > 0))
+    warn("--light-samples and --light-choices change nothing: a path of --chains veach ends at one light");
   constexpr int kFewStarts = 1000;
   if (chains && s.chainStarts < kFewStarts)
     warn("--chain-starts " + std::to_string(s.chainStarts) +

@@ -113,6 +113,8 @@ const Choices kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}});
 const Choices kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}});
 const Choices kMltBdpt =
     choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}});
+const Choices kMltVeach =
+    choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "400000"}});
 // Photons have bounces of their own: only without an end are both the same.
 const Choices kPathDeep = choices({{"integrator", "path"}, {"spp", "96"}, {"depth", "20"}});
 const Choices kPhotonDeep = choices({{"integrator", "photon"},
@@ -183,6 +185,14 @@ constexpr std::array kLongChecks{
               [] { return brighter(Room::glass, kMltBdpt); }},
     SelfCheck{"mlt over bdpt and path: a door ajar", kMeans, 0, kErrors,
               [] { return brighter(Room::door, kMltBdpt); }},
+    SelfCheck{"mlt over paths' places and path: a room", kMeans, 0, kErrors,
+              [] { return brighter(Room::diffuse, kMltVeach); }},
+    SelfCheck{"mlt over paths' places and path: with a mirror", kMeans, 0, kErrors,
+              [] { return brighter(Room::mirror, kMltVeach); }},
+    SelfCheck{"mlt over paths' places and path: with a ball of glass", kMeans, 0, kErrors,
+              [] { return brighter(Room::glass, kMltVeach); }},
+    SelfCheck{"mlt over paths' places and path: a door ajar", kMeans, 0, kErrors,
+              [] { return brighter(Room::door, kMltVeach); }},
     SelfCheck{"mlt and path: a panel behind a pane", kMeans, 0, kErrors,
               [] { return brighter(Room::window, kMlt); }},
     SelfCheck{"photon and path: a panel behind a pane", kBlur, 1, 0.02,

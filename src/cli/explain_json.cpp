@@ -317,7 +317,7 @@ std::string explainJson(const PixelFacts& facts) {
     json["chain"] = {{"nearest", facts.chain->nearest}, {"moves", Json::list()}};
     for (const ChainMove& m : facts.chain->moves)
       json["chain"]["moves"].add({{"number", m.number},
-                                  {"anywhere", m.anywhere},
+                                  {"kind", look(m.kind).name},
                                   {"x", m.x},
                                   {"y", m.y},
                                   {"light", m.light},

@@ -71,11 +71,11 @@ std::string statisticsTable(const Run& run) {
   text += row("hierarchy", "nodes", "", "per ray");
   text +=
       row("visited", std::to_string(s.nodes.count), "", orDash("%.2f", ratio(s.nodes.count, s.allRays())));
-  if (s.moves > 0) {
-    text += row("chains", "moves", "kept", "kept/move");
-    text += row("", std::to_string(s.moves), std::to_string(s.movesKept),
-                orDash("%.3f", ratio(s.movesKept, s.moves)));
-  }
+  if (s.hasMoves()) text += row("chains", "moves", "kept", "kept/move");
+  for (size_t i = 0; i < kMoveKinds; ++i)
+    if (s.moves[i] > 0)
+      text += row(kMoveLooks[i].name, std::to_string(s.moves[i]), std::to_string(s.movesKept[i]),
+                  orDash("%.3f", ratio(s.movesKept[i], s.moves[i])));
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
     text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
@@ -110,7 +110,9 @@ std::string statisticsJson(const Run& run) {
   });
   json["nodes"] = s.nodes.count;
   json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
-  if (s.moves > 0) json["chains"] = {{"moves", s.moves}, {"kept", s.movesKept}};
+  for (size_t i = 0; i < kMoveKinds; ++i)
+    if (s.moves[i] > 0)
+      json["chains"][kMoveLooks[i].name] = {{"moves", s.moves[i]}, {"kept", s.movesKept[i]}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

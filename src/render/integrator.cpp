@@ -8,6 +8,7 @@
 #include "render/integrators/occlusion.h"
 #include "render/integrators/path.h"
 #include "render/integrators/whitted.h"
+#include "render/veach_path.h"
 
 namespace trace {
 namespace {
@@ -53,6 +54,7 @@ const IntegratorRow& rowOf(const Settings& settings) {
 
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {
   auto integrator = rowOf(settings).make(settings);
+  if (changesPaths(settings)) veach::refuseUnknown(world, settings);
   integrator->prepare(world, settings, job);
   return integrator;
 }

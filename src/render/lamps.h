@@ -69,6 +69,8 @@ class Lamps {
   /// With which it gives that unit direction.
   Real skyStartDensity(const Vec3& toLight) const;
 
+  /// Whether the ray to the place met it.
+  bool met(const Place& place, const Hit& hit) const;
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
   /// `chance` is Tracer::chance().
   Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const;
@@ -114,9 +116,6 @@ class Lamps {
     return tree_.empty() ? parts_[part].share
                          : tree_.probability(from, nullptr, static_cast<std::uint32_t>(part));
   }
-  /// Whether the ray to the place met it.
-  bool met(const Place& place, const Hit& hit) const;
-
   SkyTable sky_;
   std::vector<Portal> portals_;
   std::vector<Part> parts_;

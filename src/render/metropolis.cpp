@@ -63,6 +63,8 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
   sums_.resize(static_cast<std::size_t>(starts));
   Work work("looking for light", chunks);
+  if (changesPaths(settings_))
+    paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
   std::atomic<std::int64_t> looked{0};
   parallelChunks(chunks, settings.threads, job, [&](std::int64_t chunk, int) {
     Budget budget(interrupt);
@@ -71,7 +73,8 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     Sampling samples(tracer, area_);
     for (std::int64_t n = chunk * kChunk; n < std::min(starts, (chunk + 1) * kChunk); ++n) {
       PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
-      sums_[static_cast<std::size_t>(n)] = samples.at(numbers).light;
+      sums_[static_cast<std::size_t>(n)] =
+          paths_ ? paths_->light(tracer, seedOf(static_cast<std::uint64_t>(n))) : samples.at(numbers).light;
     }
     work.reached(++looked);
   });
@@ -82,8 +85,11 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
 }
 
 PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) const {
-  return {mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(number + 1)), moves,
-          settings_.moveSize};
+  return {seedOf(number), moves, settings_.moveSize};
+}
+
+std::uint64_t Metropolis::seedOf(std::uint64_t start) const {
+  return mixBits(static_cast<std::uint64_t>(settings_.seed) ^ mixBits(start + 1));
 }
 
 std::uint64_t Metropolis::numberOf(std::int64_t tile, int firstSample) {
@@ -98,7 +104,9 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   std::uint64_t chances = mixBits(mixBits(static_cast<std::uint64_t>(settings_.seed) ^ kChains) ^ number);
   const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
   const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
-  PrimarySample numbers = startOf(static_cast<std::uint64_t>(from - sums_.begin()), mixBits(chances));
+  const auto start = static_cast<std::uint64_t>(from - sums_.begin());
+  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, mean_, watch);
+  PrimarySample numbers = startOf(start, mixBits(chances));
   Sampling samples(tracer, area_);
   // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how
   // often both choose this one, for each move and on the average, is the density of the two.
@@ -110,9 +118,11 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
 
   Stop here = samples.at(numbers);
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
-  if (watch) watch({-1, true, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, numbers);
+  const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
+  if (watch) watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, again);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
+    const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
     Stop there = samples.at(numbers);
     const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
@@ -120,14 +130,11 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, anywhere, pixelOf(there).x, pixelOf(there).y, there.light, here.light, accepts, goes},
-            numbers);
+      watch({n, kind, pixelOf(there).x, pixelOf(there).y, there.light, here.light, accepts, goes}, again);
     if (goes) std::swap(here, there);
     goes ? numbers.keep() : numbers.undo();
     leave(there);
-    Statistics& statistics = tracer.tracer().statistics();
-    ++statistics.moves;
-    statistics.movesKept += goes;
+    tracer.tracer().statistics().count(kind, goes);
   }
   leave(here);
   return splats;

@@ -11,27 +11,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "image/film.h"
-#include "render/pixel.h"
+#include "render/chain_move.h"
 #include "render/primary_sample.h"
+#include "render/veach_chain.h"
 
 namespace trace {
-
-/// One move of a chain: a sample that was offered to it.
-struct ChainMove {
-  std::int64_t number = 0;  ///< from 0; -1 is where the chain starts
-  bool anywhere = false;    ///< all numbers were thrown anew; else each was moved a little
-  int x = 0, y = 0;         ///< the pixel that the offered sample looks at
-  Real light = 0;           ///< how bright it is
-  Real before = 0;          ///< and the sample where the chain was
-  Real chance = 1;          ///< with which the move is made
-  bool made = true;
-};
-/// Sees each move before it is made or taken back, with the numbers of the sample that is offered.
-using ChainWatch = std::function<void(const ChainMove&, PrimarySample&)>;
 
 class Metropolis {
  public:
@@ -57,6 +46,8 @@ class Metropolis {
 
  private:
   PrimarySample startOf(std::uint64_t number, std::uint64_t moves) const;
+  /// From which the numbers of a sample that is taken first follow.
+  std::uint64_t seedOf(std::uint64_t start) const;
 
   std::span<const Moment> moments_;
   Settings settings_;
@@ -64,6 +55,7 @@ class Metropolis {
   Tile area_;               ///< of the picture that is rendered
   std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
   Real mean_ = 0;           ///< light of a sample
+  std::unique_ptr<const veach::Chains> paths_;  ///< where paths are changed, not the numbers of samples
 };
 
 }  // namespace trace

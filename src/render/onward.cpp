@@ -65,9 +65,8 @@ bool Onward::totallyReflected(Real choice) const {
 }
 
 std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLight, bool lit) const {
-  const Vec3 from = -at_.ray.direction;
-  const Vec3& flat = at_.hit.surface.normal;
   if (choice < toLobe_) {
+    const Vec3 from = -at_.ray.direction;
     const Real which = lobe.next();
     const auto drawn = sample(at_.bsdf(), at_.frame, from, which, lobe.next2(), Transport::importance);
     if (!drawn) return {};
@@ -78,24 +77,33 @@ std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLi
     return Ray{RayKind::bounce, to, light / (drawn->density * toLobe_),
                drawn->density,  1,  inward && at_.transmits ? at_.behind() : at_.inside};
   }
+  const bool mirrors = choice < toLobe_ + toMirror_;
+  if (!mirrors && goesIntoBody(choice) > 0) return {};
+  const RayKind kind = mirrors ? RayKind::reflection : RayKind::refraction;
+  return only(kind, fromLight, chance(kind));
+}
+
+std::optional<Onward::Ray> Onward::only(RayKind kind, bool fromLight, Real likely) const {
+  if (!(chance(kind) > 0)) return {};
+  const Vec3 from = -at_.ray.direction;
+  const Vec3& flat = at_.hit.surface.normal;
   // Light loses or gains by the angle between the two normals what paths from the camera do not.
   const auto narrowed = [&](const Vec3& to) {
     if (!fromLight) return Real{1};
     const Real seen = dot(from, flat) * dot(to, at_.normal);
     return seen != 0 ? std::abs(dot(from, at_.normal) * dot(to, flat) / seen) : 1;
   };
-  if (choice < toLobe_ + toMirror_) {
+  if (kind == RayKind::reflection) {
     const Vec3 to = mirrored(at_.ray.direction, at_.normal);
-    return Ray{RayKind::reflection, to, mirror_ * (narrowed(to) / toMirror_), 0, 1, at_.inside};
+    return Ray{kind, to, mirror_ * (narrowed(to) / likely), 0, 1, at_.inside};
   }
-  if (!(toBehind_ > 0) || goesIntoBody(choice) > 0) return {};
   const auto to = at_.through(*share_);
   if (!to) return {};
   // Along paths from the camera radiance over the square of the index is kept, which light is not.
   const Real ratio = at_.ratio(*share_), counts = fromLight ? ratio * ratio * narrowed(*to) : 1;
   Interfaces behind = at_.behind();
   behind.wavelength = share_->nanometres;
-  return Ray{RayKind::refraction, *to, through_ * (counts / toBehind_), 0, ratio, std::move(behind)};
+  return Ray{kind, *to, through_ * (counts / likely), 0, ratio, std::move(behind)};
 }
 
 }  // namespace trace

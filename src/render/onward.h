@@ -37,6 +37,12 @@ class Onward {
   /// Chooses where a path from the camera goes on, or one `fromLight`, which carries light itself; `lit`:
   /// light that Whitted's equation knows.
   std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
+  /// The mirrored or the refracted ray, if there is one, chosen with that probability.
+  std::optional<Ray> only(RayKind kind, bool fromLight = false, Real likely = 1) const;
+  /// How likely choose() goes on by such a ray: bounce, reflection or refraction.
+  Real chance(RayKind kind) const {
+    return kind == RayKind::bounce ? toLobe_ : kind == RayKind::reflection ? toMirror_ : toBehind_;
+  }
   /// How likely the choice of a way through the body was, if it is that; else 0.
   Real goesIntoBody(Real choice) const {
     return choice >= toLobe_ + toMirror_ && choice < toLobe_ + toMirror_ + toBody_ ? toBody_ : 0;

@@ -87,6 +87,12 @@ class PixelTracer {
 
   /// The tracer of the moment of the last sample.
   Tracer& tracer() { return tracers_[now_]; }
+  /// That of a moment.
+  Tracer& tracer(std::size_t moment) {
+    now_ = moment;
+    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
+    return tracers_[moment];
+  }
   /// The statistics of all samples.
   Statistics statistics() const {
     Statistics sum;

@@ -6,6 +6,7 @@
 
 #include "accel/bvh_node.h"
 #include "geometry/shape.h"
+#include "render/move_kind.h"
 #include "render/ray_kind.h"
 
 namespace trace {
@@ -25,7 +26,7 @@ struct Statistics : QueryCounts<NodeCount> {
   std::array<std::uint64_t, kRayKinds> rays{};  ///< by RayKind
   std::uint64_t depths = 0;                     ///< of all but shadow rays, summed: a camera ray has depth 0
   std::uint64_t badSamples = 0;                 ///< NaN or infinite, dropped
-  std::uint64_t moves = 0, movesKept = 0;       ///< of Markov chains
+  std::array<std::uint64_t, kMoveKinds> moves{}, movesKept{};  ///< of Markov chains, by MoveKind
   /// What --firefly-limit took from samples: a sum of luminances in parts of kLightParts, which no order
   /// changes.
   std::uint64_t lightRemoved = 0;
@@ -36,6 +37,11 @@ struct Statistics : QueryCounts<NodeCount> {
     for (std::uint64_t n : rays) sum += n;
     return sum;
   }
+  void count(MoveKind kind, bool kept) {
+    ++moves[static_cast<std::size_t>(kind)];
+    movesKept[static_cast<std::size_t>(kind)] += kept;
+  }
+  bool hasMoves() const { return moves != decltype(moves){}; }
   /// All but shadow rays.
   std::uint64_t pathRays() const { return allRays() - rays[static_cast<std::size_t>(RayKind::shadow)]; }
   Statistics& operator+=(const Statistics& other) {
@@ -48,8 +54,10 @@ struct Statistics : QueryCounts<NodeCount> {
     nodes.count += other.nodes.count;
     badSamples += other.badSamples;
     lightRemoved += other.lightRemoved;
-    moves += other.moves;
-    movesKept += other.movesKept;
+    for (std::size_t i = 0; i < kMoveKinds; ++i) {
+      moves[i] += other.moves[i];
+      movesKept[i] += other.movesKept[i];
+    }
     return *this;
   }
   bool operator==(const Statistics&) const = default;

@@ -28,7 +28,9 @@ template <>
 constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
     "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
 template <>
-constexpr std::array<std::string_view, 2> kNames<Chains>{"path", "bdpt"};
+constexpr std::array<std::string_view, 3> kNames<Chains>{"path", "bdpt", "veach"};
+template <>
+constexpr std::array<std::string_view, 4> kNames<Mutation>{"bidirectional", "lens", "caustic", "multi-chain"};
 template <>
 constexpr std::array<std::string_view, 7> kNames<SampleKind>{"grid",   "random", "jittered", "stratified",
                                                              "halton", "sobol",  "blue"};
@@ -546,12 +548,17 @@ const std::array kOptions{
     row<&Settings::chains>(
         {.name = "chains",
          .group = "Tracing",
-         .help =
-             "whose samples chains move among: those of path, or those of bdpt, each by one way to choose "
-             "its places",
-         .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; docs/metropolis.md",
+         .help = "what chains move among: the samples of path, those of bdpt, each by one way to choose its "
+                 "places, or paths, which they change place by place (veach)",
+         .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; Veach and Guibas 1997; docs/metropolis.md",
          .integrators = "mlt",
          .extra = true}),
+    row<&Settings::mutations>(
+        {.name = "mutations",
+         .group = "Tracing",
+         .help = "how --chains veach changes paths, beside throwing them anew (--move-anywhere)",
+         .source = "Veach and Guibas 1997, section 5; docs/metropolis.md",
+         .integrators = "mlt"}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",

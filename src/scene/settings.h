@@ -18,8 +18,10 @@ namespace trace {
 
 enum class Accel { bvh, none };
 enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
-/// Which integrator's samples the chains of mlt move among.
-enum class Chains { path, bdpt };
+/// What the chains of mlt move among: an integrator's samples, or paths, which are changed place by place.
+enum class Chains { path, bdpt, veach };
+/// How paths are changed place by place.
+enum class Mutation { bidirectional, lens, caustic, multiChain };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
@@ -119,6 +121,8 @@ struct Settings {
   int lightVertices = -1, cameraVertices = -1;
   bool unweighted = false;
   Chains chains = Chains::path;
+  EnumSet<Mutation> mutations{Mutation::bidirectional, Mutation::lens, Mutation::caustic,
+                              Mutation::multiChain};
   int chainStarts = 100000;
   Real moveAnywhere = 0.3;
   Real moveSize = 0.01;
@@ -209,6 +213,11 @@ inline Real timeOfMoment(const Settings& s, int moment) {
 inline bool isBidirectional(const Settings& s) {
   return s.integrator == IntegratorKind::bdpt ||
          (s.integrator == IntegratorKind::mlt && s.chains == Chains::bdpt);
+}
+
+/// Chains of mlt change paths place by place.
+inline bool changesPaths(const Settings& s) {
+  return s.integrator == IntegratorKind::mlt && s.chains == Chains::veach;
 }
 
 inline Optics opticsOf(const Settings& s) {

@@ -26,7 +26,7 @@ void moveRow(RaysView& view, const ChainMove& move, int index, const ImVec4& mut
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", sentence(move).c_str());
   if (!move.made) ImGui::PushStyleColor(ImGuiCol_Text, muted);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(move.anywhere ? "anywhere" : "nearby");
+  ImGui::TextUnformatted(look(move.kind).name.data());
   ImGui::TableNextColumn();
   ImGui::Text("%d, %d", move.x, move.y);
   ImGui::TableNextColumn();
@@ -55,16 +55,19 @@ void drawChain(Studio& studio, const TracedPixel&) {
   if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(7));
-  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(10));
+  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(13));
   ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(10));
   ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(10));
   ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("was", ImGuiTableColumnFlags_WidthStretch);
-  columnHeads({"its number in the chain",
-               "each of the path's numbers changes a little, or all are thrown anew",
-               "that the offered path goes through", "how bright it is",
-               "with which the move is made: how bright it is beside the path where the chain was",
-               "what came of it"});
+  columnHeads(
+      {"its number in the chain",
+       "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
+       "place by place",
+       "that the offered path goes through", "how bright it is",
+       "with which the move is made: how bright it is beside the path where the chain was, and how likely "
+       "the way there is beside the way back",
+       "what came of it"});
   if (std::exchange(view.revealMove, false)) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     ImGui::SetScrollY(

@@ -158,7 +158,8 @@ void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int h
     if (!move.made) continue;
     const bool round = last && (std::abs(at.x - last->x) > frame.size.x / 2 ||  // by the picture's other edge
                                 std::abs(at.y - last->y) > frame.size.y / 2);
-    if (last && !move.anywhere && !round) list.AddLine(*last, at, IM_COL32(110, 200, 255, 130), 1);
+    if (last && move.kind != MoveKind::anywhere && !round)
+      list.AddLine(*last, at, IM_COL32(110, 200, 255, 130), 1);
     list.AddCircleFilled(at, radius, IM_COL32(110, 200, 255, 200));
     last = at;
   }

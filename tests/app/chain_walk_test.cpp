@@ -31,7 +31,7 @@ std::shared_ptr<const Session> chainSession(Chains chains) {
 }
 
 TEST(ChainWalk, TheRaysOfAMoveAreTheSampleThatWasOffered) {
-  for (const Chains chains : {Chains::path, Chains::bdpt}) {
+  for (const Chains chains : {Chains::path, Chains::bdpt, Chains::veach}) {
     const ChainWalker walker(chainSession(chains), {});
     const ChainWalk walk = walker.near(16, 16, {});
     ASSERT_GT(walk.moves.size(), 100u);
@@ -61,13 +61,28 @@ TEST(ChainWalk, EachMoveStartsWhereTheLastOneThatWasMadeLed) {
     EXPECT_EQ(move.chance, move.before > 0 ? std::min(1.0, move.light / move.before) : 1);
     EXPECT_TRUE(move.made || move.chance < 1);
     EXPECT_TRUE(!move.made || move.chance > 0);
-    ++offered[move.anywhere];
-    made[move.anywhere] += move.made;
+    ++offered[move.kind == MoveKind::anywhere];
+    made[move.kind == MoveKind::anywhere] += move.made;
   }
   EXPECT_GT(made[0], 10);
   EXPECT_EQ(walk.summary(), std::to_string(made[0]) + " of " + std::to_string(offered[0]) +
                                 " moves nearby and " + std::to_string(made[1]) + " of " +
                                 std::to_string(offered[1]) + " anywhere were made");
+}
+
+TEST(ChainWalk, MutationsAreToldApart) {
+  const ChainWalker walker(chainSession(Chains::veach), {});
+  const ChainWalk walk = walker.near(16, 16, {});
+  int lens = 0;
+  for (const ChainMove& move : walk.moves) {
+    EXPECT_NE(move.kind, MoveKind::nearby);
+    if (move.kind != MoveKind::lens) continue;
+    ++lens;
+    EXPECT_NE(sentence(move).find("lens, to pixel "), std::string::npos);
+  }
+  EXPECT_GT(lens, 10);
+  EXPECT_NE(walk.summary().find(" bidirectional and "), std::string::npos) << walk.summary();
+  EXPECT_NE(walk.summary().find(" of the lens were made"), std::string::npos) << walk.summary();
 }
 
 }  // namespace

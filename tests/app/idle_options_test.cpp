@@ -52,6 +52,22 @@ TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
     EXPECT_EQ(warnings(sky + ball, by(integrator)), "") << integrator;
 }
 
+TEST(IdleOptions, WhatChainsThatChangePathsLeaveOutIsTold) {
+  const auto told = [](std::vector<Choice> choices) {
+    choices.push_back({"integrator", "mlt", {}});
+    return warnings(kLit, choices);
+  };
+  const Choice veach{"chains", "veach", {}};
+  EXPECT_EQ(told({veach}), "");
+  EXPECT_EQ(told({veach, {"mutations", "lens", {}}}), "");
+  EXPECT_EQ(told({{"mutations", "lens", {}}}),
+            "--mutations changes nothing: the chains change numbers of samples\n");
+  EXPECT_EQ(
+      told({veach, {"firefly-limit", "3", {}}}),
+      "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
+      "is\n");
+}
+
 TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
   const std::string sunny =
       "directional_light { direction = (0, -1, -1); color = 1; } translate(0, 0, -9, sphere { })";

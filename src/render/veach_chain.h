@@ -1,0 +1,42 @@
+// Chains that walk among paths of light and change them place by place (Veach and Guibas 1997).
+#pragma once
+
+#include <array>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "render/chain_move.h"
+#include "render/veach_moves.h"
+
+namespace trace::veach {
+
+class Chains {
+ public:
+  Chains(std::span<const Moment> moments, const Settings& settings, const Size& size, const Tile& area);
+
+  /// How bright the picture is by the path that is made from nothing with these numbers: over its density.
+  Real light(PixelTracer& tracer, std::uint64_t seed) const;
+  /// What a chain leaves in the picture that starts at that path, in so many moves; `mean` is that of
+  /// light().
+  std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t start, std::uint64_t seed, std::int64_t moves,
+                           Real mean, const ChainWatch& watch) const;
+
+ private:
+  struct Stop;
+  Path start(PixelTracer& tracer, Numbers& numbers) const;
+  Paths paths(PixelTracer& tracer, std::size_t moment) const;
+  std::size_t momentBy(Numbers& numbers) const;
+  Offer offer(PixelTracer& tracer, Path& here, Numbers& numbers, MoveKind& kind) const;
+  std::vector<MoveKind> mutationsOf(const Moves& moves, const Path& path) const;
+  Real anywhereChance(const std::vector<MoveKind>& kinds) const;
+  void leave(const Stop& at, Real mean, std::vector<Splat>& splats) const;
+  Splat pixelOf(const Path& path) const;
+
+  const Settings& settings_;
+  Tile area_;
+  SampleRules rules_;
+  std::deque<Stage> stages_;  ///< of each moment
+};
+
+}  // namespace trace::veach
