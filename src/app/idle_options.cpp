@@ -94,6 +94,7 @@ constexpr std::array kServes{
     Serves{"fog-samples", "fog", "0.05"},
     Serves{"subdivide-threshold", "subdivide", "3"},
     Serves{"caustic-radius", "caustics", "200000"},
+    Serves{"irradiance-rays", "irradiance-cache", "0.2"},
     Serves{"focus", "aperture", "0.1"},
     Serves{"focus-on", "aperture", "0.1"},
     Serves{"blades", "aperture", "0.1"},
@@ -112,13 +113,15 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
   std::string meant = findOption("integrator").get({});  // the integrator that the scene is made for
   for (const Choice& choice : scene.choices)
     if (choice.option == "integrator") meant = choice.value;
+  const auto isConcerned = [&](std::string_view option) {
+    const std::string_view all = findOption(option).integrators;
+    return all == "all" || all.find(integrator) != all.npos;
+  };
   for (const Option& option : options()) {
-    const bool concerned =
-        option.integrators == "all" || option.integrators.find(integrator) != option.integrators.npos;
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
     const bool told = ofScene ? option.extra && integrator == meant : true;
-    if (told && !concerned && option.get(s) != option.get({}))
+    if (told && !isConcerned(option.name) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            std::string(option.integrators) + ", and --integrator is " + integrator);
   }
@@ -129,7 +132,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                            (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    if (given && !otherwise && !switchedOff &&
+    if (given && isConcerned(row.option) && !otherwise && !switchedOff &&
         findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
@@ -227,10 +230,11 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                "nothing",
          "--lamp-samples 4 lets it; --integrator path follows the light further");
 
-  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
+  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s) &&
+      s.photonPasses != Settings{}.photonPasses)
     warn("--photon-passes " + std::to_string(s.photonPasses) +
              ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
-         "choose --spp at least as large: the other maps are made in vain");
+         "choose --spp at least as large: no other maps are made");
   if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
     warn("--unweighted: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");
@@ -249,9 +253,6 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
              ": how bright the picture is follows from so few samples",
          "choose " + std::to_string(kFewStarts) + " at least");
 
-  const auto isConcerned = [&](std::string_view option) {
-    return findOption(option).integrators.find(integrator) != std::string_view::npos;
-  };
   if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned("subsurface-samples") &&
       !world.hasSubsurface())
     warn("--subsurface-samples changes nothing: in no body of the scene does light spread",
