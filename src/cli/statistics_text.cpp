@@ -75,6 +75,7 @@ std::string statisticsTable(const Run& run) {
     text += row("chains", "moves", "kept", "kept/move");
     text += row("", std::to_string(s.moves), std::to_string(s.movesKept),
                 orDash("%.3f", ratio(s.movesKept, s.moves)));
+    text += row("brightness", "", "", formatted("+-%.2g %%", 100 * run.result.brightnessError));
   }
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
@@ -110,7 +111,7 @@ std::string statisticsJson(const Run& run) {
   });
   json["nodes"] = s.nodes.count;
   json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
-  if (s.moves > 0) json["chains"] = {{"moves", s.moves}, {"kept", s.movesKept}};
+  if (s.moves > 0) json["chains"] = {{"moves", s.moves}, {"kept", s.movesKept}, {"brightnessError", run.result.brightnessError}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});
