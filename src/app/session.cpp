@@ -48,7 +48,8 @@ std::uint64_t bytesPerPixel(const Settings& settings) {
 /// The bytes of the photons that stay until the picture is made, if each comes to rest once.
 std::uint64_t photonBytes(const Settings& settings) {
   const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
-  const int passes = std::max(1, static_cast<int>(std::min(settings.photonPasses, samplesOf(settings)) / moments));
+  const int passes =
+      std::max(1, static_cast<int>(std::min(settings.photonPasses, samplesOf(settings)) / moments));
   const std::int64_t photons = settings.integrator == IntegratorKind::photon
                                    ? std::int64_t{settings.photons} * passes
                                : settings.integrator == IntegratorKind::whitted ? settings.caustics

@@ -133,8 +133,7 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
                   100 * removed / (removed + kept));
     console.line(LogLevel::info, text);
   }
-  if (const std::string doubt = brightnessDoubt(session.settings(), result.brightnessError);
-      !doubt.empty())
+  if (const std::string doubt = brightnessDoubt(session.settings(), result.brightnessError); !doubt.empty())
     console.line(LogLevel::warning, "warning: " + doubt);
   if (result.statistics.badSamples == 0) return;
   std::string text = counted(result.statistics.badSamples, "sample") +

@@ -111,7 +111,9 @@ std::string statisticsJson(const Run& run) {
   });
   json["nodes"] = s.nodes.count;
   json["nodesPerRay"] = orNull(ratio(s.nodes.count, s.allRays()));
-  if (s.moves > 0) json["chains"] = {{"moves", s.moves}, {"kept", s.movesKept}, {"brightnessError", run.result.brightnessError}};
+  if (s.moves > 0)
+    json["chains"] = {
+        {"moves", s.moves}, {"kept", s.movesKept}, {"brightnessError", run.result.brightnessError}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

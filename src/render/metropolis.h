@@ -52,8 +52,8 @@ class Metropolis {
                            const ChainWatch& watch = {}) const;
   /// The part of the picture where chains go.
   const Tile& area() const { return area_; }
-  /// The standard error of how bright the picture is, relative to that: all that chains leave is in proportion
-  /// to the mean light of the samples taken first. Infinite where none of them found light.
+  /// The standard error of how bright the picture is, relative to that: all that chains leave is in
+  /// proportion to the mean light of the samples taken first. Infinite where none of them found light.
   Real brightnessError() const { return error_; }
   /// With which their samples are taken.
   const Settings& settings() const { return settings_; }

@@ -35,7 +35,8 @@ struct LandedPhotons {
 
 /// Which photons surfaces keep.
 enum class Kept {
-  caustics,   ///< that mirrors and glass have thrown there, and nothing else; the rest ends where it is scattered
+  caustics,   ///< that mirrors and glass have thrown there, and nothing else; the rest ends where it is
+              ///< scattered
   scattered,  ///< that something has scattered on the way
   all
 };
@@ -90,7 +91,8 @@ class PhotonEmitter {
   void lightFog(const Flight& flight, LandedPhotons& landed);
   bool rests(const Flight& flight) const;
   void scatter(Flight& flight, const Vec3& point, Real forward);
-  bool goOn(Flight& flight, const Interaction& at, bool scattersIt, const std::optional<SubsurfaceBsdf>& body);
+  bool goOn(Flight& flight, const Interaction& at, bool scattersIt,
+            const std::optional<SubsurfaceBsdf>& body);
 
   std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;

@@ -31,7 +31,8 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness, std
   constexpr std::size_t kFacings = 6;
   auto begin = photons_.begin();
   for (std::size_t facing = 0; facing < kFacings; ++facing) {
-    const auto end = std::partition(begin, photons_.end(), [&](const Photon& p) { return facingOf(p) == facing; });
+    const auto end =
+        std::partition(begin, photons_.end(), [&](const Photon& p) { return facingOf(p) == facing; });
     if (begin == end) continue;
     Box3 normals;
     for (auto photon = begin; photon != end; ++photon) normals.extend(photon->normal);

@@ -120,6 +120,8 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about("ambient_light { color = (1, 1, 1); }\nsphere { }", {{"integrator", "path", {}}}, "finds no light");
   about(kLit, {{"smooth-terminator", "on", {}}}, "no mesh of the scene has normals");
   about(kLit, {{"fog-color", "0.5", {}}}, "--fog-color changes nothing without --fog");
+  about(kLit, {{"integrator", "photon", {}}, {"irradiance-rays", "99", {}}},
+        "--irradiance-rays changes nothing without --irradiance-cache");
   about(kLit, {{"moments", "4", {}}}, "--moments changes nothing without --shutter");
   about(kLit, {{"subdivide-threshold", "0.2", {}}},
         "--subdivide-threshold changes nothing without --subdivide");

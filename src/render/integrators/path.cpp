@@ -103,7 +103,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight, numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight,
+                         numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
       return scattered(tracer, ray, *media, *place, path, inside, sampler, after);
   }
@@ -183,7 +184,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const bool cached = !path.gathers && addCached(sum, at);
   const bool follows = scatters(at.bsdf()) && asks && !cached;
   const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
-  const Real inBody = body && !path.told ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
+  const Real inBody =
+      body && !path.told ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
   const bool both = body && path.depth == 0;  // what is seen first is followed into the body besides
   const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;

@@ -9,11 +9,11 @@
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
 //
 // With photons a path ends at the first surface that scatters: lights and lamps are asked, and the photons
-// around tell the rest, those that mirrors and glass have thrown there by a map of their own. Each sample of a
-// pixel takes the photons of the next pass (progressive photon mapping: Hachisuka, Ogaki and Jensen 2008). With
-// final gathering (Jensen 2001, section 7.4) a path ends one ray later: photons of all light tell what that ray
-// would find. With an irradiance cache such a ray is only sent where no place nearby, of those worked out
-// beforehand, tells what it would bring.
+// around tell the rest, those that mirrors and glass have thrown there by a map of their own. Each sample of
+// a pixel takes the photons of the next pass (progressive photon mapping: Hachisuka, Ogaki and Jensen 2008).
+// With final gathering (Jensen 2001, section 7.4) a path ends one ray later: photons of all light tell what
+// that ray would find. With an irradiance cache such a ray is only sent where no place nearby, of those
+// worked out beforehand, tells what it would bring.
 #pragma once
 
 #include <memory>
@@ -58,8 +58,8 @@ class PathTracer : public Integrator {
   Light light_;
   bool gathers_ = false;      ///< rays look around, and photons tell what they find
   bool photonsTell_ = false;  ///< they tell what a place scatters that is seen
-  int depth_ = 0;          ///< the most bounces
-  int mostScattered_ = 1;  ///< the most times that media scatter
+  int depth_ = 0;             ///< the most bounces
+  int mostScattered_ = 1;     ///< the most times that media scatter
   Lamps lamps_;
   struct Maps {
     PhotonMap all, caustics, media;
