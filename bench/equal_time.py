@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Pictures of the integrators that follow light, each of the same CPU time on one thread, and how far they are off.
 
-equal_time.py RAY NAME=SCENE=INTEGRATOR... [--seconds S] [--width W] [--many SAMPLES] [-o FOLDER]
+equal_time.py RAY NAME=SCENE=INTEGRATOR... [--seconds S] [--width W] [--seeds N] [--many SAMPLES] [--keep FOLDER] [-o FOLDER]
 
 Writes FOLDER/equal-time-NAME.png, one row of pictures, with the one they are compared with last, and prints a Markdown
 table. That one is of very many samples by the integrator that is named, mlt or bdpt. Of each pixel's luminance the square of the difference counts,
 over reference^2 + 0.01 (mean of the reference)^2, averaged over the pixels; and over all but the hundredth that is worst,
-which is that of rare bright paths. The samples are chosen by two short renders of each.
+which is that of rare bright paths. The samples are chosen by two short renders of each. The figures are means over
+the seeds, the pictures those of the last one. --keep leaves the pictures of very many samples in a folder and takes them from there
+the next time.
 """
 import argparse
 import os
@@ -19,7 +21,7 @@ import zlib
 INTEGRATORS = {
     "path": ["path"],
     "bdpt": ["bdpt"],
-    "photon": ["photon", "--photons", "200000", "--photon-passes", "4"],
+    "photon": ["photon"],
     "mlt": ["mlt", "--chain-starts", "50000"],
     "mlt --chains bdpt": ["mlt", "--chains", "bdpt", "--chain-starts", "50000"],
     "mlt --chains veach": ["mlt", "--chains", "veach", "--chain-starts", "50000"],
@@ -97,10 +99,19 @@ def write_row(path, width, height, pictures, white):
                    chunk(b"IDAT", zlib.compress(bytes(rows), 9)) + chunk(b"IEND", b""))
 
 
-def render(ray, scene, width, how, samples):
+def reference(given, name, scene, by):
+    """The picture of very many samples; made only if there is none in the folder of --keep."""
+    how = ["mlt", "--chain-starts", "500000"] if by == "mlt" else [by]
+    kept = given.keep and os.path.join(given.keep, f"{name}-{given.width}-{given.many}.hdr")
+    if kept and os.path.exists(kept):
+        return read_hdr(kept)
+    return render(given.ray, scene, given.width, how + ["--seed", "99"], given.many, kept)[0]
+
+
+def render(ray, scene, width, how, samples, kept=None):
     """The picture and the CPU seconds that it took."""
     with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "picture.hdr")
+        file = kept or os.path.join(folder, "picture.hdr")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([ray, scene, "-o", file, "-q", "-t", "1", "--width", str(width), "--depth", "8",
                         "--firefly-limit", "0", "--spp", str(samples), "--integrator"] + how, check=True)
@@ -109,7 +120,7 @@ def render(ray, scene, width, how, samples):
 
 
 def samples_for(ray, scene, width, how, seconds):
-    few, more = 4, 32
+    few, more = 8, 32  # as many passes of photons in both
     short, longer = (render(ray, scene, width, how, n)[1] for n in (few, more))
     each = max(1e-4, (longer - short) / (more - few))
     return max(1, round((seconds - short) / each + few))
@@ -121,24 +132,28 @@ def main():
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--seconds", type=float, default=8)
     parser.add_argument("--width", type=int, default=128)
+    parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--many", type=int, default=2000)
+    parser.add_argument("--keep")
     parser.add_argument("-o", "--output", default=".")
     given = parser.parse_args()
     print("| scene | integrator | samples | CPU s | error | s x error | of 99 % |\n|---|---|--:|--:|--:|--:|--:|")
     for named in given.scenes:
         name, scene, by = named.split("=")
-        many = ["mlt", "--chain-starts", "500000"] if by == "mlt" else [by]
-        (width, height, reference), _ = render(given.ray, scene, given.width, many + ["--seed", "99"], given.many)
+        width, height, wanted = reference(given, name, scene, by)
         pictures = []
         for title, how in INTEGRATORS.items():
             samples = samples_for(given.ray, scene, given.width, how, given.seconds)
-            (_, _, pixels), seconds = render(given.ray, scene, given.width, how, samples)
+            found = []  # of each seed: CPU seconds, error, that of 99 %
+            for seed in range(1, given.seeds + 1):
+                (_, _, pixels), seconds = render(given.ray, scene, given.width, how + ["--seed", str(seed)], samples)
+                found.append((seconds, *errors(pixels, wanted)))
             pictures.append(pixels)
-            every, most = errors(pixels, reference)
-            print(f"| {name} | `{title}` | {samples} | {seconds:.1f} | {every:.3g} | {seconds * every:.3g} | "
-                  f"{seconds * most:.3g} |", flush=True)
-        bright = sorted(luminance(p) for p in reference)
-        write_row(os.path.join(given.output, f"equal-time-{name}.png"), width, height, pictures + [reference],
+            mean = lambda values: sum(values) / given.seeds
+            print(f"| {name} | `{title}` | {samples} | {mean(f[0] for f in found):.1f} | {mean(f[1] for f in found):.3g} | "
+                  f"{mean(f[0] * f[1] for f in found):.3g} | {mean(f[0] * f[2] for f in found):.3g} |", flush=True)
+        bright = sorted(luminance(p) for p in wanted)
+        write_row(os.path.join(given.output, f"equal-time-{name}.png"), width, height, pictures + [wanted],
                   max(1e-9, bright[int(0.97 * len(bright))]))
 
 

@@ -103,6 +103,7 @@ constexpr std::array kServes{
     Serves{"fog-samples", "fog", "0.05"},
     Serves{"subdivide-threshold", "subdivide", "3"},
     Serves{"caustic-radius", "caustics", "200000"},
+    Serves{"irradiance-rays", "irradiance-cache", "0.2"},
     Serves{"focus", "aperture", "0.1"},
     Serves{"focus-on", "aperture", "0.1"},
     Serves{"blades", "aperture", "0.1"},
@@ -237,10 +238,11 @@ void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world
                "nothing",
          "--lamp-samples 4 lets it; --integrator path follows the light further");
 
-  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s))
+  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s) &&
+      s.photonPasses != Settings{}.photonPasses)
     warn("--photon-passes " + std::to_string(s.photonPasses) +
              ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
-         "choose --spp at least as large: the other maps are made in vain");
+         "choose --spp at least as large: no other maps are made");
   if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
     warn("--unweighted: all light counts as often as there are ways to find it",
          "--light-vertices S or --camera-vertices T shows one of the ways");

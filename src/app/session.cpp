@@ -48,8 +48,10 @@ std::uint64_t bytesPerPixel(const Settings& settings) {
 /// The bytes of the photons that stay until the picture is made, if each comes to rest once.
 std::uint64_t photonBytes(const Settings& settings) {
   const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
+  const int passes =
+      std::max(1, static_cast<int>(std::min(settings.photonPasses, samplesOf(settings)) / moments));
   const std::int64_t photons = settings.integrator == IntegratorKind::photon
-                                   ? std::int64_t{settings.photons} * settings.photonPasses
+                                   ? std::int64_t{settings.photons} * passes
                                : settings.integrator == IntegratorKind::whitted ? settings.caustics
                                                                                 : 0;
   return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
@@ -165,19 +167,21 @@ void Session::buildMoments() {
   moments_.clear();
   worlds_.clear();
   integrators_.clear();
-  const auto add = [&](const World& world) {
-    integrators_.push_back(makeIntegrator(world, settings_, job_));
+  const auto add = [&](const World& world, const Settings& settings) {
+    integrators_.push_back(makeIntegrator(world, settings, job_));
     moments_.push_back({&world, integrators_.back().get()});
   };
   if (settings_.shutter > 0 && !sceneAt_)
     messages_.warn(Place{.file = scene_.file},
                    "nothing in the scene changes with time: --shutter blurs nothing",
                    "docs/animation.md tells how things move");
-  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_);
+  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
   Work work("building the moments of the shutter", settings_.moments);
   Scene before = scene_;
   const World* built = &*world_;
   bool moves = false;
+  Settings own = settings_;  // each moment has a part of the passes of photons, and sends others
+  own.photonPasses = std::max(1, own.photonPasses / own.moments);
   for (int moment = 0; moment < settings_.moments; ++moment) {
     Scene scene = sceneAt_(timeOfMoment(settings_, moment));
     if (scene.objects.size() != scene_.objects.size() || scene.lights.size() != scene_.lights.size())
@@ -193,7 +197,8 @@ void Session::buildMoments() {
     worlds_.push_back(compile(scene, settings_, known, &earlier));
     built = &worlds_.back();
     before = std::move(scene);
-    add(*built);
+    own.seed = settings_.seed ^ (moment << 16);
+    add(*built, own);
     work.reached(moment + 1);
   }
   if (!moves)

@@ -394,7 +394,6 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"light-vertices", "1"},
                                                                        {"camera-vertices", "1"},
                                                                        {"chains", "bdpt"},
-                                                                       {"photon-passes", "16"},
                                                                        {"light-choices", "4"},
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},

@@ -1,10 +1,12 @@
 #include "cli/render_steps.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "base/file.h"
 #include "cli/commands.h"
+#include "cli/formatted.h"
 #include "cli/memory_limit.h"
 #include "cli/statistics_text.h"
 #include "image/codec.h"
@@ -35,6 +37,20 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
     console.line(LogLevel::info, "note: samples of \"" + std::string(generator.name) +
                                      "\" are placed by their number, so that none can be added later; "
                                      "--sampling sobol allows it");
+}
+
+/// What a user should know of the brightness of a picture by chains; nothing where that is exact enough.
+std::string brightnessDoubt(const Settings& settings, Real error) {
+  constexpr Real kLarge = 0.03, kWanted = 0.02;
+  if (!(error > kLarge)) return {};
+  if (!std::isfinite(error))
+    return "none of the first " + counted(static_cast<std::uint64_t>(settings.chainStarts), "sample") +
+           " found light, and so the picture is black; a larger --chain-starts looks longer";
+  const Real enough = settings.chainStarts * (error / kWanted) * (error / kWanted);
+  const Real digit = std::pow(10, std::floor(std::log10(enough)));
+  return "how bright the whole picture is is known to " + formatted("%.2g", 100 * error) +
+         " % only (one standard error); --chain-starts " +
+         std::to_string(static_cast<std::int64_t>(std::ceil(enough / digit) * digit)) + " makes that 2 %";
 }
 
 }  // namespace
@@ -117,6 +133,8 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
                   100 * removed / (removed + kept));
     console.line(LogLevel::info, text);
   }
+  if (const std::string doubt = brightnessDoubt(session.settings(), result.brightnessError); !doubt.empty())
+    console.line(LogLevel::warning, "warning: " + doubt);
   if (result.statistics.badSamples == 0) return;
   std::string text = counted(result.statistics.badSamples, "sample") +
                      (result.statistics.badSamples == 1 ? " was" : " were") + " not finite and left out";

@@ -76,6 +76,8 @@ std::string statisticsTable(const Run& run) {
     if (s.moves[i] > 0)
       text += row(kMoveLooks[i].name, std::to_string(s.moves[i]), std::to_string(s.movesKept[i]),
                   orDash("%.3f", ratio(s.movesKept[i], s.moves[i])));
+  if (s.hasMoves())
+    text += row("brightness", "", "", formatted("+-%.2g %%", 100 * run.result.brightnessError));
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
     text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
@@ -113,6 +115,7 @@ std::string statisticsJson(const Run& run) {
   for (size_t i = 0; i < kMoveKinds; ++i)
     if (s.moves[i] > 0)
       json["chains"][kMoveLooks[i].name] = {{"moves", s.moves[i]}, {"kept", s.movesKept[i]}};
+  if (s.hasMoves()) json["chains"]["brightnessError"] = run.result.brightnessError;
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

@@ -80,8 +80,13 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   });
   job.done = 0;  // what comes next counts anew
   if (job.cancel) return;
+  Real squares = 0;
+  for (const Real light : sums_) squares += light * light;
   for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
-  mean_ = sums_.back() / static_cast<Real>(starts);
+  const Real count = static_cast<Real>(starts);
+  mean_ = sums_.back() / count;
+  error_ = std::sqrt(std::max(0.0, squares / count - mean_ * mean_) / count) / mean_;
+  if (!(mean_ > 0)) error_ = kInfinity;
 }
 
 PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) const {

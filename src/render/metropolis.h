@@ -41,6 +41,9 @@ class Metropolis {
                            const ChainWatch& watch = {}) const;
   /// The part of the picture where chains go.
   const Tile& area() const { return area_; }
+  /// The standard error of how bright the picture is, relative to that: all that chains leave is in
+  /// proportion to the mean light of the samples taken first. Infinite where none of them found light.
+  Real brightnessError() const { return error_; }
   /// With which their samples are taken.
   const Settings& settings() const { return settings_; }
 
@@ -55,6 +58,7 @@ class Metropolis {
   Tile area_;               ///< of the picture that is rendered
   std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
   Real mean_ = 0;           ///< light of a sample
+  Real error_ = 0;
   std::unique_ptr<const veach::Chains> paths_;  ///< where paths are changed, not the numbers of samples
 };
 

@@ -35,13 +35,14 @@ std::optional<std::pair<Vec3, Real>> coneOfSpot(const Light& light) {
 }  // namespace
 
 PhotonEmitter::PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
-                             std::vector<PhotonTarget> targets, bool onlyCaustics, int texels, int pass)
+                             std::vector<PhotonTarget> targets, Kept kept, int texels, int pass)
     : seedOfPass_(mixBits(static_cast<std::uint64_t>(pass)) - mixBits(0)),
       world_(world),
       settings_(settings),
       lamps_(lamps),
       targets_(std::move(targets)),
-      onlyCaustics_(onlyCaustics),
+      kept_(kept),
+      onlyCaustics_(kept == Kept::caustics),
       fog_(settings),
       tracer_(world, settings),
       texels_(texels),

@@ -33,14 +33,20 @@ struct LandedPhotons {
   std::vector<std::pair<IlluminationMap::Place, Color>> onMaps{};
 };
 
+/// Which photons surfaces keep.
+enum class Kept {
+  caustics,   ///< that mirrors and glass have thrown there, and nothing else; the rest ends where it is
+              ///< scattered
+  scattered,  ///< that something has scattered on the way
+  all
+};
+
 class PhotonEmitter {
  public:
-  /// With `onlyCaustics` photons are kept where they land after mirrors and glass, and those alone; they are
-  /// sent to the targets; with `texels` they lie on maps of so many where a surface has one. Else every
-  /// surface that scatters keeps them, and so do media, but for those that come there straight: their light
-  /// is asked for.
+  /// Photons fly to the targets. With `texels`, caustics lie on maps of so many where a surface has one. Of
+  /// others, media keep those that do not come straight: what does is asked for.
   PhotonEmitter(const World& world, const Settings& settings, const Lamps* lamps,
-                std::vector<PhotonTarget> targets, bool onlyCaustics, int texels, int pass);
+                std::vector<PhotonTarget> targets, Kept kept, int texels, int pass);
 
   /// Photon n of the source.
   void send(const PhotonSource& source, std::uint32_t n, LandedPhotons& landed);
@@ -60,8 +66,9 @@ class PhotonEmitter {
     Real share = 0, count = 1;    ///< what of the light it stands for, and among how many
     Real law = 0;                 ///< what falls on the pane that it has crossed last
     int bounces = 0, scatterings = 0;
-    bool straight = true;   ///< it has met nothing but panes that bend nothing
-    bool gathered = false;  ///< it is not what shadow rays bring
+    bool straight = true;    ///< it has met nothing but panes that bend nothing
+    bool gathered = false;   ///< it is not what shadow rays bring
+    bool scattered = false;  ///< by a surface, a body or a medium
   };
   struct Chances {
     std::uint64_t bits = 0;
@@ -82,14 +89,17 @@ class PhotonEmitter {
   Real fallsOn(const Flight& flight, const Vec3& point) const;
   bool crossMedia(Flight& flight, LandedPhotons& landed);
   void lightFog(const Flight& flight, LandedPhotons& landed);
+  bool rests(const Flight& flight) const;
   void scatter(Flight& flight, const Vec3& point, Real forward);
-  bool goOn(Flight& flight, const Interaction& at, bool rests, const std::optional<SubsurfaceBsdf>& body);
+  bool goOn(Flight& flight, const Interaction& at, bool scattersIt,
+            const std::optional<SubsurfaceBsdf>& body);
 
   std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;
   const Settings& settings_;
   const Lamps* lamps_;
   std::vector<PhotonTarget> targets_;
+  Kept kept_;
   bool onlyCaustics_;
   Fog fog_;
   Tracer tracer_;

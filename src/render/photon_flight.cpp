@@ -41,11 +41,16 @@ Color PhotonEmitter::arriving(const Flight& f, const Vec3& point, Real t) const 
   return f.law > 0 ? f.power * Color(fallsOn(f, point) / f.law) : f.power;
 }
 
+/// Whether a surface that scatters keeps it.
+bool PhotonEmitter::rests(const Flight& f) const {
+  return kept_ == Kept::all || (kept_ == Kept::scattered ? f.scattered : f.bounces > 0 && f.gathered);
+}
+
 /// The photon, whose power that is already, goes on from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
   f.parallel = f.fromSky = f.straight = false;
-  f.gathered = true;
+  f.gathered = f.scattered = true;
   f.law = 0;
   ++f.scatterings;
   if (!isBlack(f.power)) cast(f);
@@ -116,17 +121,17 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     if (isBlack(f.power) || (f.straight && f.light && !world_.lights(*f.light, f.hit->object))) return;
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const Vec3& normal = f.hit->surface.normal;
-    const bool rests = scatters(at.bsdf());
+    const bool scattersIt = scatters(at.bsdf());
     std::optional<SubsurfaceBsdf> body;
     if (world_.hasSubsurface()) body = at.takeBody();
-    if (rests && ((f.bounces > 0 && f.gathered) || !onlyCaustics_)) {
+    if (scattersIt && rests(f)) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
       else
         landed.photons.push_back(
             {f.hit->surface.point, f.ray.direction, at.facing() > 0 ? normal : -normal, f.power});
     }
-    if (f.bounces >= settings_.depth || !goOn(f, at, rests, body)) return;
+    if (f.bounces >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
     f.parallel = f.fromSky = false;
     ++f.bounces;
     cast(f);
@@ -134,7 +139,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
 }
 
 /// One ray goes on from the surface, or none: what it brings stays about the same. False if it ends.
-bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests,
+bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
                          const std::optional<SubsurfaceBsdf>& body) {
   const auto shares = at.shares();
   const SpectralShare* share =
@@ -147,7 +152,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests,
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const Real likely = body ? scatters(at.bsdf()) * kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
-  const Real lobe = rests && !onlyCaustics_ ? likely : 0;
+  const Real lobe = scattersIt && !onlyCaustics_ ? likely : 0;
   const Real inBody =
       body && !onlyCaustics_ ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
   const Real all = std::max(1.0, mirrors + passes + lobe + inBody), choice = chance() * all;
@@ -171,6 +176,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests,
     direction = *refracted;
   } else if (choice < mirrors + passes + lobe) {
     f.straight = false;
+    f.scattered = true;
     const Real choose = chance();
     const Vec2 u{chance(), chance()};
     const auto drawn = sample(at.bsdf(), at.frame, -f.ray.direction, choose, u, Transport::radiance);
@@ -185,6 +191,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool rests,
     if (inward && at.transmits) there = at.behind();
   } else if (choice < mirrors + passes + lobe + inBody) {
     f.straight = false;
+    f.scattered = true;
     numbers_.next();
     const auto out = departure(at, *body, f.power, Sampler(rules_, numbers_));
     if (!out) return false;

@@ -3,9 +3,24 @@
 #include <algorithm>
 
 #include "base/budget.h"
-#include "math/box.h"
 
 namespace trace {
+namespace {
+
+/// The axis that a normal is nearest to, and its direction.
+std::size_t facingOf(const Photon& photon) {
+  const Vec3 size = abs(photon.normal);
+  const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+  return static_cast<std::size_t>(2 * axis + (photon.normal[axis] < 0));
+}
+
+/// The square of the distance from a point to a box.
+Real distance2(const Vec3& point, const Box3& box) {
+  const Vec3 away = max(max(box.low - point, point - box.high), Vec3{});
+  return dot(away, away);
+}
+
+}  // namespace
 
 PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness, std::size_t nearest)
     : photons_(std::move(photons)),
@@ -13,7 +28,19 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness, std
       reach2_(reach * reach),
       steepness_(flatness * flatness - 1),
       nearest_(nearest) {
-  build(0, photons_.size());
+  constexpr std::size_t kFacings = 6;
+  auto begin = photons_.begin();
+  for (std::size_t facing = 0; facing < kFacings; ++facing) {
+    const auto end =
+        std::partition(begin, photons_.end(), [&](const Photon& p) { return facingOf(p) == facing; });
+    if (begin == end) continue;
+    Box3 normals;
+    for (auto photon = begin; photon != end; ++photon) normals.extend(photon->normal);
+    const auto first = static_cast<std::size_t>(begin - photons_.begin());
+    facings_.push_back({first, static_cast<std::size_t>(end - photons_.begin()), normals});
+    build(first, facings_.back().end);
+    begin = end;
+  }
 }
 
 void PhotonMap::build(std::size_t first, std::size_t end) {
@@ -84,7 +111,9 @@ PhotonMap::Near PhotonMap::around(const Vec3& point) const {
 }
 
 PhotonMap::Near PhotonMap::found(Search& s) const {
-  search(0, photons_.size(), s);
+  const Real apart2 = 2 - 2 * s.alike;  // the square of the distance between the ends of such normals
+  for (const Facing& facing : facings_)
+    if (!(distance2(s.normal, facing.normals) > apart2)) search(facing.first, facing.end, s);
   Near result;
   result.count = s.count;
   result.radius2 = s.most2;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "math/box.h"
 #include "math/color.h"
 #include "math/vec.h"
 
@@ -56,12 +57,19 @@ class PhotonMap {
 
  private:
   struct Search;
+  /// Photons of surfaces that face about the same way, which have a tree of their own: else a search would
+  /// have to pass by all photons on the other sides of walls.
+  struct Facing {
+    std::size_t first, end;
+    Box3 normals;
+  };
   Near found(Search& search) const;
   void build(std::size_t first, std::size_t end);
   void search(std::size_t first, std::size_t end, Search& search) const;
 
   std::vector<Photon> photons_;     ///< a subtree's middle one splits it
   std::vector<std::uint8_t> axes_;  ///< across which it does
+  std::vector<Facing> facings_;
   Real reach2_ = 0;
   Real steepness_ = 0;  ///< flatness^2 - 1
   std::size_t nearest_ = kNearest;

@@ -50,8 +50,8 @@ std::vector<PhotonSource> sourcesOf(const World& world, const Lamps* lamps,
 
 /// Sends photons; what landed, in their order. Empty of a job that was cancelled.
 LandedPhotons landedPhotons(const World& world, const Settings& settings, const Lamps* lamps,
-                            const std::vector<PhotonTarget>& targets, bool onlyCaustics, int texels,
-                            int photons, Job& job, int pass) {
+                            const std::vector<PhotonTarget>& targets, Kept kept, int texels, int photons,
+                            Job& job, int pass) {
   constexpr std::int64_t kChunk = 4096;
   struct Chunk {
     const PhotonSource& source;
@@ -67,7 +67,7 @@ LandedPhotons landedPhotons(const World& world, const Settings& settings, const 
   std::atomic<std::int64_t> sent{0};
   parallelChunks(std::ssize(chunks), settings.threads, job, [&](std::int64_t i, int) {
     Chunk& chunk = chunks[static_cast<std::size_t>(i)];
-    PhotonEmitter emitter(world, settings, lamps, targets, onlyCaustics, texels, pass);
+    PhotonEmitter emitter(world, settings, lamps, targets, kept, texels, pass);
     for (std::int64_t n = chunk.first; n < chunk.end; ++n)
       emitter.send(chunk.source, static_cast<std::uint32_t>(n), chunk.landed);
     work.reached(++sent);
@@ -103,7 +103,8 @@ GatheredCaustics gathered(const World& world, const Settings& settings, const La
   const Real widest =
       settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
   const Real reach = widest * std::sqrt(areaOfPass(pass));
-  LandedPhotons landed = landedPhotons(world, settings, lamps, targets, true, side, photons, job, pass);
+  LandedPhotons landed =
+      landedPhotons(world, settings, lamps, targets, Kept::caustics, side, photons, job, pass);
   IlluminationMap texels(side);
   for (const auto& [place, power] : landed.onMaps) texels.add(place, power);
   return {{std::move(landed.photons), reach, lamps ? kFlatness : 1, nearestOfPass(pass)}, std::move(texels)};
@@ -134,7 +135,8 @@ GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps&
   constexpr Real kReach = 0.1;  // of the scene's size
   const Real reach = kReach * length(box.size()), area = areaOfPass(pass);
   LandedPhotons landed =
-      landedPhotons(world, settings, &lamps, everything, false, 0, settings.photons, job, pass);
+      landedPhotons(world, settings, &lamps, everything,
+                    gathersFinally(settings) ? Kept::all : Kept::scattered, 0, settings.photons, job, pass);
   return {{std::move(landed.photons), reach * std::sqrt(area), kFlatness, nearestOfPass(pass)},
           {std::move(landed.inMedia), reach * std::cbrt(area), 1, nearestOfPass(pass)}};
 }

@@ -28,9 +28,17 @@ struct GatheredCaustics {
 };
 GatheredCaustics gatheredCaustics(const World& world, const Settings& settings, const Lamps* lamps, Job& job);
 
+/// Whether places that are seen look around by rays, which the photons end (section 7.4: final gathering).
+/// Else photons tell at once what is scattered there (Hachisuka, Ogaki and Jensen, Progressive Photon
+/// Mapping, 2008).
+inline bool gathersFinally(const Settings& settings) {
+  return settings.finalGather || settings.irradianceCache > 0;
+}
+
 /// All light (section 4.3: the global map, and section 4.3.3: the volume map): Settings::photons photons fly
-/// from lights, lamps and what is around the scene. Every surface that scatters keeps those that arrive,
-/// every medium those that came there by way of something else.
+/// from lights, lamps and what is around the scene. Every surface that scatters keeps those that arrive;
+/// where they are seen at once only those that something has scattered before, for the rest is asked or a
+/// caustic. Every medium keeps those that came there by way of something else.
 struct GlobalMaps {
   PhotonMap surfaces, media;
 };

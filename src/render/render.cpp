@@ -236,6 +236,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   try {
     if (film.takesSplats() && rowOf(settings).byChains)
       chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
+    if (chains) result.brightnessError = chains->brightnessError();
     job.before = film.samplesDone();
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
     for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))

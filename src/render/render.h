@@ -25,6 +25,7 @@ struct RenderResult {
   End end = End::finished;
   std::string failure;  ///< of End::failed: what went wrong
   Statistics statistics;
+  Real brightnessError = 0;           ///< of chains: Metropolis::brightnessError()
   std::vector<BadSample> badSamples;  ///< in picture order, the first kMostBadSamples
 };
 inline constexpr std::size_t kMostBadSamples = 1000;

@@ -629,11 +629,19 @@ const std::array kOptions{
         {.name = "photon-passes",
          .group = "Tracing",
          .help = "maps of as many photons each, among which the samples of a pixel are spread: in each later "
-                 "map fewer photons around a place count, so that their mean comes nearer to the truth",
+                 "map fewer photons around a place count, so that their mean comes nearer to the truth; no "
+                 "more are made than there are samples",
          .source = "Knaus and Zwicker 2011; docs/photons.md",
          .least = 1,
          .most = 1000,
          .unit = "maps",
+         .integrators = "photon"}),
+    row<&Settings::finalGather>(
+        {.name = "final-gather",
+         .group = "Tracing",
+         .help = "photons are not seen at once: each place looks around by rays, and photons tell what those "
+                 "find; grain in place of blotches and blur",
+         .source = "Jensen 1996; docs/photons.md",
          .integrators = "photon",
          .extra = true}),
     row<&Settings::irradianceCache>(

@@ -130,7 +130,8 @@ struct Settings {
   int ambientOcclusion = 0;
   Real occlusionReach = 0;
   int photons = 200000;
-  int photonPasses = 1;
+  int photonPasses = 8;
+  bool finalGather = false;
   Real irradianceCache = 0;
   int irradianceRays = 400;
   bool smoothTerminator = false;

@@ -143,6 +143,8 @@ TEST(IdleOptions, AreToldWithTheirReason) {
             "--caustic-radius changes nothing: it concerns whitted, photon, and --integrator is path\n")
       << "one reason is enough";
   about(kLit, {{"fog-color", "0.5", {}}}, "--fog-color changes nothing without --fog");
+  about(kLit, {{"integrator", "photon", {}}, {"irradiance-rays", "99", {}}},
+        "--irradiance-rays changes nothing without --irradiance-cache");
   about(kLit, {{"moments", "4", {}}}, "--moments changes nothing without --shutter");
   about(kLit, {{"subdivide-threshold", "0.2", {}}},
         "--subdivide-threshold changes nothing without --subdivide");

@@ -97,11 +97,12 @@ TEST(Session, RefusesPhotonsAndDenoisingBeyondItsMemory) {
     }
     return true;
   };
-  const std::vector<Choice> photons{{"integrator", "photon", {}}, {"photons", "2000", {}}, {"spp", "8", {}}};
-  std::vector<Choice> passes = photons;
-  passes.push_back({"photon-passes", "1000", {}});  // 2000 photons of 96 bytes in each
+  std::vector<Choice> photons{{"integrator", "photon", {}}, {"photons", "2000", {}}, {"spp", "8", {}}};
   EXPECT_TRUE(fits(photons, "30"));
-  EXPECT_FALSE(fits(passes, "30"));
+  photons[1].value = "50000";  // of 96 bytes, in each of 8 passes
+  EXPECT_FALSE(fits(photons, "30"));
+  photons[2].value = "1";
+  EXPECT_TRUE(fits(photons, "30")) << "no more passes are made than samples";
   EXPECT_TRUE(fits({{"spp", "8", {}}}, "12"));
   EXPECT_FALSE(fits({{"spp", "8", {}}, {"denoise", "on", {}}}, "12"));  // more than 300 bytes a pixel
 }

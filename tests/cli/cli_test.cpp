@@ -55,6 +55,18 @@ TEST_F(Cli, CoursesLine) {
   EXPECT_EQ(readFile(path("out.bmp")).substr(0, 2), "BM");
 }
 
+TEST_F(Cli, ChainsWarnWhereTheirBrightnessIsVague) {
+  const auto warned = [&](const char* starts) {
+    return run({sourceFolder() + "/scenes/door.ray", "out.png", "-w", "12", "--spp", "1", "--chain-starts",
+                starts})
+        .err;
+  };
+  const std::string few = warned("2000");
+  EXPECT_TRUE(contains(few, "how bright the whole picture is is known to ")) << few;
+  EXPECT_TRUE(contains(few, "% only (one standard error); --chain-starts ")) << few;
+  EXPECT_TRUE(contains(warned("1"), "none of the first 1 sample found light")) << warned("1");
+}
+
 TEST_F(Cli, PassesLieBesideThePicture) {
   const Run r = run({"white.ray", "out.png", "-w", "8", "--passes", "depth,normal"});
   EXPECT_EQ(r.code, 0) << r.err;

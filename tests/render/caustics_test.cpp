@@ -178,17 +178,20 @@ TEST(Caustics, NearFindsTheNearestPhotons) {
   std::uint64_t bits = 1;
   const auto next = [&] { return unitFromBits(bits = mixBits(bits)); };
   for (int i = 0; i < 3000; ++i)
-    photons.push_back({{next(), next(), next()}, {0, -1, 0}, {0, next() < 0.5 ? 1.0 : -1.0, 0}, Color(1)});
+    photons.push_back({{next(), next(), next()},
+                       {0, -1, 0},
+                       normalize(Vec3{next() - 0.5, next() - 0.5, next() - 0.5}),
+                       Color(1)});
   const PhotonMap map(photons, 0.3);
   for (int i = 0; i < 100; ++i) {
-    const Vec3 point{next(), next(), next()};
+    const Vec3 point{next(), next(), next()}, normal = photons[static_cast<std::size_t>(i)].normal;
     std::vector<Real> expected;
     for (const Photon& photon : photons) {
       const Vec3 way = photon.point - point;
-      if (photon.normal.y > 0 && dot(way, way) < 0.09) expected.push_back(dot(way, way));
+      if (!(dot(photon.normal, normal) < 0.8) && dot(way, way) < 0.09) expected.push_back(dot(way, way));
     }
     std::sort(expected.begin(), expected.end());
-    const PhotonMap::Near near = map.near(point, {0, 1, 0});
+    const PhotonMap::Near near = map.near(point, normal);
     ASSERT_EQ(near.count, std::min(expected.size(), PhotonMap::kNearest));
     std::vector<Real> found(near.distance2.begin(), near.distance2.begin() + near.count);
     std::sort(found.begin(), found.end());

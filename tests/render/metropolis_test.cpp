@@ -189,5 +189,28 @@ TEST(Metropolis, WithoutLightThePictureIsBlack) {
   for (const Color& c : picture(scene, chains(4)).pixels) EXPECT_EQ(c, Color(0));
 }
 
+/// What a render of so many starts tells of its brightness, where a field of light covers what lies right of
+/// x.
+Real brightnessError(int starts, Real x) {
+  Scene scene;
+  Phong shining;
+  shining.emissive = Color(2);
+  addObject(scene, Square{}, Affine::translation({x + 4.5, 0, -1}) * Affine::scaling({9, 9, 1}), shining);
+  Settings settings = chains(1, 8);
+  settings.chainStarts = starts;
+  const World world = build(scene, settings);
+  Film film = makeFilm(settings, 8, 8);
+  Job job;
+  return render(world, settings, film, job).brightnessError;
+}
+
+TEST(Metropolis, TellsHowExactItsBrightnessIs) {
+  // Of half a field of light every other sample finds it: the relative error of the mean of N is 1/sqrt(N).
+  EXPECT_NEAR(brightnessError(10000, 0), 0.01, 0.0003);
+  EXPECT_NEAR(brightnessError(400, 0), 0.05, 0.005);
+  EXPECT_LT(brightnessError(1000, -4.5), 1e-7) << "light is everywhere";
+  EXPECT_EQ(brightnessError(1000, 9), kInfinity) << "and nowhere";
+}
+
 }  // namespace
 }  // namespace trace::test::metropolis_test

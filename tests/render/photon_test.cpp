@@ -28,14 +28,19 @@ Settings settingsOf(IntegratorKind integrator, int spp) {
   return settings;
 }
 
+/// Photons that are seen at once, and those that rays find which look around.
 void expectAlike(const Scene& scene, Real tolerance, int spp = 64) {
   const auto wanted = quarters(picture(scene, settingsOf(IntegratorKind::path, 16 * spp)));
-  const auto found = quarters(picture(scene, settingsOf(IntegratorKind::photon, spp)));
-  for (std::size_t q = 0; q < 4; ++q)
-    for (const auto channel : {&Color::r, &Color::g, &Color::b}) {
-      EXPECT_GT(wanted[q].*channel, 0.01);
-      EXPECT_NEAR(found[q].*channel / wanted[q].*channel, 1, tolerance) << q;
-    }
+  for (const bool gather : {false, true}) {
+    Settings settings = settingsOf(IntegratorKind::photon, spp);
+    settings.finalGather = gather;
+    const auto found = quarters(picture(scene, settings));
+    for (std::size_t q = 0; q < 4; ++q)
+      for (const auto channel : {&Color::r, &Color::g, &Color::b}) {
+        EXPECT_GT(wanted[q].*channel, 0.01);
+        EXPECT_NEAR(found[q].*channel / wanted[q].*channel, 1, tolerance) << q << " " << gather;
+      }
+  }
 }
 
 TEST(Photon, APointLightLightsARoomAsPathsSay) {
@@ -116,22 +121,33 @@ TEST(Photon, ARoomThatShinesHasTheSumOfItsBounces) {
   for (const Color& q : quarters(picture(scene, settings))) EXPECT_NEAR(q.g, 2, 0.05);
 }
 
-TEST(Photon, TheMapHoldsThePowerOfItsLights) {
-  // All that a point light in a closed black room sends lands once: 4 pi times pi times its colour.
+/// All photons of a point light in a closed room whose walls scatter so much.
+PhotonMap mapOfARoom(bool gather, Real scattered) {
   Scene scene = openRoom();
   addObject(scene, Square{}, Affine::translation({0, 0, 1}) * Affine::scaling({2, 2, 1}), {});
-  for (Material& material : scene.materials) material.model = diffuse(Color(1e-9));
+  for (Material& material : scene.materials) material.model = diffuse(Color(scattered));
   scene.lights.push_back(
       {PointLight{.position = {0.3, 0.2, 0.1}, .color = Color(0.5), .constant = 0, .quadratic = 1}, {}});
   Settings settings = settingsOf(IntegratorKind::photon, 1);
-  settings.photons = 50000;
+  settings.photons = 50000, settings.finalGather = gather;
   settings.limitAttenuation = false;
   const World world = build(scene, settings);
   Job job;
-  const PhotonMap map = globalMaps(world, settings, Lamps(world, 1), job).surfaces;
+  return globalMaps(world, settings, Lamps(world, 1), job).surfaces;
+}
+/// Relative to what the light sends: 4 pi times pi times its colour.
+Real powerOf(const PhotonMap& map) {
   Real power = 0;
   for (const Photon& photon : map.photons()) power += photon.power.g;
-  EXPECT_NEAR(power / (4 * kPi * kPi * 0.5), 1, 0.01);
+  return power / (4 * kPi * kPi * 0.5);
+}
+
+TEST(Photon, TheMapHoldsThePowerOfItsLights) {
+  EXPECT_NEAR(powerOf(mapOfARoom(true, 1e-9)), 1, 0.01) << "all lands once";
+  EXPECT_EQ(powerOf(mapOfARoom(false, 1e-9)), 0) << "what comes straight is asked";
+  Real bounces = 0;
+  for (int n = 1; n <= 8; ++n) bounces += std::pow(0.5, n);  // as deep as the settings let them
+  EXPECT_NEAR(powerOf(mapOfARoom(false, 0.5)), bounces, 0.02);
 }
 
 TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
@@ -140,19 +156,22 @@ TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
   addObject(scene, Square{}, ceiling(1), diffuse(Color(0.5), 4));
   Settings settings = settingsOf(IntegratorKind::photon, 4);
   settings.photons = 20000;
-  const Picture one = sameForAnyThreads(scene, settings);
-  const World world = build(scene, settings);
-  const auto integrator = integratorOf(world, settings);
-  std::size_t photons = 0;
-  for (int at = 0; at < 24; at += 3) {
-    const Explanation e = explain(world, *integrator, settings, {24, 24}, at, at, at % 4);
-    EXPECT_EQ(e.pixel, one.at(at, at)) << at;
-    EXPECT_TRUE(sumsUp(e.tree)) << at;
-    for (const RayNode& node : e.tree.nodes)
-      for (const Term& term : node.terms)
-        photons += term.kind == Term::Kind::photons ? term.photons->count : 0;
+  for (const bool gather : {false, true}) {
+    settings.finalGather = gather;
+    const Picture one = sameForAnyThreads(scene, settings);
+    const World world = build(scene, settings);
+    const auto integrator = integratorOf(world, settings);
+    std::size_t photons = 0;
+    for (int at = 0; at < 24; at += 3) {
+      const Explanation e = explain(world, *integrator, settings, {24, 24}, at, at, at % 4);
+      EXPECT_EQ(e.pixel, one.at(at, at)) << at;
+      EXPECT_TRUE(sumsUp(e.tree)) << at;
+      for (const RayNode& node : e.tree.nodes)
+        for (const Term& term : node.terms)
+          photons += term.kind == Term::Kind::photons ? term.photons->count : 0;
+    }
+    EXPECT_GT(photons, 0u);
   }
-  EXPECT_GT(photons, 0u);
 }
 
 TEST(Photons, APaneThatBendsNothingDoesNotCountTwice) {
@@ -224,7 +243,10 @@ TEST(Photons, EachSampleTakesTheNextMap) {
   const Picture three = picture(scene, settings);
   settings.threads = 3;
   EXPECT_EQ(picture(scene, settings), three);
-  settings.photonPasses = 1;
+  settings.photonPasses = 1000;
+  settings.spp = 1;
+  EXPECT_EQ(picture(scene, settings), first) << "no more maps than samples are made";
+  settings.spp = 4, settings.photonPasses = 1;
   EXPECT_NE(picture(scene, settings), three);
 }
 

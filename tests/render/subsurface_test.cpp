@@ -193,7 +193,7 @@ TEST(Subsurface, AllIntegratorsGiveTheSameLightOfARoom) {
     settings.width = settings.height = 8;
     settings.depth = 12, settings.airIndex = 1;
     settings.chains = chains, settings.chainStarts = 100000;
-    settings.photons = 50000;
+    settings.photons = 100000;
     return meanColor(picture(scene, settings));
   };
   for (const Spreading spreading : kWays) {
@@ -226,7 +226,7 @@ TEST(Subsurface, PhotonsThatGoInComeOut) {
     scene.lights.push_back(
         {PointLight{.position = {0.3, 0.6, 0.1}, .color = Color(0.5), .constant = 0, .quadratic = 1}, {}});
     Settings settings = small(IntegratorKind::photon, 1);
-    settings.photons = 20000, settings.depth = 20;
+    settings.photons = 20000, settings.depth = 20, settings.finalGather = true;
     settings.limitAttenuation = false;
     const World world = build(scene, settings);
     Job job;

@@ -10,6 +10,7 @@
 #include "render/interaction.h"
 #include "render/media.h"
 #include "render/photons.h"
+#include "render/render.h"
 #include "render/subsurface.h"
 #include "shading/optics.h"
 
@@ -41,10 +42,13 @@ ChanceTerm PathTracer::shines(const Path& path, Real other) {
 void PathTracer::prepare(const World& world, const Settings& settings, Job& job) {
   lamps_ = Lamps(world, settings.threads);
   depth_ = light_ == Light::straight ? 0 : settings.depth;
-  maps_.resize(light_ == Light::photons ? static_cast<std::size_t>(settings.photonPasses) : 1);
+  const int passes = light_ == Light::photons ? std::min(settings.photonPasses, samplesOf(settings)) : 1;
+  maps_.resize(static_cast<std::size_t>(passes));
+  gathers_ = light_ == Light::photons && gathersFinally(settings);
+  photonsTell_ = light_ == Light::photons && !gathers_;
   mostScattered_ = light_ == Light::bounced ? settings.mediumDepth : 1;
   if (light_ != Light::photons) return;
-  for (int pass = 0; pass < settings.photonPasses && !job.cancel; ++pass) {
+  for (int pass = 0; pass < passes && !job.cancel; ++pass) {
     Maps& maps = maps_[static_cast<std::size_t>(pass)];
     maps.caustics = causticMap(world, settings, &lamps_, job, pass);
     if (job.cancel) return;
@@ -90,7 +94,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
                           std::unique_ptr<Scattering>& after) const {
   const World& world = tracer.world();
   // Photons have brought what shines there.
-  const bool brought = path.bounced && path.kind != RayKind::bounce && !path.maps->caustics.empty();
+  const bool photonsBring = !path.maps->caustics.empty();
+  const bool brought = path.bounced && path.kind != RayKind::bounce && photonsBring;
   const auto lamp =
       path.asked || path.within || brought ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
@@ -98,7 +103,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight,
+                         numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
       return scattered(tracer, ray, *media, *place, path, inside, sampler, after);
   }
@@ -157,13 +163,15 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     gathers = path.kind != RayKind::bounce || !(hit->t * hit->t < near.radius2);
     if (gathers) at.addPhotons(sum, Term::Kind::photons, near, true);
   }
-  if (!gathers) {
+  const bool glossy = isGlossy(at.bsdf()), asks = !gathers && !path.told;
+  if (asks) {
     at.addLights(sum, sampler);
     at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
+  const bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
+  if (tells) at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
-  const bool glossy = isGlossy(at.bsdf());
   const auto shares = glossy ? at.shares().first(0) : at.shares();
   const SpectralShare* share =
       shares.empty() ? nullptr
@@ -174,9 +182,10 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const bool cached = !path.gathers && addCached(sum, at);
-  const bool follows = scatters(at.bsdf()) && !gathers && !cached;
+  const bool follows = scatters(at.bsdf()) && asks && !cached;
   const Real intoLobe = !follows ? 0 : body ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
-  const Real inBody = body ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
+  const Real inBody =
+      body && !path.told ? maxComponent(body->albedo) * maxComponent(body->passes(at.cosine)) : 0;
   const bool both = body && path.depth == 0;  // what is seen first is followed into the body besides
   const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
@@ -189,7 +198,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     Real goes = 1;
     if (path.depth >= depth_ && kind != RayKind::bounce)
       sum.stop(DepthLimit{kind, depth_});
-    else if (!(most > 0))
+    else if (!(most > 0) || (path.told && photonsBring))
       sum.stop(BelowThreshold{kind, 0, 0});
     else if (goes = path.depth < kSurely ? 1 : std::min(1.0, most); numbers.next() >= goes)
       sum.stop(Roulette{kind, goes});
@@ -202,9 +211,10 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     const auto stands = goesOn(kind, weight);
     if (!stands) return;
     const Color factor = weight * *stands;
-    const bool gathers = path.gathers || (light_ == Light::photons && kind == RayKind::bounce && !glossy);
+    const bool gathers = path.gathers || (gathers_ && kind == RayKind::bounce && !glossy);
     Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
               gathers, path.maps,      path.scattered};
+    next.told = path.told || (tells && kind == RayKind::bounce);
     next.asked = kind == RayKind::bounce ||
                  (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.material));
     next.bounced = path.bounced || kind == RayKind::bounce;

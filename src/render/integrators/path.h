@@ -8,11 +8,12 @@
 // A ray that was bounced as often as the depth allows sends one more, which sees only what shines: so the
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
 //
-// With photons a path ends where its first ray from a scattering surface arrives: there the photons of all
-// light that lie around tell what it would find (the final gathering of Jensen 2001, section 7.4). What
-// mirrors and glass gather on surfaces that are seen is told by photons of their own. With several passes of
-// photons each sample of a pixel takes the next one's. With an irradiance cache such a ray is only sent where
-// no place nearby, of those worked out beforehand, tells what it would bring.
+// With photons a path ends at the first surface that scatters: lights and lamps are asked, and the photons
+// around tell the rest, those that mirrors and glass have thrown there by a map of their own. Each sample of
+// a pixel takes the photons of the next pass (progressive photon mapping: Hachisuka, Ogaki and Jensen 2008).
+// With final gathering (Jensen 2001, section 7.4) a path ends one ray later: photons of all light tell what
+// that ray would find. With an irradiance cache such a ray is only sent where no place nearby, of those
+// worked out beforehand, tells what it would bring.
 #pragma once
 
 #include <memory>
@@ -55,8 +56,10 @@ class PathTracer : public Integrator {
   bool addCached(Gather& sum, const Interaction& at) const;
 
   Light light_;
-  int depth_ = 0;          ///< the most bounces
-  int mostScattered_ = 1;  ///< the most times that media scatter
+  bool gathers_ = false;      ///< rays look around, and photons tell what they find
+  bool photonsTell_ = false;  ///< they tell what a place scatters that is seen
+  int depth_ = 0;             ///< the most bounces
+  int mostScattered_ = 1;     ///< the most times that media scatter
   Lamps lamps_;
   struct Maps {
     PhotonMap all, caustics, media;

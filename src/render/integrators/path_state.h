@@ -19,6 +19,8 @@ struct PathTracer::Path {
   bool forCache = false;                         ///< what shines and is asked for does not count
   /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
   bool asked = false;
+  /// Photons told what is scattered where it arrives already where it comes from: it sees only what shines.
+  bool told = false;
   bool bounced = false;  ///< photons were asked what mirrors and glass bring to where it was scattered
 };
 
