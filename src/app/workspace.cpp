@@ -87,12 +87,12 @@ void Workspace::fail(const std::vector<Message>& errors) {
   ++failures_;
 }
 
-void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  asked_ = {absolute(file), commandLine, writtenAt(file)};
-  opening_.start([path = asked_->file, commandLine = std::move(commandLine)](const Cancelled&) {
+void Workspace::open(const std::string& file) {
+  asked_ = {absolute(file), writtenAt(file)};
+  opening_.start([path = asked_->file, choices = commandLine](const Cancelled&) {
     return outcomeOf(path, [&] {
       Document opened;
-      opened.open(path, commandLine);
+      opened.open(path, choices);
       return opened;
     });
   });
@@ -108,9 +108,9 @@ void Workspace::takeOpened() {
 
 void Workspace::openIfMended() {
   if (!lookNow() || writtenAt(asked_->file) == asked_->written) return;
-  const Asked again = *asked_;
-  note(shown(again.file) + " changed on disk and is read again");
-  open(again.file, again.commandLine);
+  const std::string again = asked_->file;
+  note(shown(again) + " changed on disk and is read again");
+  open(again);
 }
 
 bool Workspace::lookNow() {
@@ -140,9 +140,10 @@ void Workspace::putFirst(const std::string& file) {
 }
 
 void Workspace::choose(const std::string& option, const std::string& value, bool continues) {
-  if (!Document::readsFile(option)) return document.choose(option, value, continues);
+  if (document.isOpen() && !Document::readsFile(option)) return document.choose(option, value, continues);
   Settings scratch;
   findOption(option).assign(scratch, value);
+  if (!document.isOpen()) return commandLine.push_back({option, value, {}});
   want({option, value, continues});
 }
 
@@ -260,7 +261,7 @@ void Workspace::takeReference() {
 
 void Workspace::savePicture(const std::string& file) {
   const auto session = render.session();
-  if (!session) return;
+  if (!session) return fail({{.place = {.file = file}, .what = "not written: there is no picture yet"}});
   Settings settings = session->settings();  // but what comes after the film is as it is now
   for (const Option& option : options())
     if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
@@ -280,6 +281,7 @@ void Workspace::savePicture(const std::string& file) {
 }
 
 void Workspace::saveScene(const std::string& file) {
+  if (!document.isOpen()) return fail({{.place = {.file = file}, .what = "not written: no scene is open"}});
   saving_.start([what = document.saving(absolute(file))](const Cancelled&) {
     return outcomeOf(what.file, [&] { return Saved{{what.file}, Document::write(what)}; });
   });

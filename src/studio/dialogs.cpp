@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/version.h"
 #include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
@@ -71,7 +72,7 @@ void drawAbout(Studio& studio) {
   bool open = true;
   if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
   closeOnEscape(studio);
-  ImGui::TextUnformatted("Trace " TRACE_VERSION ", the ray tracer you can see inside");
+  ImGui::TextUnformatted((versionText() + ": the ray tracer you can see inside").c_str());
   ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
   ImGui::EndPopup();
 }
