@@ -14,4 +14,7 @@ void warnOfIdleOptions(const Scene& scene, const Settings& settings, const World
 /// The same of the first material that says what a medium does where it is nowhere dense.
 void warnOfEmptyMedia(const Scene& scene, Messages& messages);
 
+/// The same of each name in the links of lights and objects that nothing has.
+void warnOfWrongLinks(const Scene& scene, Messages& messages);
+
 }  // namespace trace

@@ -89,6 +89,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"light-blocked", "a light that one object shuts out, such as the sun a sky", lightBlocked},
       LintCheck{"light-cut", "a light whose flaps or photometric file leave nothing of it", lightCut},
       LintCheck{"light-link", "a light or an object that names what is not there", lightLink},
+      LintCheck{"portal", "a portal that the sky does not come through, or that stands in the open",
+                portalUseless},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
       LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},

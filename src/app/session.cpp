@@ -156,6 +156,7 @@ void Session::build(const Session* before) {
   buildMoments();
   warnOfIdleOptions(scene_, settings_, *world_, messages_);
   warnOfEmptyMedia(scene_, messages_);
+  warnOfWrongLinks(scene_, messages_);
   messages_.throwIfFailed(strict_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));

@@ -124,6 +124,7 @@ void Workspace::adopt(Document opened) {
   const bool another = !document.isOpen() || document.scene().file != opened.scene().file;
   document = std::move(opened);
   reading_ = 0;
+  gone_ = false;
   if (another) inspector.forget();
   giveUpWanted();
   putFirst(document.file());
@@ -282,8 +283,12 @@ void Workspace::savePicture(const std::string& file) {
 
 void Workspace::saveScene(const std::string& file) {
   if (!document.isOpen()) return fail({{.place = {.file = file}, .what = "not written: no scene is open"}});
-  saving_.start([what = document.saving(absolute(file))](const Cancelled&) {
-    return outcomeOf(what.file, [&] { return Saved{{what.file}, Document::write(what)}; });
+  const bool ours = absolute(file) == document.file();
+  saving_.start([what = document.saving(absolute(file)), ours](const Cancelled&) {
+    return outcomeOf(what.file, [&] {
+      const bool anew = ours && !fs::exists(what.file);
+      return Saved{{what.file}, Document::write(what), anew};
+    });
   });
 }
 
@@ -301,9 +306,11 @@ void Workspace::takeSaved() {
       fail(outcome->errors);
       continue;
     }
-    for (const std::string& file : outcome->value->files) note("wrote " + shown(file));
+    for (const std::string& file : outcome->value->files)
+      note("wrote " + shown(file) + (outcome->value->anew ? " anew: it was no longer on the disk" : ""));
     if (!outcome->value->scene) continue;
     document.noteSaved(*outcome->value->scene);
+    gone_ = false;
     putFirst(outcome->value->scene->what.file);
     report(outcome->value->scene->what.messages.all());
   }
@@ -375,12 +382,12 @@ void Workspace::reloadIfChanged() {
   if (!lookNow()) return;
   std::error_code error;
   const bool gone = !fs::exists(document.file(), error) && !error;
-  if (gone && !told_)
+  if (gone && !gone_)
     log_.push_back({Level::warning,
                     shown(document.file()) + " is no longer on the disk",
                     "what was read stays; File, Save scene writes it again",
                     {}});
-  told_ = gone;
+  gone_ = gone;
   if (!document.changedOnDisk()) return;
   document.noticeDisk();
   want({.anew = true});

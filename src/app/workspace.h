@@ -71,6 +71,9 @@ class Workspace {
     ++referenceVersion_;
   }
 
+  /// Something of the scene is in no file: it was edited, or its file is gone.
+  bool unsaved() const { return document.edited() || (document.isOpen() && gone_); }
+
   /// Writes what is rendered so far.
   void savePicture(const std::string& file);
   /// Writes the scene as a .ray file, which is the document's from now on.
@@ -150,7 +153,8 @@ class Workspace {
   };
   struct Saved {
     std::vector<std::string> files;
-    std::optional<Document::Saved> scene;
+    std::optional<Document::Saved> scene{};
+    bool anew = false;  ///< the file was there once, and was gone
   };
 
   void takeOpened();
@@ -187,7 +191,7 @@ class Workspace {
     std::filesystem::file_time_type written{};
   };
   std::optional<Asked> asked_;                    // to be opened; it is not open yet
-  bool told_ = false;                             // that the file is gone
+  bool gone_ = false;                             // the file is; told once
   std::optional<Document::Change> wanted_;        // for which the file is being read
   std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
   BackgroundTask<Outcome<Document>> opening_;

@@ -110,7 +110,8 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
 
   Stop here = samples.at(numbers);
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
-  if (watch) watch({-1, true, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, numbers);
+  if (watch)
+    watch({-1, true, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1, true}, numbers);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
@@ -120,7 +121,8 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, anywhere, pixelOf(there).x, pixelOf(there).y, there.light, here.light, accepts, goes},
+      watch({n, anywhere, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
+             accepts, goes},
             numbers);
     if (goes) std::swap(here, there);
     goes ? numbers.keep() : numbers.undo();

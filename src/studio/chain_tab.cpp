@@ -30,7 +30,9 @@ void moveRow(RaysView& view, const ChainMove& move, int index, const ImVec4& mut
   ImGui::TableNextColumn();
   ImGui::Text("%d, %d", move.x, move.y);
   ImGui::TableNextColumn();
-  ImGui::Text("%.4g", move.light);
+  cutText(channels(move.brings));
+  ImGui::TableNextColumn();
+  ImGui::Text("%.3g", move.light);
   ImGui::TableNextColumn();
   ImGui::Text("%.3g", move.chance);
   ImGui::TableNextColumn();
@@ -52,17 +54,19 @@ void drawChain(Studio& studio, const TracedPixel&) {
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   cutText(walk.summary());
-  if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
+  if (!ImGui::BeginTable("moves", 7, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(7));
-  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(5));
+  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(8));
+  ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(8));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(20));
+  ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(6));
+  ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(6));
   ImGui::TableSetupColumn("was", ImGuiTableColumnFlags_WidthStretch);
   columnHeads({"its number in the chain",
                "each of the path's numbers changes a little, or all are thrown anew",
-               "that the offered path goes through", "how bright it is",
+               "that the offered path goes through", "red, green and blue of what it brings there",
+               "how bright it is to the chain: the luminance of all that it brings, to other pixels too",
                "with which the move is made: how bright it is beside the path where the chain was",
                "what came of it"});
   if (std::exchange(view.revealMove, false)) {

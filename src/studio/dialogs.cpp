@@ -79,11 +79,12 @@ void drawAbout(Studio& studio) {
 
 void drawLeaving(Studio& studio) {
   if (studio.leaving && studio.workspace.saving()) return;  // then there may be nothing to ask
-  if (studio.leaving && !studio.workspace.document.edited()) return std::exchange(studio.leaving, nullptr)();
+  if (studio.leaving && !studio.workspace.unsaved()) return std::exchange(studio.leaving, nullptr)();
   if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted("What was changed is not in a file yet.");
+  ImGui::TextUnformatted(studio.workspace.document.edited() ? "What was changed is not in a file yet."
+                                                            : "The scene's file is no longer on the disk.");
   const ImVec2 size{characters(16), 0};
   const auto close = [&] {
     ImGui::CloseCurrentPopup();

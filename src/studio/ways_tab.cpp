@@ -12,12 +12,6 @@
 namespace trace::studio {
 namespace {
 
-void wayNumber(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  ImGui::TextUnformatted(text);
-}
-
 /// One of the table's rows.
 void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
   const PathWay& way = pixel.ways[static_cast<std::size_t>(index)];
@@ -37,13 +31,13 @@ void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
         "path "
         "alone in space",
         way.light, way.light == 1 ? "place" : "places", way.camera);
-  const auto number = [&](const char* format, double value) {
+  ImGui::TableNextColumn();
+  const bool here = way.camera > 1;  // else it is of another pixel
+  if (here) ImGui::Text("%.1f %%", 100 * way.share);
+  for (const Color& brings : {way.brings, way.alone()}) {
     ImGui::TableNextColumn();
-    if (way.camera > 1) wayNumber(format, value);  // else it is of another pixel
-  };
-  number("%.1f %%", 100 * way.share);
-  number("%.4g", maxComponent(way.brings));
-  number("%.4g", maxComponent(way.alone()));
+    if (here) cutText(channels(brings));
+  }
   ImGui::TableNextColumn();
   cutText(sentence(way, pixel.tree(), pixel.scene()));
   ImGui::PopID();
@@ -63,16 +57,22 @@ void chooseWay(Studio& studio, int way) {
 }
 
 void drawWays(Studio& studio, const TracedPixel& pixel) {
+  if (pixel.ways.empty()) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", whyNoWays(pixel.tree(), pixel.session->settings()).c_str());
+    ImGui::PopTextWrapPos();
+    return landmark("no ways");
+  }
   if (!ImGui::BeginTable("ways", 5, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("s + t", ImGuiTableColumnFlags_WidthFixed, characters(6));
-  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(8));
-  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(9));
-  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(7));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(19));
+  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(19));
   ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthStretch);
   columnHeads({"places from the light's end, and from the camera's",
                "its weight among all ways to find such a path: the more likely the way, the more it counts",
-               "the largest channel of what it adds to the pixel",
+               "red, green and blue of what it adds to the pixel",
                "what it would add if no other way found such paths", "how its two ends were joined"});
   int places = 0;
   for (int i = 0; i < static_cast<int>(pixel.ways.size()); ++i) {
@@ -86,7 +86,9 @@ void drawWays(Studio& studio, const TracedPixel& pixel) {
       ImGui::TextColored(studio.palette().accent, "%d places", now);
       ImGui::TableNextColumn();
       ImGui::TableNextColumn();
-      ImGui::TextColored(studio.palette().accent, "%.4g", maxComponent(sum));
+      ImGui::PushStyleColor(ImGuiCol_Text, studio.palette().accent);
+      cutText(channels(sum));
+      ImGui::PopStyleColor();
       places = now;
     }
     wayRow(studio, pixel, i);

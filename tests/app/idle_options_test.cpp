@@ -156,5 +156,27 @@ TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
             "");
 }
 
+TEST(IdleOptions, LinksToWhatIsNotThereAreToldOncePerName) {
+  const Folder folder;
+  const std::string file = folder / "scene.ray";
+  writeFile(file, R"(SBT-raytracer 1.0
+point_light { name = "key"; position = (0, 5, 5); color = (1, 1, 1); lights = ("bal", "ball"); }
+point_light { position = (0, 5, 5); color = (1, 1, 1); excludes = ("bal", "floor"); }
+sphere { name = "ball"; lit_by = ("kex"); }
+sphere { lit_by = ("kex", "key"); not_lit_by = ("rim"); }
+)");
+  Session session;
+  session.open(file, {});
+  session.build();
+  std::vector<std::string> told;
+  for (const Message& message : session.messages().all())
+    told.push_back(std::to_string(message.place.line) + " " + message.what + "; " + message.hint);
+  EXPECT_EQ(told, (std::vector<std::string>{
+                      "2 lights names \"bal\", and no object is called so; did you mean \"ball\"?",
+                      "3 excludes names \"floor\", and no object is called so; ",
+                      "4 lit_by names \"kex\", and no light is called so; did you mean \"key\"?",
+                      "5 not_lit_by names \"rim\", and no light is called so; "}));
+}
+
 }  // namespace
 }  // namespace trace::test

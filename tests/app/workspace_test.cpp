@@ -122,6 +122,24 @@ TEST_F(WorkspaceTest, AFileThatIsGoneIsToldOnce) {
   }
   EXPECT_EQ(told(), 1);
   EXPECT_TRUE(workspace.document.isOpen());
+
+  // It is in no file, so nobody leaves unasked; saved over its file, it is written anew.
+  EXPECT_FALSE(workspace.document.edited());
+  EXPECT_TRUE(workspace.unsaved());
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.log().back().text,
+            workspace.log()[0].text.substr(std::string("opened ").size()).insert(0, "wrote ") +
+                " anew: it was no longer on the disk");
+  for (int i = 0; i < 1200 && workspace.unsaved(); ++i, workspace.update())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(workspace.unsaved());
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.log().back().text.find("anew"), std::string::npos);
+  Document again;
+  again.open(path("gone.ray"));
+  EXPECT_EQ(again.scene().objects.size(), workspace.document.scene().objects.size());
 }
 
 TEST_F(WorkspaceTest, ThePictureOfAnotherSceneIsDevelopedAsThatSays) {
