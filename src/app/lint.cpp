@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/idle_options.h"
 #include "app/lint_checks.h"
+#include "app/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -128,7 +128,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
   for (const Message& message : warnings)
     if (!isOfArea(message) && !isOfGlass(message)) findings.push_back({"reading", message});
   Messages idle;
-  warnOfIdleOptions(scene, settings, world, idle);
+  warnOfSettings(scene, settings, world, idle);
   for (const Message& message : idle.all()) findings.push_back({"reading", message});
   Work work("checking", static_cast<std::int64_t>(lintChecks().size()));
   for (const LintCheck& check : lintChecks()) {

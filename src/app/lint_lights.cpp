@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/idle_options.h"
 #include "app/lint_checks.h"
+#include "app/render_warnings.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"

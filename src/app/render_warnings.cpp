@@ -1,4 +1,4 @@
-#include "app/idle_options.h"
+#include "app/render_warnings.h"
 
 #include <algorithm>
 #include <array>
@@ -105,7 +105,7 @@ constexpr std::array kServes{
 
 }  // namespace
 
-void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
+void warnOfSettings(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
   const auto warn = [&](const std::string& what, const std::string& hint = {}) {
     messages.warn(Place{.file = scene.file}, what, hint);
   };

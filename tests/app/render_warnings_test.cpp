@@ -1,4 +1,4 @@
-// Warnings of options that change nothing.
+// What a render warns of: options and names that change nothing, integrators that do not suit the scene.
 #include <gtest/gtest.h>
 
 #include "app/session.h"
@@ -37,7 +37,7 @@ point_light { position = (0, 5, 5); color = (1, 1, 1); }
 sphere { material = { diffuse = (0.5, 0.5, 0.5); reflective = (0.5, 0.5, 0.5); } }
 )";
 
-TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
+TEST(RenderWarnings, DarknessIsToldForTheIntegratorChosen) {
   const std::string dark = "no light: everything will be black\n",
                     ball = "sphere { material = { diffuse = (1, 1, 1); } }";
   const auto by = [](const char* integrator) { return std::vector<Choice>{{"integrator", integrator, {}}}; };
@@ -52,7 +52,7 @@ TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
     EXPECT_EQ(warnings(sky + ball, by(integrator)), "") << integrator;
 }
 
-TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
+TEST(RenderWarnings, FogWithoutEndUnderASunIsTold) {
   const std::string sunny =
       "directional_light { direction = (0, -1, -1); color = 1; } translate(0, 0, -9, sphere { })";
   const auto by = [&](const std::string& text, const char* integrator, const char* depth) {
@@ -69,7 +69,7 @@ TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
   EXPECT_EQ(by(kLit, "path", "100"), "");
 }
 
-TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
+TEST(RenderWarnings, DrawnMaterialsAreToldWhereLightBounces) {
   for (const char* model : {"gooch", "hatching", "cel"}) {
     const std::string drawn = std::string(kLit) + "sphere { material = { model = " + model + "; } }";
     EXPECT_EQ(warnings(drawn, {}), "") << model;
@@ -78,7 +78,7 @@ TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
   }
 }
 
-TEST(IdleOptions, MaterialsThatMakeLightAreToldWhereLightBounces) {
+TEST(RenderWarnings, MaterialsThatMakeLightAreToldWhereLightBounces) {
   const auto ball = [](const std::string& material) {
     return std::string(kLit) + "sphere { material = { diffuse = 0.6; " + material + " } }";
   };
@@ -90,13 +90,13 @@ TEST(IdleOptions, MaterialsThatMakeLightAreToldWhereLightBounces) {
   EXPECT_EQ(warnings(ball("reflective = 0.4;"), path), "");
 }
 
-TEST(IdleOptions, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
+TEST(RenderWarnings, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
   const std::string caustics = std::string(kLit) + "settings { caustics = 1000; ";
   EXPECT_NE(warnings(caustics + "integrator = path; }", {}).find("it concerns whitted"), std::string::npos);
   EXPECT_EQ(warnings(caustics + "}", {{"integrator", "path", {}}}), "");
 }
 
-TEST(IdleOptions, AreToldWithTheirReason) {
+TEST(RenderWarnings, AreToldWithTheirReason) {
   const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {
     const std::string found = warnings(text, choices);
     EXPECT_NE(found.find(expected), std::string::npos) << expected << "\n" << found;
@@ -131,7 +131,7 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(kLit, {{"subsurface-samples", "3", {}}}, "--subsurface-samples changes nothing");
 }
 
-TEST(IdleOptions, AreToldWhereTheyLeaveNothingToSee) {
+TEST(RenderWarnings, AreToldWhereTheyLeaveNothingToSee) {
   const auto expect = [](const std::vector<Choice>& choices, const char* expected) {
     EXPECT_NE(warnings(kLit, choices).find(expected), std::string::npos) << expected;
   };
@@ -139,7 +139,7 @@ TEST(IdleOptions, AreToldWhereTheyLeaveNothingToSee) {
   expect({{"aperture", "1e6", {}}}, "nothing is sharp");
 }
 
-TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
+TEST(RenderWarnings, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit, {}), "");
   const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
   EXPECT_EQ(warnings(lamp, {}), "");
@@ -156,7 +156,7 @@ TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
             "");
 }
 
-TEST(IdleOptions, LinksToWhatIsNotThereAreToldOncePerName) {
+TEST(RenderWarnings, LinksToWhatIsNotThereAreToldOncePerName) {
   const Folder folder;
   const std::string file = folder / "scene.ray";
   writeFile(file, R"(SBT-raytracer 1.0
