@@ -249,6 +249,14 @@ rays
 tab Ways
 way 0
 state ways
+set light-vertices 30
+wait
+rays
+tab Ways
+state without-ways
+set light-vertices -1
+wait
+rays
 tab Pyramid
 rays
 rays
@@ -271,6 +279,7 @@ screenshot blocked.png space
 END
 "$studio" --script script >log 2>&1 || fail "ways or chains are not shown"
 grep -q '^ways [1-9]' ways || fail "a pixel of bdpt has no ways"
+grep -q ' no ways$' without-ways || fail "the tab Ways does not stay and say why it is empty"
 grep -q '^way 0' ways || fail "a way cannot be chosen"
 grep -q '^pyramid 14$' pyramid || fail "the pyramid has not all its pictures"
 grep -q ' pyramid 0 5$' pyramid || fail "the last row of the pyramid is not to be seen"
