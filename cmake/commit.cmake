@@ -1,4 +1,4 @@
-# Writes src/cli/commit.h's commit() into OUT, as git names it in ROOT: run before each build, so that `ray --version` is true. The
+# Writes src/app/version.h's commit() into OUT, as git names it in ROOT: run before each build, so that `ray --version` is true. The
 # file changes only with the name. Without git or its folder the name is empty.
 find_package(Git QUIET)
 set(name "")
@@ -7,7 +7,7 @@ if(GIT_FOUND AND EXISTS ${ROOT}/.git)
                   WORKING_DIRECTORY ${ROOT} OUTPUT_VARIABLE name OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 endif()
 file(CONFIGURE OUTPUT ${OUT} CONTENT [[
-#include "cli/commit.h"
+#include "app/version.h"
 
 std::string_view trace::commit() { return "@name@"; }
 ]] @ONLY)

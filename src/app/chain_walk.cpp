@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/ray_view.h"
 #include "render/pixel.h"
 
 namespace trace {
@@ -36,13 +37,15 @@ std::string ChainWalk::summary() const {
 }
 
 std::string sentence(const ChainMove& move) {
-  char text[160];
+  char text[240];
   if (move.number < 0)
-    std::snprintf(text, sizeof text, "starts at pixel %d, %d, with light %.4g", move.x, move.y, move.light);
+    std::snprintf(text, sizeof text, "starts at pixel %d, %d, brings %s there, light %.4g", move.x, move.y,
+                  channels(move.brings).c_str(), move.light);
   else
-    std::snprintf(text, sizeof text, "%s, to pixel %d, %d: light %.4g after %.4g, a chance of %.3g: %s",
-                  look(move.kind).name.data(), move.x, move.y, move.light, move.before, move.chance,
-                  move.made ? "made" : "not made");
+    std::snprintf(text, sizeof text,
+                  "%s, to pixel %d, %d, brings %s there: light %.4g after %.4g, a chance of %.3g: %s",
+                  look(move.kind).name.data(), move.x, move.y, channels(move.brings).c_str(),
+                  move.light, move.before, move.chance, move.made ? "made" : "not made");
   return text;
 }
 

@@ -22,7 +22,7 @@ struct ChainWalk {
   std::string summary() const;
 };
 
-/// "nearby, to pixel 3, 4: light 0.2 after 0.4, a chance of 0.5: not made".
+/// "nearby, to pixel 3, 4, brings 0.3 0.2 0.1 there: light 0.2 after 0.4, a chance of 0.5: not made".
 std::string sentence(const ChainMove& move);
 
 /// Follows the chains of a session whose integrator is `mlt`.

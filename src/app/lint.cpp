@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/idle_options.h"
 #include "app/lint_checks.h"
+#include "app/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -89,6 +89,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"light-blocked", "a light that one object shuts out, such as the sun a sky", lightBlocked},
       LintCheck{"light-cut", "a light whose flaps or photometric file leave nothing of it", lightCut},
       LintCheck{"light-link", "a light or an object that names what is not there", lightLink},
+      LintCheck{"portal", "a portal that the sky does not come through, or that stands in the open",
+                portalUseless},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
       LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},
@@ -126,7 +128,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
   for (const Message& message : warnings)
     if (!isOfArea(message) && !isOfGlass(message)) findings.push_back({"reading", message});
   Messages idle;
-  warnOfIdleOptions(scene, settings, world, idle);
+  warnOfSettings(scene, settings, world, idle);
   for (const Message& message : idle.all()) findings.push_back({"reading", message});
   Work work("checking", static_cast<std::int64_t>(lintChecks().size()));
   for (const LintCheck& check : lintChecks()) {

@@ -84,6 +84,8 @@ void blackReflection(const LintScene& s, Findings& findings);
 
 /// Checks lights of which nothing arrives (lint_light_reach.cpp).
 void lightReachesNothing(const LintScene& s, Findings& findings);
+/// Checks portals (lint_portals.cpp).
+void portalUseless(const LintScene& s, Findings& findings);
 /// Checks glass inside glass (lint_glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/lint_checks.h"
+#include "app/render_warnings.h"
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
@@ -153,31 +154,10 @@ void lightCut(const LintScene& s, Findings& findings) {
   }
 }
 
-/// Names in the links of a light or an object that none of the others has, of which `kind` they are.
-template <class Links>
-void linksToNothing(const Links& links, const Place& place, const std::vector<std::string_view>& names,
-                    const std::string& kind, const std::string& example, Findings& findings) {
-  forEachField<Links>([&](const auto& f) {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(links.*f.member)>, std::vector<std::string>>)
-      for (const std::string& name : links.*f.member)
-        if (std::find(names.begin(), names.end(), name) == names.end())
-          warn(findings, "light-link", place,
-               std::string(f.keyword) + " names \"" + name + "\", and no " + kind + " is called so",
-               names.empty() ? "give " + kind + "s names, as in " + example : didYouMean(name, names));
-  });
-}
-
 void lightLink(const LintScene& s, Findings& findings) {
-  std::vector<std::string_view> objects, lights;
-  for (const Object& object : s.scene.objects)
-    if (!object.name.empty()) objects.push_back(object.name);
-  for (const LightSource& source : s.scene.lights)
-    if (!source.links.name.empty()) lights.push_back(source.links.name);
-  for (const LightSource& source : s.scene.lights)
-    linksToNothing(source.links, source.place, objects, "object", "sphere { name = \"ball\"; }", findings);
-  for (const Object& object : s.scene.objects)
-    linksToNothing(object.links, object.place, lights, "light", "point_light { name = \"key\"; ... }",
-                   findings);
+  Messages messages;
+  warnOfWrongLinks(s.scene, messages);
+  for (const Message& message : messages.all()) findings.push_back({"light-link", message});
 }
 
 }  // namespace trace::lint_checks

@@ -1,6 +1,10 @@
 #include "app/path_ways.h"
 
 #include <algorithm>
+#include <tuple>
+
+#include "app/ray_segments.h"
+#include "base/text.h"
 
 namespace trace {
 namespace {
@@ -48,6 +52,29 @@ std::vector<PathWay> pathWays(const RayTree& tree) {
     return a.places() != b.places() ? a.places() < b.places() : a.light < b.light;
   });
   return ways;
+}
+
+bool joinsPaths(const Settings& settings) {
+  return settings.integrator == IntegratorKind::bdpt ||
+         (settings.integrator == IntegratorKind::mlt && settings.chains == Chains::bdpt);
+}
+
+std::string whyNoWays(const RayTree& tree, const Settings& settings) {
+  if (settings.integrator == IntegratorKind::mlt)
+    return "The numbers of this sample chose one way to join its paths, and found no such path.";
+  const RayNode& camera = rayAt(tree, 0);
+  if (!camera.hit && !scatteredIn(camera))
+    return "The camera ray met nothing, so there is no place to join with a light.";
+  std::string text = "No paths were joined in this sample";
+  const char* joint = " with ";
+  for (const auto& [places, end, option] :
+       {std::tuple(settings.lightVertices, "light", "light-vertices"),
+        std::tuple(settings.cameraVertices, "camera", "camera-vertices")}) {
+    if (places < 0) continue;
+    text += joint + counted(places, "place") + " from the " + end + "'s end, as " + option + " says";
+    joint = ", and ";
+  }
+  return text + ". Another sample may have some.";
 }
 
 std::vector<int> raysOf(const RayTree& tree, const PathWay& way) {

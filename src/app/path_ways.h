@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/ray_tree.h"
+#include "scene/settings.h"
 
 namespace trace {
 
@@ -27,6 +28,11 @@ struct PathWay {
 /// The shortest paths first, of these the ones with fewer places from the light's end. Empty of a tree that
 /// no path from a light belongs to, and of none of `bdpt`.
 std::vector<PathWay> pathWays(const RayTree& tree);
+
+/// The integrator joins paths from both ends.
+bool joinsPaths(const Settings& settings);
+/// Why the tree of one that does has no ways.
+std::string whyNoWays(const RayTree& tree, const Settings& settings);
 
 /// The rays of the path, from the camera to the light.
 std::vector<int> raysOf(const RayTree& tree, const PathWay& way);

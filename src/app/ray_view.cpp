@@ -11,7 +11,7 @@ const RayNode& at(const RayTree& tree, int node) { return tree.nodes[static_cast
 
 std::string text(Real number) {
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.5g", number);
+  std::snprintf(buffer, sizeof buffer, "%.5g", number + 0.0);  // no -0
   return buffer;
 }
 std::string text(const Vec3& v) { return text(v.x) + "  " + text(v.y) + "  " + text(v.z); }
@@ -99,6 +99,12 @@ class Differ {
 };
 
 }  // namespace
+
+std::string channels(const Color& c) {
+  char buffer[96];
+  std::snprintf(buffer, sizeof buffer, "%.3g %.3g %.3g", c.r + 0.0, c.g + 0.0, c.b + 0.0);  // no -0
+  return buffer;
+}
 
 Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * node.radiance)); }
 

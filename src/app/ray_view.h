@@ -12,6 +12,8 @@ namespace trace {
 
 /// What the ray carries to the pixel: the largest channel of weight * radiance for rays that bring light.
 Real share(const RayNode& node);
+/// "0.12 0.1 0.0813": red, green and blue.
+std::string channels(const Color& c);
 
 /// Name and value of everything that is known of the ray, in groups with a heading (an empty value).
 std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, int node, const Scene& scene);

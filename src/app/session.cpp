@@ -4,7 +4,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "app/idle_options.h"
+#include "app/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -156,8 +156,9 @@ void Session::build(const Session* before) {
     world_.emplace(compile(scene_, settings_, messages_));
   }
   buildMoments();
-  warnOfIdleOptions(scene_, settings_, *world_, messages_);
+  warnOfSettings(scene_, settings_, *world_, messages_);
   warnOfEmptyMedia(scene_, messages_);
+  warnOfWrongLinks(scene_, messages_);
   messages_.throwIfFailed(strict_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));

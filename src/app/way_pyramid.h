@@ -31,7 +31,11 @@ Pyramid wayPyramid(std::shared_ptr<const Session> session, bool unweighted, int 
 /// The same in the background, for a window that asks in every frame.
 class PyramidMaker {
  public:
+  /// To be called often. A session that differs from the last only in the ways that it shows has the same
+  /// one.
   void want(const std::shared_ptr<const Session>& session, bool unweighted, int places);
+  /// What is being rendered is given up; what is there stays.
+  void giveUp();
   /// Takes what has come in the meantime; true if there is something new.
   bool update();
   bool busy() const { return task_.busy(); }
@@ -39,6 +43,7 @@ class PyramidMaker {
 
  private:
   Pyramid shown_, asked_;
+  std::shared_ptr<const Session> alike_;  // that came last, if it has the one that was asked for
   BackgroundTask<Pyramid> task_;
 };
 

@@ -87,12 +87,12 @@ void Workspace::fail(const std::vector<Message>& errors) {
   ++failures_;
 }
 
-void Workspace::open(const std::string& file, std::vector<Choice> commandLine) {
-  asked_ = {absolute(file), commandLine, writtenAt(file)};
-  opening_.start([path = asked_->file, commandLine = std::move(commandLine)](const Cancelled&) {
+void Workspace::open(const std::string& file) {
+  asked_ = {absolute(file), writtenAt(file)};
+  opening_.start([path = asked_->file, choices = commandLine](const Cancelled&) {
     return outcomeOf(path, [&] {
       Document opened;
-      opened.open(path, commandLine);
+      opened.open(path, choices);
       return opened;
     });
   });
@@ -108,9 +108,9 @@ void Workspace::takeOpened() {
 
 void Workspace::openIfMended() {
   if (!lookNow() || writtenAt(asked_->file) == asked_->written) return;
-  const Asked again = *asked_;
-  note(shown(again.file) + " changed on disk and is read again");
-  open(again.file, again.commandLine);
+  const std::string again = asked_->file;
+  note(shown(again) + " changed on disk and is read again");
+  open(again);
 }
 
 bool Workspace::lookNow() {
@@ -124,6 +124,7 @@ void Workspace::adopt(Document opened) {
   const bool another = !document.isOpen() || document.scene().file != opened.scene().file;
   document = std::move(opened);
   reading_ = 0;
+  gone_ = false;
   if (another) inspector.forget();
   giveUpWanted();
   putFirst(document.file());
@@ -140,9 +141,10 @@ void Workspace::putFirst(const std::string& file) {
 }
 
 void Workspace::choose(const std::string& option, const std::string& value, bool continues) {
-  if (!Document::readsFile(option)) return document.choose(option, value, continues);
+  if (document.isOpen() && !Document::readsFile(option)) return document.choose(option, value, continues);
   Settings scratch;
   findOption(option).assign(scratch, value);
+  if (!document.isOpen()) return commandLine.push_back({option, value, {}});
   want({option, value, continues});
 }
 
@@ -260,7 +262,7 @@ void Workspace::takeReference() {
 
 void Workspace::savePicture(const std::string& file) {
   const auto session = render.session();
-  if (!session) return;
+  if (!session) return fail({{.place = {.file = file}, .what = "not written: there is no picture yet"}});
   Settings settings = session->settings();  // but what comes after the film is as it is now
   for (const Option& option : options())
     if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
@@ -280,8 +282,13 @@ void Workspace::savePicture(const std::string& file) {
 }
 
 void Workspace::saveScene(const std::string& file) {
-  saving_.start([what = document.saving(absolute(file))](const Cancelled&) {
-    return outcomeOf(what.file, [&] { return Saved{{what.file}, Document::write(what)}; });
+  if (!document.isOpen()) return fail({{.place = {.file = file}, .what = "not written: no scene is open"}});
+  const bool ours = absolute(file) == document.file();
+  saving_.start([what = document.saving(absolute(file)), ours](const Cancelled&) {
+    return outcomeOf(what.file, [&] {
+      const bool anew = ours && !fs::exists(what.file);
+      return Saved{{what.file}, Document::write(what), anew};
+    });
   });
 }
 
@@ -299,9 +306,11 @@ void Workspace::takeSaved() {
       fail(outcome->errors);
       continue;
     }
-    for (const std::string& file : outcome->value->files) note("wrote " + shown(file));
+    for (const std::string& file : outcome->value->files)
+      note("wrote " + shown(file) + (outcome->value->anew ? " anew: it was no longer on the disk" : ""));
     if (!outcome->value->scene) continue;
     document.noteSaved(*outcome->value->scene);
+    gone_ = false;
     putFirst(outcome->value->scene->what.file);
     report(outcome->value->scene->what.messages.all());
   }
@@ -373,12 +382,12 @@ void Workspace::reloadIfChanged() {
   if (!lookNow()) return;
   std::error_code error;
   const bool gone = !fs::exists(document.file(), error) && !error;
-  if (gone && !told_)
+  if (gone && !gone_)
     log_.push_back({Level::warning,
                     shown(document.file()) + " is no longer on the disk",
                     "what was read stays; File, Save scene writes it again",
                     {}});
-  told_ = gone;
+  gone_ = gone;
   if (!document.changedOnDisk()) return;
   document.noticeDisk();
   want({.anew = true});

@@ -24,11 +24,12 @@ class Workspace {
  public:
   /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays; where there is
   /// none, the file is read again as soon as it changes.
-  void open(const std::string& file, std::vector<Choice> commandLine = {});
+  void open(const std::string& file);
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it
   /// changed on disk, collects messages.
   void update();
 
+  std::vector<Choice> commandLine;  ///< options that hold over those of every file that is opened
   Document document;
   BackgroundRender render;
   PixelInspector inspector;
@@ -45,8 +46,8 @@ class Workspace {
   /// One step of the Document. Files that the scene names since are read first, in the background; where one
   /// cannot be, the step is not taken, and the log says why.
   void edit(const std::string& what, Scene scene, bool continues = false);
-  /// As of the Document, but the file is read in the background if it has to be. Throws Error(Fault::usage)
-  /// if the option does not take the value.
+  /// As of the Document, but the file is read in the background if it has to be; before a scene is open it
+  /// joins the command line. Throws Error(Fault::usage) if the option does not take the value.
   void choose(const std::string& option, const std::string& value, bool continues = false);
   void reset(const std::string& option);
   /// With what was chosen last, also if the file is still being read for it.
@@ -69,6 +70,9 @@ class Workspace {
     referenceFile_.clear();
     ++referenceVersion_;
   }
+
+  /// Something of the scene is in no file: it was edited, or its file is gone.
+  bool unsaved() const { return document.edited() || (document.isOpen() && gone_); }
 
   /// Writes what is rendered so far.
   void savePicture(const std::string& file);
@@ -149,7 +153,8 @@ class Workspace {
   };
   struct Saved {
     std::vector<std::string> files;
-    std::optional<Document::Saved> scene;
+    std::optional<Document::Saved> scene{};
+    bool anew = false;  ///< the file was there once, and was gone
   };
 
   void takeOpened();
@@ -183,11 +188,10 @@ class Workspace {
   std::chrono::steady_clock::time_point looked_{};
   struct Asked {
     std::string file;
-    std::vector<Choice> commandLine;
     std::filesystem::file_time_type written{};
   };
   std::optional<Asked> asked_;                    // to be opened; it is not open yet
-  bool told_ = false;                             // that the file is gone
+  bool gone_ = false;                             // the file is; told once
   std::optional<Document::Change> wanted_;        // for which the file is being read
   std::uint64_t wantedNumber_ = 0, givenUp_ = 0;  // the last; those up to it count no more
   BackgroundTask<Outcome<Document>> opening_;

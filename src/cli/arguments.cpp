@@ -18,11 +18,6 @@ namespace {
 
 using Action = std::function<void(Arguments&, const std::string& value)>;
 
-bool isSwitch(std::string_view word) {
-  constexpr std::string_view kWords[] = {"on", "off", "true", "false", "yes", "no"};
-  return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
-}
-
 /// Whether the word is one of the values, which stand with "|" between.
 bool isOneOf(std::string_view word, std::string_view values) {
   const std::string all = "|" + std::string(values) + "|";

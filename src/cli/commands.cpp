@@ -7,11 +7,11 @@
 #include <system_error>
 
 #include "app/session.h"
+#include "app/version.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "cli/commit.h"
 #include "cli/help.h"
 #include "cli/memory_limit.h"
 #include "cli/overseer.h"
@@ -100,8 +100,7 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
       return kDone;
     }
     if (arguments.version) {
-      const std::string from(commit());
-      printResult("Trace " TRACE_VERSION + (from.empty() ? "" : ", commit " + from) + "\n");
+      printResult(versionText() + "\n");
       return kDone;
     }
     return runLimited(command, arguments, console, budget);

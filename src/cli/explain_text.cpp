@@ -21,7 +21,7 @@ namespace {
 
 std::string text(Real x) {
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", x);
+  std::snprintf(buffer, sizeof buffer, "%.6g", x + 0.0);  // no -0
   return buffer;
 }
 std::string text(Real x, Real y, Real z) { return text(x) + " " + text(y) + " " + text(z); }
@@ -40,6 +40,9 @@ bool sameBits(const Color& a, const Color& b) {
 }
 
 // --- the tree ---
+
+/// Rays deeper than so many levels stand at the same margin, and name the ray that sent them.
+constexpr int kMostIndented = 12;
 
 class TreeText {
  public:
@@ -70,6 +73,8 @@ class TreeText {
     if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
     if (const auto light = lightOf(tree_, index)) title += " to " + printable(lightName(scene_, *light));
     if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
+    const std::size_t room = std::size_t{4} * kMostIndented;
+    if (rest.size() >= room) title += " of #" + std::to_string(node.parent);
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
     for (const Ignored& ignored : node.ignored)
@@ -86,7 +91,8 @@ class TreeText {
 
     for (std::size_t i = 0; i < children.size(); ++i) {
       text_ += rest + "|\n";
-      ray(children[i], rest + "+-- ", rest + (i + 1 < children.size() ? "|   " : "    "));
+      const char* indent = rest.size() >= room ? "" : i + 1 < children.size() ? "|   " : "    ";
+      ray(children[i], rest + "+-- ", rest + indent);
     }
   }
 

@@ -1,8 +1,8 @@
 // ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
 #include <array>
 
-#include "app/idle_options.h"
 #include "app/lint.h"
+#include "app/render_warnings.h"
 #include "app/session.h"
 #include "base/file.h"
 #include "base/printable.h"
@@ -56,7 +56,7 @@ int lintCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   Messages messages = session.messages();
   const World world = compile(session.scene(), session.settings(), messages);
-  warnOfIdleOptions(session.scene(), session.settings(), world, messages);
+  warnOfSettings(session.scene(), session.settings(), world, messages);
   const std::vector<LintFinding> findings = lint(session.scene(), session.settings(), world, messages.all());
   const std::string& scene = session.scene().file;
   const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);

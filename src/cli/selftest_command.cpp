@@ -7,10 +7,10 @@
 
 #include "accel/bvh_kernel.h"
 #include "app/selftest.h"
+#include "app/version.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
-#include "cli/commit.h"
 
 namespace trace::cli {
 namespace {
@@ -24,9 +24,7 @@ std::string lineOf(const SelfCheck& check, double found, bool holds, double seco
 }
 
 std::string about() {
-  const std::string from(commit());
-  return "Trace " TRACE_VERSION ", " + (from.empty() ? "" : "commit " + from + ", ") +
-         std::to_string(hardwareThreads()) + " threads, hierarchies by " +
+  return versionText() + ", " + std::to_string(hardwareThreads()) + " threads, hierarchies by " +
          std::string(bvhKernels().front().name) + "\n";
 }
 

@@ -124,7 +124,10 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   Stop here = samples.at(numbers);
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
-  if (watch) watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, here.light, 0, 1, true}, again);
+  if (watch)
+    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1,
+           true},
+          again);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
@@ -135,7 +138,9 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, kind, pixelOf(there).x, pixelOf(there).y, there.light, here.light, accepts, goes}, again);
+      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
+             accepts, goes},
+            again);
     if (goes) std::swap(here, there);
     goes ? numbers.keep() : numbers.undo();
     leave(there);

@@ -181,12 +181,20 @@ void parse(const Option& option, std::string_view text, Color& value) {
   value = *color;
 }
 
-/// Three numbers are a point, and all else is the name of an object.
+/// "1,2,3", as of a point.
+bool isListOfNumbers(std::string_view text) {
+  return text.find(',') != text.npos && text.find_first_of("0123456789") != text.npos &&
+         text.find_first_not_of("0123456789.,+-eE ()") == text.npos;
+}
+
+/// Three numbers are a point, other lists of numbers nothing, and all else is the name of an object.
 void parse(const Option& option, std::string_view text, ScenePlace& value) {
-  if (text.empty()) refuse(option, "the name of an object, a point x,y,z, or none", text);
+  const bool isPoint = isListOfNumbers(text);
+  if (text.empty() || (isPoint && !colorOf(text)))
+    refuse(option, "the name of an object, a point x,y,z of three numbers, or none", text);
   value = {};
   if (text == kNone) return;
-  if (const auto point = text.find(',') == text.npos ? std::nullopt : colorOf(text))
+  if (const auto point = isPoint ? colorOf(text) : std::nullopt)
     value.point = Vec3{point->r, point->g, point->b};
   else
     value.object = text;

@@ -1,5 +1,6 @@
 #include "scene/short_flags.h"
 
+#include <algorithm>
 #include <array>
 
 namespace trace {
@@ -16,6 +17,11 @@ std::span<const ShortFlag> shortFlags() {
       ShortFlag{'A', "spp", "1", "anti-aliasing off"},
   };
   return kTable;
+}
+
+bool isSwitch(std::string_view word) {
+  constexpr std::string_view kWords[] = {"on", "off", "true", "false", "yes", "no"};
+  return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
 }
 
 }  // namespace trace

@@ -15,4 +15,7 @@ struct ShortFlag {
 };
 std::span<const ShortFlag> shortFlags();
 
+/// A word that may stand after the flag of an option that is on or off, and may be left out there.
+bool isSwitch(std::string_view word);
+
 }  // namespace trace

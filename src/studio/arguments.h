@@ -9,12 +9,12 @@
 namespace trace::studio {
 
 struct Arguments {
-  std::string scene;          ///< may be empty
-  std::string reference;      ///< --reference; may be empty
-  std::string script;         ///< --script; may be empty
-  int width = 0, height = 0;  ///< --window; 0: as it was last
-  std::vector<Choice> choices;
-  bool help = false;
+  std::string scene;            ///< may be empty
+  std::string reference;        ///< --reference; may be empty
+  std::string script;           ///< --script; may be empty
+  int width = 0, height = 0;    ///< --window; 0: as it was last
+  std::vector<Choice> choices;  ///< of options; they hold for every scene that is opened
+  bool help = false, version = false;
 };
 
 /// Throws Error(Fault::usage).

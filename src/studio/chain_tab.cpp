@@ -30,11 +30,11 @@ void moveRow(RaysView& view, const ChainMove& move, int index, const ImVec4& mut
   ImGui::TableNextColumn();
   ImGui::Text("%d, %d", move.x, move.y);
   ImGui::TableNextColumn();
-  ImGui::Text("%.4g", move.light);
+  cutText(channels(move.brings));
   ImGui::TableNextColumn();
-  ImGui::Text("%.3g", move.chance);
+  ImGui::Text("%.3g", move.light);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(move.made ? "made" : "not made");
+  ImGui::Text("%s, %.2g", move.made ? "yes" : "no", move.chance);
   if (!move.made) ImGui::PopStyleColor();
   ImGui::PopID();
 }
@@ -54,20 +54,20 @@ void drawChain(Studio& studio, const TracedPixel&) {
   cutText(walk.summary());
   if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(7));
+  ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(5));
   ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(13));
-  ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(10));
-  ImGui::TableSetupColumn("chance", ImGuiTableColumnFlags_WidthFixed, characters(9));
-  ImGui::TableSetupColumn("was", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(8));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(18));
+  ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(6));
+  ImGui::TableSetupColumn("made", ImGuiTableColumnFlags_WidthStretch);
   columnHeads(
       {"its number in the chain",
        "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
        "place by place",
-       "that the offered path goes through", "how bright it is",
-       "with which the move is made: how bright it is beside the path where the chain was, and how likely "
-       "the way there is beside the way back",
-       "what came of it"});
+       "that the offered path goes through", "red, green and blue of what it brings there",
+       "how bright it is to the chain: the luminance of all that it brings, to other pixels too",
+       "whether the move was made, and its chance: how bright the path is beside the one where the chain "
+       "was"});
   if (std::exchange(view.revealMove, false)) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     ImGui::SetScrollY(

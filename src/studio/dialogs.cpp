@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/version.h"
 #include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
@@ -71,18 +72,19 @@ void drawAbout(Studio& studio) {
   bool open = true;
   if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
   closeOnEscape(studio);
-  ImGui::TextUnformatted("Trace " TRACE_VERSION ", the ray tracer you can see inside");
+  ImGui::TextUnformatted((versionText() + ": the ray tracer you can see inside").c_str());
   ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
   ImGui::EndPopup();
 }
 
 void drawLeaving(Studio& studio) {
   if (studio.leaving && studio.workspace.saving()) return;  // then there may be nothing to ask
-  if (studio.leaving && !studio.workspace.document.edited()) return std::exchange(studio.leaving, nullptr)();
+  if (studio.leaving && !studio.workspace.unsaved()) return std::exchange(studio.leaving, nullptr)();
   if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted("What was changed is not in a file yet.");
+  ImGui::TextUnformatted(studio.workspace.document.edited() ? "What was changed is not in a file yet."
+                                                            : "The scene's file is no longer on the disk.");
   const ImVec2 size{characters(16), 0};
   const auto close = [&] {
     ImGui::CloseCurrentPopup();

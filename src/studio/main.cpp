@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/version.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/streams.h"
@@ -108,7 +109,8 @@ int run(const Arguments& arguments) {
   ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
   if (!folder.empty()) restore(studio);
   sizeWindow(studio, arguments);
-  if (!arguments.scene.empty()) studio.workspace.open(arguments.scene, arguments.choices);
+  studio.workspace.commandLine = arguments.choices;
+  if (!arguments.scene.empty()) studio.workspace.open(arguments.scene);
   if (!arguments.reference.empty()) studio.workspace.openReference(arguments.reference);
 
   std::string title;
@@ -143,6 +145,10 @@ int main(int argc, char** argv) {
     const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
     if (arguments.help) {
       std::fputs(studio::helpText().c_str(), stdout);
+      return 0;
+    }
+    if (arguments.version) {
+      std::printf("%s\n", versionText().c_str());
       return 0;
     }
     return studio::run(arguments);

@@ -14,6 +14,8 @@ namespace trace::studio {
 namespace {
 
 constexpr int kLeastPlaces = 2, kMostPlaces = 8;
+constexpr ImU32 kLetters = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kPlate = IM_COL32(0, 0, 0, 170);  // behind letters on a picture, which may be bright
 
 /// The pictures on the graphics card, as the picture itself is shown.
 void refreshPyramid(Studio& studio, bool changed) {
@@ -58,8 +60,10 @@ void pyramidCell(Studio& studio, const WayPicture& way, const Texture& texture, 
     ImGui::SetTooltip("%d %s from the light's end (s), %d from the camera's (t)\nclick: %s", way.light,
                       way.light == 1 ? "place" : "places", way.camera,
                       shown ? "all ways in the picture again" : "this way alone in the picture");
-  if (size.x > 2 * ImGui::CalcTextSize(name.c_str()).x)
-    ImGui::GetWindowDrawList()->AddText({at.x + 3, at.y + 1}, IM_COL32(255, 255, 255, 160), name.c_str());
+  const ImVec2 text = ImGui::CalcTextSize(name.c_str());
+  if (size.x < text.x + 6 || size.y < 1.5f * text.y) return;
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + text.x + 6, at.y + text.y + 2}, kPlate);
+  ImGui::GetWindowDrawList()->AddText({at.x + 3, at.y + 1}, kLetters, name.c_str());
 }
 
 }  // namespace
@@ -68,7 +72,8 @@ void drawPyramid(Studio& studio, const TracedPixel&) {
   PyramidView& view = studio.rays.pyramid;
   view.open = true;
   const auto session = studio.workspace.render.session();
-  if (!studio.workspace.render.state().working()) view.maker.want(session, view.unweighted, view.places);
+  const bool waits = studio.workspace.render.state().working();  // for the picture, which comes first
+  waits ? view.maker.giveUp() : view.maker.want(session, view.unweighted, view.places);
   refreshPyramid(studio, view.maker.update());
   ImGui::Checkbox("unweighted", &view.unweighted);
   landmark("pyramid unweighted");
@@ -80,7 +85,10 @@ void drawPyramid(Studio& studio, const TracedPixel&) {
   const Pyramid& pyramid = view.maker.pyramid();
   if (!pyramid.problem.empty())
     return ImGui::TextColored(studio.palette().error, "%s", pyramid.problem.c_str());
-  if (view.maker.busy()) ImGui::TextDisabled("The ways are being rendered.");
+  if (waits && pyramid.pictures.empty())
+    ImGui::TextDisabled("The ways are rendered when the picture is finished.");
+  else if (view.maker.busy())
+    ImGui::TextDisabled("The ways are being rendered.");
   if (pyramid.pictures.empty() || view.textures.size() != pyramid.pictures.size()) return;
   const float gap = 4;
   const ImVec2 all = ImGui::GetContentRegionAvail();

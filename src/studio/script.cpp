@@ -137,7 +137,13 @@ constexpr std::array kCommands{
               return !state.working() && !s.workspace.stale() && !s.rays.modelTask.busy();
             }},
     Command{"action", "NAME...", 1, 9, "an entry of a menu: action Undo",
-            [](Studio& s, const Words& a) { actionOf(a).run(s); }, [](const Words& a) { actionOf(a); }},
+            [](Studio& s, const Words& a) {
+              const Action& action = actionOf(a);
+              if (!action.enabled(s))
+                throw Error(Fault::usage, "the entry \"" + std::string(action.name) + "\" is greyed now");
+              action.run(s);
+            },
+            [](const Words& a) { actionOf(a); }},
     Command{"panel", "NAME...", 1, 3, "bring a panel to the front",
             [](Studio& s, const Words& a) { s.show(std::string(panelOf(a).name)); },
             [](const Words& a) { panelOf(a); }},

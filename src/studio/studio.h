@@ -78,7 +78,7 @@ struct Studio {
   }
   /// Does what loses the edits of the scene, after asking if there are any.
   void leave(std::function<void()> then) {
-    if (workspace.document.edited())
+    if (workspace.unsaved())
       leaving = std::move(then);
     else
       then();

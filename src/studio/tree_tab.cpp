@@ -9,6 +9,8 @@
 namespace trace::studio {
 namespace {
 
+constexpr int kMostIndented = 12;  // levels: deeper rays stand at the same margin
+
 /// With so much room left free below it.
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
@@ -46,7 +48,8 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
           ImGui::Selectable("##row", i == view.selected,
                             ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
       const bool overRow = ImGui::IsItemHovered();
-      const float indent = static_cast<float>(pixel.level[n]) * ImGui::GetFontSize() * 0.75f;
+      const float indent =
+          static_cast<float>(std::min(pixel.level[n], kMostIndented)) * ImGui::GetFontSize() * 0.75f;
       ImGui::SetCursorPos({start.x + indent, start.y});
       ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen;
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
@@ -65,7 +68,10 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       ImGui::TableNextColumn();
       cutText(metBy(pixel, i));
       ImGui::TableNextColumn();
-      if (node.kind != RayKind::shadow && node.kind != RayKind::light) ImGui::Text("%.4f", share(node));
+      if (node.kind != RayKind::shadow && node.kind != RayKind::light) {
+        ImGui::Text("%.4f", share(node));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(node.weight * node.radiance).c_str());
+      }
       ImGui::TableNextColumn();
       cutText(sentence(node, pixel.scene()));
       ImGui::PopID();

@@ -12,12 +12,6 @@
 namespace trace::studio {
 namespace {
 
-void wayNumber(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  ImGui::TextUnformatted(text);
-}
-
 /// One of the table's rows.
 void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
   const PathWay& way = pixel.ways[static_cast<std::size_t>(index)];
@@ -26,26 +20,25 @@ void wayRow(Studio& studio, const TracedPixel& pixel, int index) {
   ImGui::TableNextColumn();
   char label[32];
   std::snprintf(label, sizeof label, "%d + %d", way.light, way.camera);
+  const std::string how = sentence(way, pixel.tree(), pixel.scene());
   const bool chosen = index == studio.rays.way;
   if (ImGui::Selectable(label, chosen, ImGuiSelectableFlags_SpanAllColumns))
     chooseWay(studio, chosen ? -1 : index);
   if (chosen && std::exchange(studio.rays.revealWay, false)) ImGui::SetScrollHereY();
   if (index < 16) landmark("way " + std::to_string(index));
+  const bool here = way.camera > 1;  // else it is of another pixel
+  const std::string alone = here ? "\nalone it would bring " + channels(way.alone()) : "";
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "%d %s chosen from the light's end (s), %d from the camera's, itself among them (t)\nclick: this "
-        "path "
-        "alone in space",
-        way.light, way.light == 1 ? "place" : "places", way.camera);
-  const auto number = [&](const char* format, double value) {
-    ImGui::TableNextColumn();
-    if (way.camera > 1) wayNumber(format, value);  // else it is of another pixel
-  };
-  number("%.1f %%", 100 * way.share);
-  number("%.4g", maxComponent(way.brings));
-  number("%.4g", maxComponent(way.alone()));
+        "%d %s chosen from the light's end (s), %d from the camera's, itself among them (t)\n%s%s\n"
+        "click: this path alone in space",
+        way.light, way.light == 1 ? "place" : "places", way.camera, how.c_str(), alone.c_str());
   ImGui::TableNextColumn();
-  cutText(sentence(way, pixel.tree(), pixel.scene()));
+  if (here) ImGui::Text("%.1f %%", 100 * way.share);
+  ImGui::TableNextColumn();
+  if (here) cutText(channels(way.brings));
+  ImGui::TableNextColumn();
+  cutText(how);
   ImGui::PopID();
 }
 
@@ -63,17 +56,21 @@ void chooseWay(Studio& studio, int way) {
 }
 
 void drawWays(Studio& studio, const TracedPixel& pixel) {
-  if (!ImGui::BeginTable("ways", 5, kRayTable)) return;
+  if (pixel.ways.empty()) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", whyNoWays(pixel.tree(), pixel.session->settings()).c_str());
+    ImGui::PopTextWrapPos();
+    return landmark("no ways");
+  }
+  if (!ImGui::BeginTable("ways", 4, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("s + t", ImGuiTableColumnFlags_WidthFixed, characters(6));
-  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(8));
-  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(9));
-  ImGui::TableSetupColumn("alone", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(7));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(22));
   ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthStretch);
   columnHeads({"places from the light's end, and from the camera's",
                "its weight among all ways to find such a path: the more likely the way, the more it counts",
-               "the largest channel of what it adds to the pixel",
-               "what it would add if no other way found such paths", "how its two ends were joined"});
+               "red, green and blue of what it adds to the pixel", "how its two ends were joined"});
   int places = 0;
   for (int i = 0; i < static_cast<int>(pixel.ways.size()); ++i) {
     const int now = pixel.ways[static_cast<std::size_t>(i)].places();
@@ -86,7 +83,9 @@ void drawWays(Studio& studio, const TracedPixel& pixel) {
       ImGui::TextColored(studio.palette().accent, "%d places", now);
       ImGui::TableNextColumn();
       ImGui::TableNextColumn();
-      ImGui::TextColored(studio.palette().accent, "%.4g", maxComponent(sum));
+      ImGui::PushStyleColor(ImGuiCol_Text, studio.palette().accent);
+      cutText(channels(sum));
+      ImGui::PopStyleColor();
       places = now;
     }
     wayRow(studio, pixel, i);

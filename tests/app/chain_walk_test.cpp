@@ -43,6 +43,8 @@ TEST(ChainWalk, TheRaysOfAMoveAreTheSampleThatWasOffered) {
       EXPECT_EQ(pixel.y, move.y);
       EXPECT_TRUE(sumsUp(pixel.tree()));
       ASSERT_FALSE(pixel.tree().nodes.empty());
+      EXPECT_EQ(move.brings, pixel.explanation.pixel);
+      EXPECT_NE(sentence(move).find("brings " + channels(move.brings) + " there"), std::string::npos);
       if (chains == Chains::path) {
         EXPECT_EQ(isBlack(pixel.explanation.pixel), move.light == 0);
       }

@@ -71,6 +71,28 @@ TEST(Lint, EverySceneOfItsFolderBelongsToACheck) {
   EXPECT_EQ(filesUnder(kLintScenes, ".ray").size(), 2 * lintChecks().size());
 }
 
+TEST(Lint, APortalLiesBetweenTheSkyAndARoom) {
+  const Folder folder;
+  const std::string text = readFile(kLintScenes + "portal.good.ray"), at = "portal { position = (0, 1.5, 2);";
+  const auto toldOf = [&](const std::string& portal, const std::string& sky) {
+    std::string changed = text;
+    changed.replace(changed.find(at), at.size(), "portal { position = (" + portal + ");");
+    if (sky.empty()) changed.replace(changed.find("background {"), 0, "// ");
+    writeFile(folder / "room.ray", changed);
+    std::string told;
+    for (const LintFinding& finding : lintFile(folder / "room.ray"))
+      if (finding.check == "portal") told += finding.message.what.substr(0, finding.message.what.find(':'));
+    return told;
+  };
+  for (const char* inTheWindow : {"0, 1.5, 2", "0, 1.5, 2.1", "0.4, 1.3, 2", "0, 1.5, 1.7"})
+    EXPECT_EQ(toldOf(inTheWindow, "sky"), "") << inTheWindow;
+  for (const char* outside : {"0, 1.5, 4", "0, 5, 0", "0, 1.5, 9000"})
+    EXPECT_EQ(toldOf(outside, "sky"), "the portal stands in the open") << outside;
+  for (const char* inTheWall : {"0, 0.5, 2.05", "0, 0.5, -2.05"})
+    EXPECT_EQ(toldOf(inTheWall, "sky"), "no light comes through the portal") << inTheWall;
+  EXPECT_EQ(toldOf("0, 1.5, 2", ""), "the portal changes nothing");
+}
+
 TEST(Lint, OurOwnExamplesAreClean) {
   for (const std::string& scene : filesUnder(test::sourceFolder() + "/scenes", ".ray"))
     if (scene.find("infinity") == std::string::npos) {  // as in its program, its glass shows no background

@@ -126,5 +126,29 @@ TEST(PathWays, SayWhatWasMetAndAsked) {
   EXPECT_TRUE(asked);
 }
 
+TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
+  TracedWays traced;
+  traceWays(traced, 12, 20, IntegratorKind::bdpt);
+  const RayTree& tree = traced.explained.tree;
+  Settings settings = traced.session.settings();
+  EXPECT_TRUE(joinsPaths(settings));
+  EXPECT_EQ(whyNoWays(tree, settings), "No paths were joined in this sample. Another sample may have some.");
+  settings.cameraVertices = 3;
+  EXPECT_EQ(
+      whyNoWays(tree, settings),
+      "No paths were joined in this sample with 3 places from the camera's end, as camera-vertices says. "
+      "Another sample may have some.");
+  settings.lightVertices = 1;
+  EXPECT_NE(
+      whyNoWays(tree, settings).find("with 1 place from the light's end, as light-vertices says, and 3"),
+      std::string::npos);
+  RayTree sky = tree;
+  sky.nodes.front().hit.reset();
+  EXPECT_EQ(whyNoWays(sky, settings),
+            "The camera ray met nothing, so there is no place to join with a light.");
+  settings.integrator = IntegratorKind::path;
+  EXPECT_FALSE(joinsPaths(settings));
+}
+
 }  // namespace
 }  // namespace trace::test

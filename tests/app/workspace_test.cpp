@@ -40,7 +40,8 @@ bool settled(Workspace& workspace) {
 }
 
 bool opened(Workspace& workspace, const std::string& file, std::vector<Choice> commandLine = {}) {
-  workspace.open(file, std::move(commandLine));
+  workspace.commandLine = std::move(commandLine);
+  workspace.open(file);
   return settled(workspace);
 }
 
@@ -58,6 +59,35 @@ TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
   ASSERT_TRUE(settled(workspace));
   session.save(path("expected.png"));
   EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
+}
+
+TEST_F(WorkspaceTest, WhatIsChosenBeforeASceneIsOpenHoldsForAllThatAreOpened) {
+  Workspace workspace;
+  workspace.commandLine = {{"threads", "1", {}}};
+  EXPECT_THROW(workspace.choose("width", "wide"), Error);
+  workspace.choose("width", "20");
+  std::filesystem::copy_file(path("scene.ray"), path("other.ray"));
+  for (const char* name : {"scene.ray", "other.ray"}) {
+    workspace.open(path(name));
+    ASSERT_TRUE(settled(workspace));
+    EXPECT_EQ(workspace.document.settings().threads, 1) << name;
+    EXPECT_EQ(workspace.document.settings().width, 20) << name;
+    EXPECT_EQ(workspace.document.chooser(findOption("width")), "command line") << name;
+    EXPECT_FALSE(workspace.document.edited()) << name;
+    workspace.choose("depth", "1");  // that of one scene alone
+  }
+  EXPECT_EQ(workspace.commandLine.size(), 2u);
+}
+
+TEST_F(WorkspaceTest, WithoutASceneNothingIsWritten) {
+  Workspace workspace;
+  workspace.saveScene(path("kept.ray"));
+  workspace.savePicture(path("kept.png"));
+  EXPECT_EQ(workspace.failures(), 2u);
+  ASSERT_EQ(workspace.log().size(), 2u);
+  EXPECT_EQ(workspace.log()[0].text, "not written: no scene is open");
+  EXPECT_EQ(workspace.log()[1].text, "not written: there is no picture yet");
+  EXPECT_FALSE(std::filesystem::exists(path("kept.ray")));
 }
 
 TEST_F(WorkspaceTest, ASceneThatWasBrokenAtTheStartIsReadWhenItIsMended) {
@@ -92,6 +122,24 @@ TEST_F(WorkspaceTest, AFileThatIsGoneIsToldOnce) {
   }
   EXPECT_EQ(told(), 1);
   EXPECT_TRUE(workspace.document.isOpen());
+
+  // It is in no file, so nobody leaves unasked; saved over its file, it is written anew.
+  EXPECT_FALSE(workspace.document.edited());
+  EXPECT_TRUE(workspace.unsaved());
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.log().back().text,
+            workspace.log()[0].text.substr(std::string("opened ").size()).insert(0, "wrote ") +
+                " anew: it was no longer on the disk");
+  for (int i = 0; i < 1200 && workspace.unsaved(); ++i, workspace.update())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(workspace.unsaved());
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.log().back().text.find("anew"), std::string::npos);
+  Document again;
+  again.open(path("gone.ray"));
+  EXPECT_EQ(again.scene().objects.size(), workspace.document.scene().objects.size());
 }
 
 TEST_F(WorkspaceTest, ThePictureOfAnotherSceneIsDevelopedAsThatSays) {
@@ -357,7 +405,8 @@ TEST_F(WorkspaceTest, ASceneIsOpenedInTheBackgroundAndTheOneBeforeStaysIfThatFai
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray")));
   SlowFile slow(path("slow.ray"));
-  workspace.open(path("slow.ray"), {{"width", "30", {}}});
+  workspace.commandLine = {{"width", "30", {}}};
+  workspace.open(path("slow.ray"));
   workspace.update();
   EXPECT_TRUE(workspace.reading());
   EXPECT_EQ(workspace.document.file(), path("scene.ray"));

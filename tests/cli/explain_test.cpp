@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "cli/program.h"
 #include "image/codec.h"
@@ -45,6 +46,29 @@ TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
     longest = std::max(longest, end - std::min(end, text.find_first_not_of("|+- ", begin)));
   EXPECT_LE(longest, 100u);
+}
+
+TEST_F(Explain, DeepRaysStandAtOneMarginAndNameTheRayThatSentThem) {
+  const std::string scene = folder / "milk.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+settings { integrator = path; medium-depth = 200; width = 8; }
+camera { position = (0, 0, 0); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+background { color = (1, 1, 1); }
+scale(40, sphere { material = { opacity = 0; medium_density = 1 } })
+)");
+  const std::string text = out({"explain", scene, "--pixel", "4,4"});
+  std::istringstream lines(text);
+  std::size_t longest = 0, deep = 0;
+  for (std::string line; std::getline(lines, line);) {
+    longest = std::max(longest, std::min(line.size(), line.find_first_not_of("|+- ")));
+    if (line.find("bounce ray of #") != std::string::npos) ++deep;
+  }
+  EXPECT_GT(deep, 20u) << "the scene scatters too little for this test";
+  EXPECT_LE(longest, 60u);
+  EXPECT_TRUE(contains(text, "#40 bounce ray of #39: depth 40,"));
+  EXPECT_FALSE(contains(text, "#9 bounce ray of #"));
+  EXPECT_FALSE(contains(text, " -0 ")) << "zero has no sign for the eye";
+  EXPECT_TRUE(contains(text, "sum to the picture's pixel, bit for bit"));
 }
 
 TEST_F(Explain, TellsOfWaysAndOfAChain) {

@@ -66,6 +66,31 @@ TEST(Options, BadValuesAreRefusedByNameAndChangeNothing) {
     }
 }
 
+TEST(Options, APlaceIsThreeNumbersOrAName) {
+  const Option& option = findOption("focus-on");
+  Settings settings;
+  for (const char* wrong : {"1,2", "1,2,3,4", "(1, 2)", "1,,2"}) {
+    try {
+      option.assign(settings, wrong);
+      ADD_FAILURE() << wrong << " is taken";
+    } catch (const Error& error) {
+      EXPECT_NE(
+          std::string(error.what()).find("expected the name of an object, a point x,y,z of three numbers"),
+          std::string::npos)
+          << error.what();
+    }
+  }
+  for (const char* name : {"7", "ball", "lamp, left", "a,b"}) {
+    option.assign(settings, name);
+    EXPECT_EQ(settings.focusOn.object, name);
+  }
+  for (const char* point : {"1,-2,3e0", "(1, -2, 3)"}) {
+    option.assign(settings, point);
+    ASSERT_TRUE(settings.focusOn.point) << point;
+    EXPECT_EQ(*settings.focusOn.point, Vec3(1, -2, 3));
+  }
+}
+
 TEST(Options, AFileThatASceneNamesLiesBesideIt) {
   const Place place{.file = "folder/scene.ray"};
   const std::vector<Choice> scene{{"environment", "sky.hdr", place}, {"backdrop", "/tmp/b.png", place}};

@@ -12,6 +12,31 @@ env -u DISPLAY "$studio" scene.ray >log 2>&1 || code=$?
 [[ $code == 1 ]] || fail "without a display it exits with $code, not 1"
 grep -q 'display' log || fail "without a display it does not say so"
 
+
+# What is asked of the program needs none. Its flags are those of `ray`.
+ray="$(dirname -- "$studio")/ray"
+[[ "$("$studio" --version)" == "$("$ray" --version)" ]] || fail "--version is not that of ray"
+for help in -h --help '--help all' 'scene.ray -w 20 -Bt1 --help'; do
+  # shellcheck disable=SC2086
+  "$studio" $help | grep -q '^usage: ray-studio' || fail "$help does not help"
+done
+refused() { # WORDS EXPECTED
+  # shellcheck disable=SC2086
+  env -u DISPLAY "$studio" $1 >log 2>&1 && fail "$1 is taken"
+  grep -q -- "$2" log || fail "\"$1\" is refused otherwise than with \"$2\""
+}
+refused '-w' '"-w": expected a value after it'
+refused '--depth' '"--depth": expected a value after it'
+refused '-Aq' 'unknown flag "-q": expected --NAME VALUE, or one of -h -w'
+refused '-o x.png' 'Export picture'
+refused '--version=2' '--version: takes no value'
+refused '--no-denoise=on' '--no-denoise: takes no value'
+refused '--no-width' 'unknown option "no-width"'
+refused 'a.ray -- -w' 'at most one scene, found also "-w"'
+for taken in '--denoise scene.ray' '--no-denoise scene.ray' '--denoise off scene.ray' '-abAB scene.ray' '-At1 -w20 -- scene.ray'; do
+  refused "$taken" 'display'  # what is wrong is the display alone
+done
+
 openDisplay
 
 cat >script <<'END'
@@ -48,6 +73,29 @@ code=0
 "$studio" --script script >log 2>&1 || code=$?
 [[ $code == 1 ]] || fail "a script that fails ends with exit code $code"
 grep -q 'script:1' log || fail "a script that fails does not name its line"
+
+# Options of the command line, and of a script before it opens a scene, hold for each scene that is opened.
+cp scene.ray other.ray
+cat >script <<'END'
+set spp 4
+open scene.ray
+set depth 1
+open other.ray
+state options
+END
+"$studio" --threads 1 -w 40 --denoise --script script >log 2>&1 || fail "a scene cannot be opened after options"
+for chosen in 'threads 1' 'width 40' 'spp 4' 'denoise on' 'depth 5'; do
+  grep -q "^chosen $chosen\$" options || fail "the options of the second scene lack $chosen"
+done
+
+# Without a scene nothing can be saved, and no entry of a menu works that needs one.
+for line in 'save none.png' 'save-scene none.ray' 'action Save scene' 'action Undo'; do
+  echo "$line" >script
+  code=0
+  "$studio" --script script >log 2>&1 || code=$?
+  [[ $code == 1 || $code == 2 ]] || fail "without a scene \"$line\" ends with exit code $code"
+  grep -q 'script:1' log || fail "\"$line\" without a scene is not told with its line"
+done
 
 # A script is looked at whole before it begins: all that is wrong in it is said, and nothing was done.
 cat >script <<'END'
@@ -201,6 +249,14 @@ rays
 tab Ways
 way 0
 state ways
+set light-vertices 30
+wait
+rays
+tab Ways
+state without-ways
+set light-vertices -1
+wait
+rays
 tab Pyramid
 rays
 rays
@@ -223,6 +279,7 @@ screenshot blocked.png space
 END
 "$studio" --script script >log 2>&1 || fail "ways or chains are not shown"
 grep -q '^ways [1-9]' ways || fail "a pixel of bdpt has no ways"
+grep -q ' no ways$' without-ways || fail "the tab Ways does not stay and say why it is empty"
 grep -q '^way 0' ways || fail "a way cannot be chosen"
 grep -q '^pyramid 14$' pyramid || fail "the pyramid has not all its pictures"
 grep -q ' pyramid 0 5$' pyramid || fail "the last row of the pyramid is not to be seen"

@@ -1,7 +1,8 @@
-#include "app/idle_options.h"
+#include "app/render_warnings.h"
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <type_traits>
 
@@ -114,7 +115,7 @@ constexpr std::array kServes{
 
 }  // namespace
 
-void warnOfIdleOptions(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
+void warnOfSettings(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
   const auto warn = [&](const std::string& what, const std::string& hint = {}) {
     messages.warn(Place{.file = scene.file}, what, hint);
   };
@@ -329,6 +330,51 @@ void warnOfEmptyMedia(const Scene& scene, Messages& messages) {
                   "medium_density = 1 takes the other fields as they are");
     return;
   }
+}
+
+namespace {
+
+/// Names in the links of a light or an object that none of the others has, of which `kind` they are: each is
+/// told once.
+class LinkCheck {
+ public:
+  LinkCheck(std::string_view kind, std::string_view example) : kind_(kind), example_(example) {}
+  void know(const std::string& name) {
+    if (!name.empty()) known_.insert(name);
+  }
+  template <class Links>
+  void look(const Links& links, const Place& place, Messages& messages) {
+    forEachField<Links>([&](const auto& field) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(links.*field.member)>,
+                                   std::vector<std::string>>)
+        for (const std::string& name : links.*field.member)
+          if (!known_.contains(name) && told_.insert(name).second)
+            messages.warn(
+                place,
+                std::string(field.keyword) + " names \"" + name + "\", and no " + kind_ + " is called so",
+                hint(name));
+    });
+  }
+
+ private:
+  std::string hint(const std::string& name) const {
+    if (known_.empty()) return "give " + kind_ + "s names, as in " + example_;
+    return didYouMean(name, std::vector<std::string_view>(known_.begin(), known_.end()));
+  }
+
+  std::string kind_, example_;
+  std::set<std::string_view> known_, told_;
+};
+
+}  // namespace
+
+void warnOfWrongLinks(const Scene& scene, Messages& messages) {
+  LinkCheck objects("object", "sphere { name = \"ball\"; }"),
+      lights("light", "point_light { name = \"key\"; ... }");
+  for (const Object& object : scene.objects) objects.know(object.name);
+  for (const LightSource& source : scene.lights) lights.know(source.links.name);
+  for (const LightSource& source : scene.lights) objects.look(source.links, source.place, messages);
+  for (const Object& object : scene.objects) lights.look(object.links, object.place, messages);
 }
 
 }  // namespace trace

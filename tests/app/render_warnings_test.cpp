@@ -1,4 +1,4 @@
-// Warnings of options that change nothing.
+// What a render warns of: options and names that change nothing, integrators that do not suit the scene.
 #include <gtest/gtest.h>
 
 #include "app/session.h"
@@ -37,7 +37,7 @@ point_light { position = (0, 5, 5); color = (1, 1, 1); }
 sphere { material = { diffuse = (0.5, 0.5, 0.5); reflective = (0.5, 0.5, 0.5); } }
 )";
 
-TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
+TEST(RenderWarnings, DarknessIsToldForTheIntegratorChosen) {
   const std::string dark = "no light: everything will be black\n",
                     ball = "sphere { material = { diffuse = (1, 1, 1); } }";
   const auto by = [](const char* integrator) { return std::vector<Choice>{{"integrator", integrator, {}}}; };
@@ -52,7 +52,7 @@ TEST(IdleOptions, DarknessIsToldForTheIntegratorChosen) {
     EXPECT_EQ(warnings(sky + ball, by(integrator)), "") << integrator;
 }
 
-TEST(IdleOptions, WhatChainsThatChangePathsLeaveOutIsTold) {
+TEST(RenderWarnings, WhatChainsThatChangePathsLeaveOutIsTold) {
   const auto told = [](std::vector<Choice> choices) {
     choices.push_back({"integrator", "mlt", {}});
     return warnings(kLit, choices);
@@ -68,7 +68,7 @@ TEST(IdleOptions, WhatChainsThatChangePathsLeaveOutIsTold) {
       "is\n");
 }
 
-TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
+TEST(RenderWarnings, FogWithoutEndUnderASunIsTold) {
   const std::string sunny =
       "directional_light { direction = (0, -1, -1); color = 1; } translate(0, 0, -9, sphere { })";
   const auto by = [&](const std::string& text, const char* integrator, const char* depth) {
@@ -89,7 +89,7 @@ TEST(IdleOptions, FogWithoutEndUnderASunIsTold) {
   EXPECT_EQ(by(kLit, "path", "100"), "");
 }
 
-TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
+TEST(RenderWarnings, DrawnMaterialsAreToldWhereLightBounces) {
   for (const char* model : {"gooch", "hatching", "cel"}) {
     const std::string drawn = std::string(kLit) + "sphere { material = { model = " + model + "; } }";
     EXPECT_EQ(warnings(drawn, {}), "") << model;
@@ -98,7 +98,7 @@ TEST(IdleOptions, DrawnMaterialsAreToldWhereLightBounces) {
   }
 }
 
-TEST(IdleOptions, MaterialsThatMakeLightAreToldWhereLightBounces) {
+TEST(RenderWarnings, MaterialsThatMakeLightAreToldWhereLightBounces) {
   const auto ball = [](const std::string& material) {
     return std::string(kLit) + "sphere { material = { diffuse = 0.6; " + material + " } }";
   };
@@ -110,13 +110,13 @@ TEST(IdleOptions, MaterialsThatMakeLightAreToldWhereLightBounces) {
   EXPECT_EQ(warnings(ball("reflective = 0.4;"), path), "");
 }
 
-TEST(IdleOptions, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
+TEST(RenderWarnings, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
   const std::string caustics = std::string(kLit) + "settings { caustics = 1000; ";
   EXPECT_NE(warnings(caustics + "integrator = path; }", {}).find("it concerns whitted"), std::string::npos);
   EXPECT_EQ(warnings(caustics + "}", {{"integrator", "path", {}}}), "");
 }
 
-TEST(IdleOptions, AreToldWithTheirReason) {
+TEST(RenderWarnings, AreToldWithTheirReason) {
   const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {
     const std::string found = warnings(text, choices);
     EXPECT_NE(found.find(expected), std::string::npos) << expected << "\n" << found;
@@ -156,7 +156,7 @@ TEST(IdleOptions, AreToldWithTheirReason) {
   about(kLit, {{"subsurface-samples", "3", {}}}, "--subsurface-samples changes nothing");
 }
 
-TEST(IdleOptions, AreToldWhereTheyLeaveNothingToSee) {
+TEST(RenderWarnings, AreToldWhereTheyLeaveNothingToSee) {
   const auto expect = [](const std::vector<Choice>& choices, const char* expected) {
     EXPECT_NE(warnings(kLit, choices).find(expected), std::string::npos) << expected;
   };
@@ -164,7 +164,7 @@ TEST(IdleOptions, AreToldWhereTheyLeaveNothingToSee) {
   expect({{"aperture", "1e6", {}}}, "nothing is sharp");
 }
 
-TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
+TEST(RenderWarnings, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit, {}), "");
   const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
   EXPECT_EQ(warnings(lamp, {}), "");
@@ -179,6 +179,28 @@ TEST(IdleOptions, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
             "");
+}
+
+TEST(RenderWarnings, LinksToWhatIsNotThereAreToldOncePerName) {
+  const Folder folder;
+  const std::string file = folder / "scene.ray";
+  writeFile(file, R"(SBT-raytracer 1.0
+point_light { name = "key"; position = (0, 5, 5); color = (1, 1, 1); lights = ("bal", "ball"); }
+point_light { position = (0, 5, 5); color = (1, 1, 1); excludes = ("bal", "floor"); }
+sphere { name = "ball"; lit_by = ("kex"); }
+sphere { lit_by = ("kex", "key"); not_lit_by = ("rim"); }
+)");
+  Session session;
+  session.open(file, {});
+  session.build();
+  std::vector<std::string> told;
+  for (const Message& message : session.messages().all())
+    told.push_back(std::to_string(message.place.line) + " " + message.what + "; " + message.hint);
+  EXPECT_EQ(told, (std::vector<std::string>{
+                      "2 lights names \"bal\", and no object is called so; did you mean \"ball\"?",
+                      "3 excludes names \"floor\", and no object is called so; ",
+                      "4 lit_by names \"kex\", and no light is called so; did you mean \"key\"?",
+                      "5 not_lit_by names \"rim\", and no light is called so; "}));
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// What a render warns of before it begins, since nobody wants it: what was chosen or said and changes
+// nothing, and an integrator that does not suit the scene.
+#pragma once
+
+#include "base/error.h"
+#include "render/world.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// Of options that change nothing, and of an integrator for which the scene has no light, or no end of light.
+void warnOfSettings(const Scene& scene, const Settings& settings, const World& world, Messages& messages);
+
+/// Of the first material that says what a medium does where it is nowhere dense.
+void warnOfEmptyMedia(const Scene& scene, Messages& messages);
+
+/// Of each name in the links of lights and objects that nothing has.
+void warnOfWrongLinks(const Scene& scene, Messages& messages);
+
+}  // namespace trace
