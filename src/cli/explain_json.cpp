@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "app/light_shares.h"
 #include "app/path_ways.h"
 #include "base/match.h"
 #include "cli/json.h"
@@ -283,6 +284,9 @@ std::string explainJson(const PixelFacts& facts) {
   json["pixel"] = toJson(e.pixel);
   json["rendered"] = toJson(facts.rendered);
   json["agrees"] = facts.agrees();
+  json["shares"] = Json::list();
+  for (const LightShare& share : lightShares(e.tree, facts.scene))
+    json["shares"].add({{"from", share.from}, {"brings", toJson(share.brings)}, {"share", share.share}});
   json["lacksLightImage"] = facts.settings.integrator == IntegratorKind::bdpt && !facts.light;
   if (facts.light) {
     const LightImagePixel& image = facts.light->image;

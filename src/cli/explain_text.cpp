@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "app/light_shares.h"
 #include "app/path_ways.h"
 #include "base/printable.h"
 #include "base/text.h"
@@ -110,7 +111,10 @@ class TreeText {
     line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
                    materialNames(scene_, node.materials) + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;
-    std::string side = hit.leaving ? "leaving it" : "entering it";
+    const WhittedTerms& whittedTerms = whitted(*node.bsdf);
+    const bool lets = whittedTerms.transmits() || whittedTerms.passage == Passage::straight;
+    std::string side = lets ? (hit.leaving ? "leaving it" : "entering it")
+                            : (hit.leaving ? "from inside" : "from outside");
     const Indices& indices = node.indices;
     const auto index = [&](Real value, std::uint32_t body, Real priority) {
       if (!indices.nested) return text(value);
@@ -244,6 +248,26 @@ class TreeText {
   std::string text_, margin_;
 };
 
+/// Where most of the sample's light comes from; "" where a single ray says it.
+std::string sharesText(const RayTree& tree, const Scene& scene) {
+  constexpr std::size_t kMost = 6;
+  constexpr double kLeast = 0.005;
+  const std::vector<LightShare> shares = lightShares(tree, scene);
+  if (tree.nodes.size() < 2) return "";
+  if (shares.empty()) return "No light comes along any of its rays.\n\n";
+  std::string lines = "Where the light of this sample comes from:\n";
+  double told = 0;
+  for (std::size_t i = 0; i < std::min(kMost, shares.size()) && shares[i].share >= kLeast; ++i) {
+    char percent[16];
+    std::snprintf(percent, sizeof percent, "%5.1f %%", 100 * shares[i].share);
+    lines += percent + ("  " + printable(shares[i].from)) + "\n";
+    told += shares[i].share;
+  }
+  char rest[48];
+  std::snprintf(rest, sizeof rest, "%5.1f %%  in other ways\n", 100 * (1 - told));
+  return lines + (1 - told >= 0.0005 ? rest : "") + "\n";
+}
+
 /// Each way in which paths from both ends were joined, and what it counts; "" where there is none.
 std::string waysText(const RayTree& tree, const Scene& scene) {
   std::string lines;
@@ -340,6 +364,7 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
             std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);
   text += "\n\n";
+  text += sharesText(e.tree, facts.scene);
   text += TreeText(facts, color).all() + "\n" + waysText(e.tree, facts.scene) + chainText(facts.chain);
   for (std::size_t i = 0; i < e.samples.size(); ++i)
     text += "sample " + std::to_string(i) + "  " + exact(e.samples[i]) +

@@ -112,7 +112,8 @@ std::string sentence(const Outside::View& view) {
       if (view.place.y < 0) return "ground, below the horizon of the sky";
       [[fallthrough]];
     case Outside::Source::gradient:
-      std::snprintf(text, sizeof text, "%s at %.4g degrees above the horizon", name, view.place.y);
+      std::snprintf(text, sizeof text, "%s at %.4g degrees %s the horizon", name, std::abs(view.place.y),
+                    view.place.y < 0 ? "below" : "above");
       return text;
     case Outside::Source::backdrop:
     case Outside::Source::environment:

@@ -28,13 +28,19 @@ std::string shortText(Real x, int digits) {
 
 std::string kindName(RayKind kind) { return std::string(name(kind)); }
 
-/// The rays that it was sent on as: "reflection and refraction".
+/// The rays that it was sent on as: "reflection and 5 refractions".
 std::string sentOn(const RayNode& node) {
+  std::vector<std::pair<std::string_view, int>> kinds;
+  for (const Term& term : node.terms) {
+    if (!term.goesOn()) continue;
+    const std::string_view kind = term.medium ? "bounce" : Term::kNames[static_cast<std::size_t>(term.kind)];
+    if (kinds.empty() || kinds.back().first != kind) kinds.emplace_back(kind, 0);
+    ++kinds.back().second;
+  }
   std::string text;
-  for (const Term& term : node.terms)
-    if (term.goesOn())
-      text += (text.empty() ? "" : " and ") +
-              std::string(term.medium ? "bounce" : Term::kNames[static_cast<std::size_t>(term.kind)]);
+  for (const auto& [kind, count] : kinds)
+    text += (text.empty() ? "" : " and ") + (count > 1 ? std::to_string(count) + " " : "") + std::string(kind) +
+            (count > 1 ? "s" : "");
   return text;
 }
 
