@@ -233,6 +233,23 @@ std::string TextEdits::broken(std::string_view text) const {
   return result;
 }
 
+std::string laidOut(std::string_view text, std::string_view indent) {
+  constexpr std::size_t kLine = 110;
+  std::string result;
+  std::size_t lineStart = 0, mayBreak = 0;  // in the result; behind the last field of the line
+  bool quoted = false;
+  for (const char c : text) {
+    result += c;
+    if (c == '"') quoted = !quoted;
+    if (c == '\n') lineStart = result.size();
+    if (!quoted && result.ends_with("; ")) mayBreak = result.size();
+    if (result.size() - lineStart <= kLine || mayBreak <= lineStart) continue;
+    result.replace(mayBreak - 1, 1, "\n" + std::string(indent));
+    lineStart = mayBreak;
+  }
+  return result;
+}
+
 void sayField(TextEdits& edits, const Item& block, std::string_view keyword, const std::string& text) {
   const std::optional<Item> field = fieldOf(block, keyword);
   if (field && text.empty())
