@@ -48,6 +48,7 @@ says 'found "0,9"; not taken; a point stands before decimals: 0.9'
 seek field diffuse a seed number 0
 double -99999999999 field diffuse a seed number 0
 is undo "${material}diffuse brick a noise seed" "the seed is the nearest that there is"
+double -99999999999 field diffuse a seed number 0 # changes nothing, so that no render is logged after it
 says "${material}diffuse brick a noise seed: expected -1000000000 to 1000000000, found -99999999999"
 # A ramp begins with the colours that it takes the place of.
 seek field diffuse a ramp add
