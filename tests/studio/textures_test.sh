@@ -40,21 +40,25 @@ click field diffuse a kind noise
 is undo "${material}diffuse brick a noise" "the bricks have noise"
 # What is typed and not taken is told with the whole way to the field.
 says() { line logged | grep -qF -- "$1" || fail "step $now: the log does not say \"$1\": $(line logged)"; }
-seek field diffuse mortar number 0
-double abc field diffuse mortar number 0
-says "${material}diffuse brick mortar: expected 0 or more, found \"abc\"; not taken"
-double 0,9 field diffuse mortar number 0
-says 'found "0,9"; not taken; a point stands before decimals: 0.9'
-seek field diffuse a seed number 0
-double -99999999999 field diffuse a seed number 0
-is undo "${material}diffuse brick a noise seed" "the seed is the nearest that there is"
-double -99999999999 field diffuse a seed number 0 # changes nothing, so that no render is logged after it
-says "${material}diffuse brick a noise seed: expected -1000000000 to 1000000000, found -99999999999"
 # A ramp begins with the colours that it takes the place of.
 seek field diffuse a ramp add
 click field diffuse a ramp add
 is undo "${material}diffuse brick a noise ramp" "the noise has a ramp"
 grep -q 'field diffuse a b idle' "$now" || fail "nothing says that b counts no longer"
+seek field diffuse a seed number 0
+double -99999999999 field diffuse a seed number 0
+is undo "${material}diffuse brick a noise seed" "the seed is the nearest that there is"
+goTo list # else the next click would be the third
+next
+double -99999999999 field diffuse a seed number 0 # changes nothing, so that no render is logged after it
+says "${material}diffuse brick a noise seed: expected -1000000000 to 1000000000, found -99999999999"
+seek field diffuse mortar number 0
+double abc field diffuse mortar number 0
+says "${material}diffuse brick mortar: expected 0 or more, found \"abc\"; not taken"
+goTo list # else the next click would be the third
+next
+double 0,9 field diffuse mortar number 0
+says 'found "0,9"; not taken; a point stands before decimals: 0.9'
 goTo list
 xdotool mousemove_relative 0 250 click --repeat 30 --delay 20 4
 next
@@ -62,6 +66,7 @@ next
 seek field specular texture
 click field specular texture
 click field specular kind image
+seek field specular file text
 goTo field specular file text
 typeName() { xdotool click 1 key ctrl+a type --delay 5 "$1"; xdotool key Return; next; }
 typeName gone.ppm
