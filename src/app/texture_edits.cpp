@@ -98,10 +98,10 @@ std::string whyIdle(const TextureModel& model, std::string_view field) {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, Formula>) {
       const bool colored = isColor || field == "ramp";
       if (colored && m.value.text().empty()) return "value is empty";
-      if (!colored && field != "value" && !m.value.text().empty()) return "value counts in its place";
+      if (!colored && field != "value" && !m.value.text().empty()) return "value counts instead";
     }
     if constexpr (requires { m.ramp; })
-      if (isColor && !m.ramp.empty()) return "ramp counts in its place";
+      if (isColor && !m.ramp.empty()) return "ramp counts instead";
     return "";
   });
 }

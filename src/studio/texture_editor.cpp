@@ -58,7 +58,9 @@ template <class Field>
 void idleField(const Field& field, const std::string& why) {
   fieldName(field.keyword, field.help);
   ImGui::AlignTextToFramePadding();
+  ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%s", why.c_str());
+  ImGui::PopTextWrapPos();
   landmark("idle");
 }
 

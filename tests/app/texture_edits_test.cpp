@@ -39,8 +39,8 @@ TEST(TextureEdits, AFieldThatCountsForNothingSaysWhy) {
   ramped.ramp = {{0, 0, 0, 0}};
   EXPECT_EQ(whyIdle(plain, "a"), "");
   EXPECT_EQ(whyIdle(plain, "ramp"), "");
-  EXPECT_EQ(whyIdle(ramped, "a"), "ramp counts in its place");
-  EXPECT_EQ(whyIdle(ramped, "b"), "ramp counts in its place");
+  EXPECT_EQ(whyIdle(ramped, "a"), "ramp counts instead");
+  EXPECT_EQ(whyIdle(ramped, "b"), "ramp counts instead");
   EXPECT_EQ(whyIdle(ramped, "octaves"), "");
   EXPECT_EQ(whyIdle(Brick{}, "a"), "");
   Formula formula;
@@ -48,7 +48,7 @@ TEST(TextureEdits, AFieldThatCountsForNothingSaysWhy) {
   EXPECT_EQ(whyIdle(formula, "red"), "");
   EXPECT_EQ(whyIdle(formula, "a"), "value is empty");
   formula.value = FormulaText("y");
-  EXPECT_EQ(whyIdle(formula, "red"), "value counts in its place");
+  EXPECT_EQ(whyIdle(formula, "red"), "value counts instead");
   EXPECT_EQ(whyIdle(formula, "a"), "");
 }
 

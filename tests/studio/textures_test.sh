@@ -16,7 +16,7 @@ SCENE
 printf 'P3\n1 1\n255\n0 255 0\n' >leaf.ppm
 
 step 'set width 40' wait 'panel Scene' 'select material 0' # 0
-for ((i = 0; i < 60; ++i)); do step; done
+for ((i = 0; i < 60; ++i)); do step wait; done
 step 'save-scene saved.ray' # 61
 step 'action Undo' 'action Undo' 'action Undo' 'save-scene undone.ray' # 62
 for ((i = 0; i < 10; ++i)); do step; done
@@ -76,6 +76,17 @@ line logged | grep -q 'not taken' || fail "the log does not say that it was not 
 goTo field specular file text
 typeName leaf.ppm
 is undo "${material}specular image file" "a file that is there is"
+# A bar moves no other one, and the list has one of its own.
+drag() { goTo "${@:3}"; xdotool mousedown 1; next; xdotool mousemove_relative -- "$1" "$2"; next; xdotool mouseup 1; next; }
+edge() { line "box" | grep -- " $*\$" | cut -d' ' -f"$edge"; }
+edge=1 right="$(edge right bar)" left="$(edge left bar)"
+drag 600 0 left bar
+[[ "$(edge right bar)" == "$right" ]] || fail "the right bar moved with the left one: $(edge right bar), not $right"
+[[ "$(edge left bar)" -gt "$left" ]] || fail "the left bar did not move: $(edge left bar)"
+drag -600 0 left bar
+edge=2 below="$(edge list bar)"
+drag 0 -100 list bar
+[[ "$(edge list bar)" == "$((below - 100))" ]] || fail "the list did not shrink: $(edge list bar), not $below - 100"
 skipTo 61
 grep -q 'diffuse = brick { a = noise { }' saved.ray || grep -q 'diffuse = brick {.*noise {' saved.ray ||
   fail "the bricks were not saved: $(cat saved.ray)"
