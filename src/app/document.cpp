@@ -55,8 +55,8 @@ void keepAside(const SceneText& read, const std::string& file, Messages& message
     there = bytesOf(aside);
   }
   if (!there) writeFile(aside, *read.bytes);
-  messages.warn(Place{.file = file}, "the file as it was is kept as " +
-                                         std::filesystem::path(aside).filename().string());
+  messages.warn(Place{.file = file},
+                "the file as it was is kept as " + std::filesystem::path(aside).filename().string());
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ class Document {
   bool writtenSince(std::filesystem::file_time_type time) const;
 
   std::string file_;
-  std::string ownFile_;  // the file, if it may be saved over
+  std::string ownFile_;                        // the file, if it may be saved over
   std::filesystem::file_time_type written_{};  // of what was read or saved last
   std::filesystem::file_time_type noticed_{};
   std::vector<Choice> commandLine_;

@@ -25,7 +25,11 @@ void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>
 
 /// The first colours of a ramp are a and b, which it takes the place of.
 template <class Struct>
-requires requires(Struct s) { s.ramp; s.a; s.b; }
+requires requires(Struct s) {
+  s.ramp;
+  s.a;
+  s.b;
+}
 void followEdit(Struct& now, const Struct& before, std::string_view keyword) {
   if (keyword != "ramp" || !before.ramp.empty() || now.ramp.size() != 1) return;
   now.ramp = {{0, now.a.r, now.a.g, now.a.b}, {1, now.b.r, now.b.g, now.b.b}};

@@ -8,7 +8,8 @@
 
 namespace trace {
 
-/// Each as a sentence for a person; none for a texture as it should be. Of the textures in it they say nothing.
+/// Each as a sentence for a person; none for a texture as it should be. Of the textures in it they say
+/// nothing.
 std::vector<std::string> flawsOf(const TextureNode& node);
 
 }  // namespace trace

@@ -89,8 +89,8 @@ void rowName(std::string_view name);
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);
 
-/// While it lives, fields lie within what it names: `said` by remarks, as in "material 2:" or "diffuse brick",
-/// and `field` by landmarks.
+/// While it lives, fields lie within what it names: `said` by remarks, as in "material 2:" or "diffuse
+/// brick", and `field` by landmarks.
 class FieldsWithin {
  public:
   explicit FieldsWithin(std::string_view said, std::string_view field = {});

@@ -316,8 +316,7 @@ void drawScene(Studio& studio) {
 
   const Scene& scene = document.scene();
   const float whole = ImGui::GetContentRegionAvail().y;
-  ImGui::BeginChild("tree", {0, std::round(whole * studio.layout.list)}, true,
-                    ImGuiWindowFlags_NavFlattened);
+  ImGui::BeginChild("tree", {0, std::round(whole * studio.layout.list)}, true, ImGuiWindowFlags_NavFlattened);
   entry(studio, Selected::camera, 0, "camera");
   entry(studio, Selected::background, 0, "background");
   branch(studio, Selected::light, "lights", scene.lights.size(),

@@ -30,7 +30,8 @@ TEST(SceneChanges, TheOneThatCameIsFound) {
 
 TEST(SceneChanges, ANameThatIsSharedFromNowOnIsTold) {
   Scene before;
-  for (const char* name : {"ball", "", "wall", ""}) before.objects.push_back({name, Shape(Sphere{}), {}, 0, {}});
+  for (const char* name : {"ball", "", "wall", ""})
+    before.objects.push_back({name, Shape(Sphere{}), {}, 0, {}});
   before.lights.resize(2);
   before.lights[0].links.name = before.lights[1].links.name = "key";
   const auto shared = [&](const std::function<void(Scene&)>& edit) {

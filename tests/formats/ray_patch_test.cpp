@@ -299,8 +299,10 @@ TEST(RayPatch, AMaterialOutlivesTheObjectThatSaidIt) {
             [](Scene& s) { s.objects.erase(s.objects.begin()); }),
       "box { material = { name = \"red\"; emissive = (0, 0, 0); ambient = (0, 0, 0); diffuse = (1, 0, 0); "
       "specular = (0, 0, 0);\n"
-      "    reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; shadow = 1; priority = 0;\n"
-      "    attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; abbe = 0; }; } cone { material = red; }");
+      "    reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; shadow = 1; priority "
+      "= 0;\n"
+      "    attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; abbe = 0; }; } cone { "
+      "material = red; }");
 }
 
 // --- deleting and adding ----------------------------------------------------------------------------------
@@ -538,9 +540,9 @@ sphere { }
     std::string changed = text;
     return changed.replace(changed.find(from), from.size(), to);
   };
-  EXPECT_EQ(after(text, textureEdit("diffuse",
-                                    [](TextureNode& n) { std::get<Brick>(n.model).mortar = 0.05; })),
-            with("0.035", "0.05"));
+  EXPECT_EQ(
+      after(text, textureEdit("diffuse", [](TextureNode& n) { std::get<Brick>(n.model).mortar = 0.05; })),
+      with("0.035", "0.05"));
   EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.placement.rotate.y = 30; })),
             with("(0.5, 0.5, 0.5)); }", "(0.5, 0.5, 0.5)); rotate = (0, 30, 0); }"));
   EXPECT_EQ(after(text, textureEdit("diffuse",
@@ -550,12 +552,13 @@ sphere { }
                                       noise.placement.scale = {1, 1, 1};
                                       setTexture(n.inputs, "a", noise);
                                     })),
-            with("octaves = 4", "octaves = 2").replace(with("octaves = 4", "octaves = 2").find("(0.35, 0.2"), 17,
-                                                       "(1, 1, 1)"));
+            with("octaves = 4", "octaves = 2")
+                .replace(with("octaves = 4", "octaves = 2").find("(0.35, 0.2"), 17, "(1, 1, 1)"));
   EXPECT_EQ(after(text, textureEdit("diffuse",
                                     [](TextureNode& n) {
                                       std::get<Brick>(n.model).b = Color(0.25);
-                                      setTexture(n.inputs, "b", TextureNode{.model = Checker{.a = Color(0.1)}});
+                                      setTexture(n.inputs, "b",
+                                                 TextureNode{.model = Checker{.a = Color(0.1)}});
                                     })),
             with("checker { }, (0.5, 0.5, 0.5)", "checker { a = (0.1, 0.1, 0.1); }, (0.25, 0.25, 0.25)"));
   EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.inputs.clear(); }))

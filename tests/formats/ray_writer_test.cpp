@@ -238,8 +238,8 @@ sphere { material = { specular = (0.1, 0.1, 0.1); } })");
   const std::string text = written(scene);
   expectRoundTrip(scene, "mirror");
   EXPECT_EQ(messagesOf(text), std::vector<Message>{}) << text;
-  EXPECT_EQ(messagesOf("SBT-raytracer 1.0 sphere { material = { reflective = 1; reflective = 0.5; } }").size(),
-            1u);
+  EXPECT_EQ(
+      messagesOf("SBT-raytracer 1.0 sphere { material = { reflective = 1; reflective = 0.5; } }").size(), 1u);
 }
 
 TEST(RayWriter, FilesAreNamedAsTheyAreOrNotAtAll) {

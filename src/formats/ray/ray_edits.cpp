@@ -18,8 +18,6 @@ bool isKey(const Item& value) {
   return number && value.source().starts_with(Syntax::kKey);
 }
 
-std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
-
 /// Numbers and lists of them, as they are at this moment.
 bool sameNumbers(const Item& a, const Item& b) {
   if (a.kind() != b.kind()) return false;

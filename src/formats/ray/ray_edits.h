@@ -13,6 +13,9 @@
 
 namespace trace::rayfile {
 
+/// The place behind the item.
+inline std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
+
 /// The last field of that keyword in a block, or its synonym, which is the one that counts.
 std::optional<Item> fieldOf(const Item& block, std::string_view keyword);
 

@@ -245,7 +245,7 @@ class Patch {
   void noteRewritten(const Reading& now, const std::set<std::size_t>& rewrite) {
     for (std::size_t i : rewrite)
       lost_.warn(now.scene.objects[i].place,
-                     "this object is written anew: comments and nesting within it are lost");
+                 "this object is written anew: comments and nesting within it are lost");
   }
 
   const SceneText& read_;

@@ -11,8 +11,6 @@
 namespace trace::rayfile {
 namespace {
 
-std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
-
 /// `KIND { ... }` of `value`, which may stand in `texture(KIND { ... }, constant)`.
 std::optional<Item> callOf(const Item& value) {
   if (!value.is(Kind::call)) return {};

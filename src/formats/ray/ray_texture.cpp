@@ -180,8 +180,7 @@ const std::string* mappedFile(const Texture& texture) {
 
 std::string textured(const Texture& texture, const std::string& constant, bool plain, int digits,
                      WrittenTextures* names) {
-  if (const std::string* file = mappedFile(texture))
-    return "map(" + exactly(*file) + ", " + constant + ")";
+  if (const std::string* file = mappedFile(texture)) return "map(" + exactly(*file) + ", " + constant + ")";
   const auto before = names ? names->find(texture->name) : WrittenTextures::iterator();
   if (names && before != names->end() && before->second == texture)
     return "texture(" + written(texture->name, digits) + ", " + constant + ")";
