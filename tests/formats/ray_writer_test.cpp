@@ -244,7 +244,7 @@ sphere { material = { specular = (0.1, 0.1, 0.1); } })");
 
 TEST(RayWriter, FilesAreNamedAsTheyAreOrNotAtAll) {
   Scene scene = again("SBT-raytracer 1.0 sphere { }");
-  for (const char* file : {"a \"b.png", "a\nb.png"}) {
+  for (const char* file : {"a \"b.png", "a\nb.png", "a\x1b[31m.png"}) {
     setTexture(scene.materials[0].textures, "diffuse", pictureTexture(file));
     EXPECT_THROW(written(scene), Error) << file;
   }

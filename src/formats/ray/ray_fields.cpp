@@ -176,7 +176,7 @@ std::string written(const Color& c, int digits) { return written(Vec3{c.r, c.g, 
 
 std::string written(const std::string& value, int) {
   std::string text = "\"";
-  for (char c : value) text += c == '"' ? '\'' : c == '\n' ? ' ' : c;
+  for (char c : value) text += isHeld(c) ? c : c == '"' ? '\'' : ' ';
   return text.substr(0, Syntax::kLongestWord - 1) + "\"";
 }
 

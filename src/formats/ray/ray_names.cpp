@@ -71,7 +71,7 @@ std::optional<Unsayable> found(bool files, const Scene& scene, void (*look)(Sear
 }  // namespace
 
 bool isSayable(std::string_view text) {
-  return text.size() + 2 <= rayfile::Syntax::kLongestWord && text.find_first_of("\"\n") == text.npos;
+  return text.size() + 2 <= rayfile::Syntax::kLongestWord && std::all_of(text.begin(), text.end(), isHeld);
 }
 
 std::string Unsayable::why() const {
@@ -79,7 +79,8 @@ std::string Unsayable::why() const {
   if (text.size() + 2 > rayfile::Syntax::kLongestWord)
     return "expected " + of + " of at most " + std::to_string(rayfile::Syntax::kLongestWord - 2) +
            " characters, found " + std::to_string(text.size());
-  return "expected " + of + " without " + (text.find('\n') == text.npos ? "quotation marks" : "line breaks") +
+  return "expected " + of + " without " +
+         (text.find('"') == text.npos ? "control characters" : "quotation marks") +
          ", which .ray files cannot hold, found " + text;
 }
 

@@ -12,6 +12,9 @@ namespace trace {
 
 struct Scene;
 
+/// Does a word hold the letter? Of control characters, which command terminals, only the tab.
+inline bool isHeld(char c) { return c == '\t' || (c != '"' && static_cast<unsigned char>(c) >= ' '); }
+
 /// Can a .ray file hold the text between quotation marks as it is?
 bool isSayable(std::string_view text);
 
