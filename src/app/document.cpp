@@ -39,6 +39,26 @@ std::vector<Choice> ofTheScene(const Settings& settings) {
   return choices;
 }
 
+std::optional<std::string> bytesOf(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) ? std::optional(readFile(file)) : std::nullopt;
+}
+
+/// Before `file` loses something that a person wrote into the text: what it says goes into a file beside it,
+/// as long as that is the text. One that has other bytes is left alone.
+void keepAside(const SceneText& read, const std::string& file, Messages& messages) {
+  if (!read.bytes || bytesOf(file) != *read.bytes) return;
+  std::string aside = file + ".bak";
+  std::optional<std::string> there = bytesOf(aside);
+  for (int i = 2; there && *there != *read.bytes; ++i) {
+    aside = file + ".bak" + std::to_string(i);
+    there = bytesOf(aside);
+  }
+  if (!there) writeFile(aside, *read.bytes);
+  messages.warn(Place{.file = file},
+                "the file as it was is kept as " + std::filesystem::path(aside).filename().string());
+}
+
 }  // namespace
 
 Document::Reading Document::read(const Source& source) {
@@ -76,7 +96,7 @@ void Document::take(const Reading& reading, bool anew) {
   }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene;
-  written_ = reading.written;
+  written_ = noticed_ = reading.written;
   messages_ = reading.messages;
   fingerprint_ = reading.fingerprint;
   changesWithTime_ = reading.changesWithTime;
@@ -188,7 +208,7 @@ SceneAt Document::sceneAt() const {
   return [text = now.text, scene = now.scene, edited = std::string()](Real time) mutable {
     Messages known;  // they were told when the scene was read
     if (edited.empty() && !(*scene == *text->scene))
-      edited = writeEdited(*text, *scene, text->file, known).front().bytes;
+      edited = writeEdited(*text, *scene, text->file, known).files.front().bytes;
     return readScene(text->file, edited.empty() ? *text->bytes : edited, known, time);
   };
 }
@@ -222,13 +242,17 @@ bool Document::edited() const {
   return isOpen() && (sceneEdited() || ofTheScene(settings_) != choicesOnDisk_);
 }
 
-bool Document::changedOnDisk() const {
+bool Document::writtenSince(std::filesystem::file_time_type time) const {
   std::error_code error;
   const auto written = std::filesystem::last_write_time(file_, error);
-  return isOpen() && !error && written != written_;
+  return isOpen() && !error && written != time;
 }
 
-void Document::noticeDisk() { written_ = timeOf(file_); }
+bool Document::changedOnDisk() const { return writtenSince(noticed_); }
+
+bool Document::othersOnDisk() const { return writtenSince(written_); }
+
+void Document::noticeDisk() { noticed_ = timeOf(file_); }
 
 void Document::reload() {
   noticeDisk();
@@ -248,7 +272,8 @@ Document::Saving Document::saving(const std::string& file) const {
 Document::Saved Document::write(Saving what) {
   Scene scene = *what.scene;
   scene.choices = what.choices;
-  const std::vector<NamedBytes> parts = writeEdited(*what.text, scene, what.file, what.messages);
+  const Rewritten rewritten = writeEdited(*what.text, scene, what.file, what.messages);
+  const std::vector<NamedBytes>& parts = rewritten.files;
   InputFiles others;  // the scene's own file may be replaced, and nothing else that it is made of
   for (const InputFile& input : scene.inputs.all())
     if (!sameFile(input.path, scene.file)) others.noteNamed(input.path);
@@ -258,6 +283,7 @@ Document::Saved Document::write(Saving what) {
   // A picture of the scene has to say what the file is made of. Other formats keep a part of it, and warn.
   if (keepsText(writableFormatFor(own.file).name))
     saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
+  if (!rewritten.keepsAll) keepAside(*saved.what.text, own.file, saved.what.messages);
   for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
   if (parts.size() > 1 && !saved.fingerprint.empty())  // what lies beside it can be read now
     saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
@@ -272,7 +298,7 @@ void Document::noteSaved(const Saved& saved) {
   if (!ours) return;
   file_ = saved.what.file;
   ownFile_ = keepsText(writableFormatFor(file_).name) ? file_ : "";
-  written_ = saved.written;
+  written_ = noticed_ = saved.written;
   onDisk_ = saved.what.scene;
   moments_ = {onDisk_};
   choicesOnDisk_ = saved.what.choices;

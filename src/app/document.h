@@ -73,6 +73,9 @@ class Document {
   std::string fileFingerprint() const { return sceneEdited() ? "" : fingerprint_; }
   /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
   bool changedOnDisk() const;
+  /// What lies on the disk is neither what was read last nor what was saved here: saving over it would lose
+  /// another program's work, whether that can be read or not. Asks the file system.
+  bool othersOnDisk() const;
   void noticeDisk();
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
   /// changedOnDisk() is false until the file changes once more.
@@ -154,10 +157,12 @@ class Document {
   void push(Edition edition, bool continues);
   void settle();
   bool sceneEdited() const;
+  bool writtenSince(std::filesystem::file_time_type time) const;
 
   std::string file_;
-  std::string ownFile_;  // the file, if it may be saved over
-  std::filesystem::file_time_type written_{};
+  std::string ownFile_;                        // the file, if it may be saved over
+  std::filesystem::file_time_type written_{};  // of what was read or saved last
+  std::filesystem::file_time_type noticed_{};
   std::vector<Choice> commandLine_;
   std::vector<Edition> editions_;
   std::size_t current_ = 0;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "formats/ray/ray_fields.h"
+
 namespace trace {
+
+double mostWhole() { return rayfile::kMostWhole; }
 
 void followEdit(Phong& now, const Phong&, std::string_view keyword) {
   if (keyword == "reflective") now.mirrorsSpecular = false;

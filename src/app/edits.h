@@ -14,11 +14,26 @@ namespace trace {
 template <class Struct>
 void followEdit(Struct&, const Struct&, std::string_view) {}
 
+/// Whole numbers in a scene's file are at most this, and at least minus this.
+double mostWhole();
+
 /// A mirror that a person has set no longer follows the highlight.
 void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 
 /// A camera that the file says looks at a point goes on doing so when it is moved.
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
+
+/// The first colours of a ramp are a and b, which it takes the place of.
+template <class Struct>
+requires requires(Struct s) {
+  s.ramp;
+  s.a;
+  s.b;
+}
+void followEdit(Struct& now, const Struct& before, std::string_view keyword) {
+  if (keyword != "ramp" || !before.ramp.empty() || now.ramp.size() != 1) return;
+  now.ramp = {{0, now.a.r, now.a.g, now.a.b}, {1, now.b.r, now.b.g, now.b.b}};
+}
 
 /// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
 /// limits of their own; who takes a limit out wants equal bands again. Elevations ascend, one for each colour

@@ -106,6 +106,26 @@ std::string pixelText(const Color& linear, const Color& toned, Rounding rounding
   return text;
 }
 
+Bytes fewerPixels(const Bytes& picture, int most) {
+  const auto blocks = [&](int side) { return (side + most - 1) / most; };  // pixels in one
+  const int wide = blocks(picture.width), high = blocks(picture.height);
+  Bytes result;
+  result.width = (picture.width + wide - 1) / wide;
+  result.height = (picture.height + high - 1) / high;
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0, count = 0;
+        for (int j = y * high; j < std::min((y + 1) * high, picture.height); ++j)
+          for (int i = x * wide; i < std::min((x + 1) * wide, picture.width); ++i, ++count)
+            sum += picture.rgb[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(picture.width) +
+                                    static_cast<std::size_t>(i)) +
+                               static_cast<std::size_t>(channel)];
+        result.rgb.push_back(static_cast<std::uint8_t>((sum + count / 2) / count));
+      }
+  return result;
+}
+
 Picture clamped(Picture levels) {
   for (Color& c : levels.pixels) c = clamp01(c);
   return levels;

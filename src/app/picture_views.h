@@ -22,6 +22,9 @@ Picture differences(const Picture& a, const Picture& b, double magnify);
 /// blue, green, yellow, red, and white from 1 on. Precondition: the same size.
 Picture falseColours(const Picture& a, const Picture& b, double magnify);
 
+/// The picture with at most so many pixels along each side: each is the mean of a block of the others.
+Bytes fewerPixels(const Bytes& picture, int most);
+
 /// The colour that falseColours() gives a value.
 Color falseColour(double value);
 

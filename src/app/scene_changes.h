@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -19,6 +20,10 @@ std::optional<std::size_t> oneMore(const std::vector<Thing>& fewer, const std::v
   if (!std::equal(at + 1, more.end(), fewer.begin() + (at - more.begin()))) return {};
   return static_cast<std::size_t>(at - more.begin());
 }
+
+/// A name that an object or a light of `after` has come to share with another one since `before`, by which
+/// links mean both; "" for none.
+std::string sharedName(const Scene& before, const Scene& after);
 
 /// How many objects are of the material, or have a part that is: an object of a solid, a side of a surface.
 std::size_t usersOf(const Scene& scene, std::uint32_t material);

@@ -92,6 +92,20 @@ void removeTexture(std::vector<FieldTexture>& textures, std::string_view field) 
   std::erase_if(textures, [&](const FieldTexture& t) { return t.field == field; });
 }
 
+std::string whyIdle(const TextureModel& model, std::string_view field) {
+  return match(model, [&](const auto& m) -> std::string {
+    const bool isColor = field == "a" || field == "b";
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, Formula>) {
+      const bool colored = isColor || field == "ramp";
+      if (colored && m.value.text().empty()) return "value is empty";
+      if (!colored && field != "value" && !m.value.text().empty()) return "value counts instead";
+    }
+    if constexpr (requires { m.ramp; })
+      if (isColor && !m.ramp.empty()) return "ramp counts instead";
+    return "";
+  });
+}
+
 bool lacksFiles(const Scene& scene) {
   bool lacks = false;
   for (const Material& material : scene.materials)

@@ -1,6 +1,7 @@
 // What a person does by hand to the texture of a field, in the studio.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,9 @@ Texture textureOfKind(std::string_view keyword, const Texture* before = nullptr)
 
 /// The field is a plain value again.
 void removeTexture(std::vector<FieldTexture>& textures, std::string_view field);
+
+/// Why a field of the texture changes nothing as things are; "" if it counts.
+std::string whyIdle(const TextureModel& model, std::string_view field);
 
 /// Has the scene files named since it was read, pictures or photometries?
 bool lacksFiles(const Scene& scene);

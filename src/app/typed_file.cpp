@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "formats/ray/ray_names.h"
 
 namespace trace {
 
@@ -11,6 +12,10 @@ namespace fs = std::filesystem;
 
 std::string typedFile(const std::string& text, const std::string& option, const std::string& scene) {
   if (text.empty() || text == "none") return "none";
+  if (!isSayable(text)) {
+    const Unsayable name{text, true};
+    throw Error(Fault::usage, option + ": " + name.why() + "; not taken", name.hint());
+  }
   const std::string file = besideFile(scene, text);
   std::error_code ignored;
   if (!fs::exists(file, ignored))

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "app/output.h"
+#include "app/scene_changes.h"
 #include "app/texture_edits.h"
 #include "base/text.h"
+#include "formats/ray/ray_names.h"
 #include "image/codec.h"
 #include "scene/picture_size.h"
 
@@ -216,7 +218,19 @@ void Workspace::undo() {
   if (anew) want({.anew = true});
 }
 
+void Workspace::refuse(const std::string& what, const std::string& why, const std::string& hint) {
+  ++refusals_;
+  log_.push_back({Level::warning, what + " was not taken: " + why, hint, {}});
+}
+
 void Workspace::edit(const std::string& what, Scene scene, bool continues) {
+  if (const auto name = unsayableIn(scene); name && !unsayableIn(document.scene()))
+    return refuse(what, name->why(), name->hint());
+  if (const std::string name = sharedName(document.scene(), scene); !name.empty())
+    log_.push_back({Level::warning,
+                    "another one is called \"" + name + "\", too: links by that name mean both",
+                    "links are lights, excludes, lit_by and not_lit_by",
+                    {}});
   if (!lacksFiles(scene) || lacksFiles(document.scene()))
     return document.edit(what, std::move(scene), continues);
   completing_.start([what, of = document.sharedScene(), scene = std::move(scene)](const Cancelled&) mutable {
@@ -236,10 +250,8 @@ void Workspace::takeCompleted() {
   if (!completed) return;
   if (completed->errors.empty() && completed->of == document.sharedScene())
     return document.edit(completed->what, *completed->scene);
-  ++refusals_;
-  const std::string why =
-      completed->errors.empty() ? "the scene was edited meanwhile" : completed->errors.front().what;
-  log_.push_back({Level::warning, completed->what + " was not taken: " + why, {}, {}});
+  refuse(completed->what,
+         completed->errors.empty() ? "the scene was edited meanwhile" : completed->errors.front().what);
 }
 
 void Workspace::openReference(const std::string& file) {
@@ -293,11 +305,15 @@ void Workspace::saveScene(const std::string& file) {
 }
 
 void Workspace::saveSceneOver() {
-  const bool changed = document.changedOnDisk() || (wanted_ && wanted_->anew);
-  if (saving() || !changed) return saveScene(document.file());
+  const bool toBeRead = document.changedOnDisk() || (wanted_ && wanted_->anew);
+  if (saving() || !(toBeRead || document.othersOnDisk())) return saveScene(document.file());
   fail({{.place = {.file = document.file()},
-         .what = "not saved: the file was changed by another program",
-         .hint = "it is read again now; undo brings back what was edited here, which can be saved then"}});
+         .what = std::string("not saved: the file was changed by another program") +
+                 (toBeRead ? "" : ", and what it says now could not be read"),
+         .hint = toBeRead
+                     ? "it is read again now; undo brings back what was edited here, which can be saved then"
+                     : "mend it there, and it is read again; or File, Save scene as... writes another "
+                       "file, and replaces this one if you say so"}});
 }
 
 void Workspace::takeSaved() {

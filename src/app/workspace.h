@@ -43,8 +43,9 @@ class Workspace {
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
-  /// One step of the Document. Files that the scene names since are read first, in the background; where one
-  /// cannot be, the step is not taken, and the log says why.
+  /// One step of the Document. Names that a .ray file cannot hold are not taken. Files that the scene names
+  /// since are read first, in the background; where one cannot be, the step is not taken, and the log says
+  /// why.
   void edit(const std::string& what, Scene scene, bool continues = false);
   /// As of the Document, but the file is read in the background if it has to be; before a scene is open it
   /// joins the command line. Throws Error(Fault::usage) if the option does not take the value.
@@ -169,6 +170,8 @@ class Workspace {
   void takeReference();
   void takeSaved();
   void fail(const std::vector<Message>& errors);
+  /// An edit.
+  void refuse(const std::string& what, const std::string& why, const std::string& hint = {});
   void noteEnd();
   void reloadIfChanged();
   void reportReading();  // its warnings, once

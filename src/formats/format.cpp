@@ -216,12 +216,12 @@ const SceneFormat& writableFormatFor(const std::string& file) {
   throw Error(Fault::usage, "\"" + file + "\": expected a name that ends in one of " + known);
 }
 
-std::vector<NamedBytes> writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
-                                    Messages& messages) {
+Rewritten writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
+                      Messages& messages) {
   const SceneFormat& format = writableFormatFor(file);
   if (format.rewrite && read.scene && read.scene->format == format.name)
     return format.rewrite(read, edited, file, messages);
-  return format.write(edited, file, {}, messages);
+  return {format.write(edited, file, {}, messages)};
 }
 
 }  // namespace trace

@@ -41,6 +41,12 @@ struct SceneText {
   std::optional<Vec3> lookAt{};  ///< the point that the text says the camera looks at, if it is said so
 };
 
+/// An edited scene as files, the scene's own first.
+struct Rewritten {
+  std::vector<NamedBytes> files;
+  bool keepsAll = true;  ///< that a person wrote into the text: comments, nesting, keys of an animation
+};
+
 /// A row of the table. A format has `read` or `readAt`, or, if it holds meshes that other scenes may name,
 /// `readModel`.
 struct SceneFormat {
@@ -59,8 +65,8 @@ struct SceneFormat {
                                    Messages& messages) = nullptr;
   /// The scene, which was read as `read` of this format and edited, with as little of the text changed as
   /// possible.
-  std::vector<NamedBytes> (*rewrite)(const SceneText& read, const Scene& edited, const std::string& file,
-                                     Messages& messages) = nullptr;
+  Rewritten (*rewrite)(const SceneText& read, const Scene& edited, const std::string& file,
+                       Messages& messages) = nullptr;
 };
 
 std::span<const SceneFormat> sceneFormats();
@@ -78,7 +84,7 @@ const SceneFormat& writableFormatFor(const std::string& file);
 
 /// The scene as `file`, by the row for its name: as the text that was read, if that is of the same format,
 /// with the edits.
-std::vector<NamedBytes> writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
-                                    Messages& messages);
+Rewritten writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
+                      Messages& messages);
 
 }  // namespace trace

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/edits.h"
 #include "image/codec.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
@@ -21,7 +22,8 @@ bool drag(const FieldFacts& facts, double* values, int count) {
   const bool share = facts.least == 0 && facts.most == 1;
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
   const std::string format = kFormat + unitAfter(facts.unit, count == 1 ? values[0] : 0);
-  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, facts.name});
+  const std::string name = saidName(facts.name);
+  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, name});
 }
 
 /// A file that is named, and not chosen here.
@@ -42,6 +44,10 @@ FileChoice& fileChoice() {
 
 std::string& outerFields() {
   static std::string names;  // of the one table that is drawn now
+  return names;
+}
+std::string& outerNames() {
+  static std::string names;  // the same, as remarks say them
   return names;
 }
 
@@ -72,10 +78,14 @@ bool editFileName(const FieldFacts& facts, std::string& name, std::vector<std::s
 bool editValue(const FieldFacts& facts, Real& value) { return drag(facts, &value, 1); }
 
 bool editValue(const FieldFacts& facts, int& value) {
-  double number = value;
-  if (!drag(facts, &number, 1)) return false;
-  value = static_cast<int>(std::lround(number));
-  return true;
+  const std::string name = saidName(facts.name), format = "%.0f" + unitAfter(facts.unit, value);
+  const float speed = static_cast<float>(std::max(0.05, std::abs(value) / 100.0));
+  ImGui::SetNextItemWidth(-1);
+  const bool changed = editNumber("##value", value,
+                                  {std::max(facts.least, -mostWhole()), std::min(facts.most, mostWhole()),
+                                   format, speed, false, true, name});
+  landmark("number 0");
+  return changed;
 }
 
 bool editValue(const FieldFacts&, bool& value) { return ImGui::Checkbox("##value", &value); }
@@ -105,10 +115,10 @@ bool editSwatch(Color& value) {
 bool editValue(const FieldFacts& facts, Color& value) {
   bool changed = editSwatch(value);
   double numbers[3] = {value.r, value.g, value.b};
+  const std::string name = saidName(facts.name);
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   changed =
-      editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3g", 0.005f, false, true, facts.name}) ||
-      changed;
+      editNumbersInRow(numbers, 3, {facts.least, facts.most, "%.3g", 0.005f, false, true, name}) || changed;
   if (!changed) return false;
   const auto within = [&](double x) { return std::clamp(x, facts.least, facts.most); };
   value = {within(numbers[0]), within(numbers[1]), within(numbers[2])};
@@ -141,7 +151,7 @@ bool editValue(const FieldFacts& facts, FormulaText& value) {
     value = FormulaText(text);
     return true;
   } catch (const Error& error) {
-    remarkOn(std::string(facts.name) + ": " + error.messages().front().what + "; not taken");
+    remarkOn(saidName(facts.name) + ": " + error.messages().front().what + "; not taken");
     return false;
   }
 }
@@ -153,10 +163,17 @@ void giveFile(unsigned field, std::string name) {
   fileChoice().name = std::move(name);
 }
 
-FieldsWithin::FieldsWithin(std::string_view field) : before_(outerFields().size()) {
-  outerFields() += std::string(field) + " ";
+FieldsWithin::FieldsWithin(std::string_view said, std::string_view field)
+    : said_(outerNames().size()), fields_(outerFields().size()) {
+  outerNames() += std::string(said) + " ";
+  if (!field.empty()) outerFields() += std::string(field) + " ";
 }
-FieldsWithin::~FieldsWithin() { outerFields().resize(before_); }
+FieldsWithin::~FieldsWithin() {
+  outerNames().resize(said_);
+  outerFields().resize(fields_);
+}
+
+std::string saidName(std::string_view field) { return outerNames() + std::string(field); }
 
 bool editValue(const FieldFacts&, std::string& value) {
   ImGui::SetNextItemWidth(-1);
@@ -247,7 +264,11 @@ void listButtons(std::size_t index, ListEdit& edit) {
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
 }
 
-bool addButton() { return ImGui::SmallButton("Add"); }
+bool addButton() {
+  const bool pressed = ImGui::SmallButton("Add");
+  landmark("add");
+  return pressed;
+}
 
 bool beginFields(const char* id, bool buttons) {
   if (!ImGui::BeginTable(id, buttons ? 3 : 2, ImGuiTableFlags_SizingStretchProp)) return false;

@@ -89,17 +89,20 @@ void rowName(std::string_view name);
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);
 
-/// While it lives, fields lie within the one of that name: their landmarks say so.
+/// While it lives, fields lie within what it names: `said` by remarks, as in "material 2:" or "diffuse
+/// brick", and `field` by landmarks.
 class FieldsWithin {
  public:
-  explicit FieldsWithin(std::string_view field);
+  explicit FieldsWithin(std::string_view said, std::string_view field = {});
   ~FieldsWithin();
   FieldsWithin(const FieldsWithin&) = delete;
   FieldsWithin& operator=(const FieldsWithin&) = delete;
 
  private:
-  std::size_t before_;
+  std::size_t said_, fields_;  ///< lengths before
 };
+/// The field as remarks name it: "material 2: diffuse brick a".
+std::string saidName(std::string_view field);
 
 /// One field; calls changed(keyword) after a change. Objects are edited as objects; materials of a fractal
 /// stay as the file gave them.

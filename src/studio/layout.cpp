@@ -76,8 +76,16 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
   ImGui::End();
 }
 
-/// A bar that changes `share` of `whole` pixels when dragged; `sign` -1 where the dock lies beyond it.
-void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, float whole, float sign) {
+/// What a bar changes.
+struct Shared {
+  float& share;         ///< of the whole, that its dock may have
+  float pixels, whole;  ///< that the dock has now, and the window
+  float most;           ///< the share that leaves room for the other docks, which stay as they are
+  float sign = 1;       ///< -1 where the dock lies beyond the bar
+};
+
+/// A bar that makes a dock larger and smaller when dragged.
+void splitter(const char* name, ImVec2 position, ImVec2 size, const Shared& dock) {
   ImGui::SetNextWindowPos(position);
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -87,6 +95,7 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, floa
                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::InvisibleButton("bar", size);
+  landmark(name);
   const bool tall = size.y > size.x;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
     ImGui::SetMouseCursor(tall ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
@@ -96,7 +105,10 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, float& share, floa
   ImGui::GetWindowDrawList()->AddRectFilled(position, {position.x + size.x, position.y + size.y}, colour);
   if (ImGui::IsItemActive()) {
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    share = std::clamp(share + sign * (tall ? moved.x : moved.y) / whole, kLeast, kMost);
+    const float by = dock.sign * (tall ? moved.x : moved.y);
+    if (by != 0)
+      dock.share =
+          std::clamp((dock.pixels + by) / dock.whole, kLeast, std::max(kLeast, std::min(kMost, dock.most)));
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
@@ -134,10 +146,15 @@ void drawStudio(Studio& studio) {
   drawDock(studio, Dock::right, "right", {at.x + all.x - right, at.y}, {right, high});
   drawDock(studio, Dock::bottom, "bottom", {at.x + left, at.y + high}, {rest, low});
   const float half = bar / 2;
-  if (left > 0) splitter("left bar", {at.x + left - half, at.y}, {bar, all.y}, layout.left, all.x, 1);
+  const float others = right < rest ? right / all.x + kLeast : kLeast;
+  if (left > 0)
+    splitter("left bar", {at.x + left - half, at.y}, {bar, all.y}, {layout.left, left, all.x, 1 - others});
   if (right > 0 && right < rest)
-    splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high}, layout.right, all.x, -1);
-  if (low > 0) splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar}, layout.bottom, all.y, -1);
+    splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high},
+             {layout.right, right, all.x, rest / all.x - kLeast, -1});
+  if (low > 0)
+    splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar},
+             {layout.bottom, low, all.y, kMost, -1});
   drawDialogs(studio);
   noteKeyboard(studio);
   std::vector<Message> remarks;

@@ -66,14 +66,26 @@ std::optional<double> taken(double typed, const NumberLook& look, bool whole) {
   return now;
 }
 
+/// Half of the world writes a comma there.
+std::string commaHint(std::string text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return "";
+  text[comma] = '.';
+  const std::optional<ParsedNumber> number = parseNumber(text);
+  return number && number->length == text.size() ? "; a point stands before decimals: " + text : "";
+}
+
 /// The number that was typed; nothing, with a remark, if it is none.
 std::optional<double> numberIn(const std::string& typed, const NumberLook& look, bool whole) {
   const std::size_t first = typed.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
+  if (first == std::string::npos) {
+    remark(look, whole, "nothing", "the value stays");
+    return {};
+  }
   const std::string text = typed.substr(first, typed.find_last_not_of(" \t") + 1 - first);
   const std::optional<ParsedNumber> number = parseNumber(text);
   if (number && number->length == text.size()) return taken(number->value, look, whole);
-  remark(look, whole, '"' + text + '"', "not taken");
+  remark(look, whole, '"' + text + '"', "not taken" + commaHint(text));
   return {};
 }
 

@@ -20,7 +20,8 @@ using Changed = std::function<void(const std::string& what)>;
 constexpr double kAny = 1e300;
 
 bool editThree(const char* name, const char* help, Vec3& value, NumberLook look) {
-  look.name = name;
+  const std::string said = saidName(name);
+  look.name = said;
   fieldName(name, help);
   double values[3] = {value.x, value.y, value.z};
   ImGui::PushID(name);
@@ -158,6 +159,7 @@ std::string nameOf(const std::string& name, const Shape& shape) {
 
 void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed) {
   const std::string name = nameOf(placed.name, placed.shape);
+  const FieldsWithin within(name + ":");
   if (beginFields("placed")) {
     fieldName("name", "what messages and the panels call it");
     if (editValue({}, placed.name)) changed("name");

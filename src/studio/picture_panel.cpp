@@ -100,7 +100,8 @@ FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int 
     view.zoom = std::min(area.x / static_cast<float>(width), area.y / static_cast<float>(height));
     view.centreX = view.centreY = 0.5;
   }
-  const ImVec2 size{static_cast<float>(width) * view.zoom, static_cast<float>(height) * view.zoom};
+  const ImVec2 size{std::max(1.0f, static_cast<float>(width) * view.zoom),  // however thin, it is seen
+                    std::max(1.0f, static_cast<float>(height) * view.zoom)};
   return {{std::round(canvas.x + area.x / 2 - static_cast<float>(view.centreX) * size.x),
            std::round(canvas.y + area.y / 2 - static_cast<float>(view.centreY) * size.y)},
           size};

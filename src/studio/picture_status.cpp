@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/picture_views.h"
+#include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/picture_parts.h"
 
@@ -15,10 +16,14 @@ void drawConvergence(const Studio& studio, const BackgroundRender::State& state)
   const PictureView& view = studio.picture;
   const bool known = view.convergence.samples > 0 && state.phase != BackgroundRender::Phase::failed;
   if (!known || !(state.working() || view.convergence.samples > 1)) return ImGui::TextUnformatted(" ");
-  if (view.noise.size() > 1) {  // how noise falls
+  const bool denoises = view.convergence.judged && studio.workspace.document.settings().denoise;
+  const std::string text = convergenceText(view.convergence) + (denoises ? ", before denoise" : "");
+  const float curve = characters(12), wide = ImGui::CalcTextSize(text.c_str()).x;
+  const bool room = curve + ImGui::GetStyle().ItemSpacing.x + wide <= ImGui::GetContentRegionAvail().x;
+  if (view.noise.size() > 1 && room) {  // how noise falls
     const float most = *std::max_element(view.noise.begin(), view.noise.end());
     ImGui::PlotLines("##noise", view.noise.data(), static_cast<int>(view.noise.size()), 0, nullptr, 0, most,
-                     {characters(12), ImGui::GetFrameHeight()});
+                     {curve, ImGui::GetFrameHeight()});
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip(
           "the noise of the picture since the render began: the standard error of a pixel's mean, on "
@@ -27,8 +32,11 @@ void drawConvergence(const Studio& studio, const BackgroundRender::State& state)
     ImGui::SameLine();
   }
   ImGui::AlignTextToFramePadding();
-  const bool denoises = view.convergence.judged && studio.workspace.document.settings().denoise;
-  ImGui::TextDisabled("%s%s", convergenceText(view.convergence).c_str(), denoises ? ", before denoise" : "");
+  const bool cut = wide > ImGui::GetContentRegionAvail().x;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  rowName(text);
+  ImGui::PopStyleColor();
+  if (cut && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
   landmark("convergence");
 }
 

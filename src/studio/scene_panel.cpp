@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -40,7 +41,9 @@ void change(Studio& studio, const std::string& what, Apply&& apply) {
   studio.editedItem = id;
   Scene scene = studio.workspace.document.scene();
   apply(scene);
+  const std::size_t told = studio.workspace.log().size();
   studio.workspace.edit(what, std::move(scene), continues);
+  if (studio.workspace.log().size() > told) studio.show("Log");
 }
 
 /// The whole of the last row of the list.
@@ -187,6 +190,7 @@ void editLight(Studio& studio) {
         [&](const auto& light) { heading(studio, entryName(source), light.kHelp, source.place); });
   if (buttonOnce("Delete")) return deleteSelected(studio);
   if (!beginFields("light")) return;
+  const FieldsWithin within(entryName(source) + ":");
   const auto changed = [&](std::string_view key) {
     change(studio, entryName(source) + ": " + std::string(key),
            [&](Scene& scene) { scene.lights[index] = source; });
@@ -211,6 +215,7 @@ void editMaterial(Studio& studio) {
     change(studio, what, [&](Scene& next) { next.materials[index] = material; });
   };
   if (!beginFields("material", true)) return;
+  const FieldsWithin within(name + ":");
   fieldName("name", "what the panels call it");
   if (editValue({}, material.name)) changed("name");
   const std::vector<std::string_view> models = modelKeywords();
@@ -247,6 +252,7 @@ void editOnly(Studio& studio, Thing Scene::*member) {
   const std::string name(Thing::kKeyword);
   heading(studio, name, Thing::kHelp, {});
   if (!beginFields(name.c_str())) return;
+  const FieldsWithin within(name + ":");
   Thing thing = before;
   editFields(thing, [&](std::string_view key) {
     followEdit(thing, before, key);
@@ -263,6 +269,23 @@ void editOnly(Studio& studio, Thing Scene::*member) {
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });
   endFields();
+}
+
+/// The bar below the list, which makes it larger and smaller.
+void listBar(float& share, float whole) {
+  const float high = std::max(4.0f, ImGui::GetStyle().ItemSpacing.y);
+  ImGui::InvisibleButton("list bar", {-1, high});
+  landmark("list bar");
+  const bool active = ImGui::IsItemActive();
+  if (active || ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
+  const ImVec2 at = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+  const ImU32 colour = ImGui::GetColorU32(active                   ? ImGuiCol_SeparatorActive
+                                          : ImGui::IsItemHovered() ? ImGuiCol_SeparatorHovered
+                                                                   : ImGuiCol_Separator);
+  const float middle = std::round((at.y + end.y) / 2);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, middle - 1}, {end.x, middle + 1}, colour);
+  if (active)
+    share = std::clamp(share + ImGui::GetIO().MouseDelta.y / whole, Layout::kLeastList, Layout::kMostList);
 }
 
 /// Names of files count from the scene's folder.
@@ -292,8 +315,8 @@ void drawScene(Studio& studio) {
   step("Redo", document.redoName(), [&] { redo(studio); });
 
   const Scene& scene = document.scene();
-  ImGui::BeginChild("tree", {0, ImGui::GetContentRegionAvail().y * 0.42f}, true,
-                    ImGuiWindowFlags_NavFlattened);
+  const float whole = ImGui::GetContentRegionAvail().y;
+  ImGui::BeginChild("tree", {0, std::round(whole * studio.layout.list)}, true, ImGuiWindowFlags_NavFlattened);
   entry(studio, Selected::camera, 0, "camera");
   entry(studio, Selected::background, 0, "background");
   branch(studio, Selected::light, "lights", scene.lights.size(),
@@ -304,6 +327,7 @@ void drawScene(Studio& studio) {
          [&](std::size_t i) { return nameOf(scene.materials[i], i); });
   ImGui::EndChild();
   landmark("list");
+  listBar(studio.layout.list, whole);
   studio.revealSelected = false;
 
   // Undo and deleting may leave the selection beyond the end.

@@ -94,7 +94,7 @@ void duplicateSelected(Studio& studio) {
   copy.place = {};
   scene.objects.push_back(std::move(copy));
   studio.select(Selected::object, scene.objects.size() - 1);
-  document.edit("duplicate", std::move(scene));
+  studio.workspace.edit("duplicate", std::move(scene));
 }
 
 bool buttonOnce(const char* label, bool small) {

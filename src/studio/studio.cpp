@@ -89,6 +89,7 @@ void restore(Studio& studio) {
   studio.layout.left = share("left", studio.layout.left, 0.12, 0.6);
   studio.layout.right = share("right", studio.layout.right, 0.12, 0.6);
   studio.layout.bottom = share("bottom", studio.layout.bottom, 0.12, 0.6);
+  studio.layout.list = share("list", studio.layout.list, Layout::kLeastList, Layout::kMostList);
   studio.workspace.automatic = p.get("automatic", "on") == "on";
   studio.workspace.setRecent(p.all("recent"));
   for (const Panel& panel : panels())
@@ -105,6 +106,7 @@ void remember(Studio& studio) {
   p.set("left", studio.layout.left);
   p.set("right", studio.layout.right);
   p.set("bottom", studio.layout.bottom);
+  p.set("list", studio.layout.list);
   p.set("automatic", studio.workspace.automatic ? "on" : "off");
   p.setAll("recent", studio.workspace.recent());
   int width = 0, height = 0;

@@ -23,10 +23,12 @@ enum class Dock { left, centre, right, bottom, hidden };
 /// Where the panels are. Kept in the preferences.
 struct Layout {
   float left = 0.23f, right = 0.4f, bottom = 0.17f;  ///< shares of the window
-  std::map<std::string, Dock, std::less<>> docks;    ///< where they differ from the table
-  std::map<Dock, std::string> front;                 ///< the panel shown; one that was asked for
-  std::string ask;                                   ///< bring this panel to the front in the next frame
-  bool focus = false;                                ///< and the keyboard to it
+  float list = 0.42f;                                ///< share of the panel Scene
+  static constexpr float kLeastList = 0.1f, kMostList = 0.8f;
+  std::map<std::string, Dock, std::less<>> docks;  ///< where they differ from the table
+  std::map<Dock, std::string> front;               ///< the panel shown; one that was asked for
+  std::string ask;                                 ///< bring this panel to the front in the next frame
+  bool focus = false;                              ///< and the keyboard to it
 };
 
 struct Studio {

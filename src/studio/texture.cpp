@@ -4,6 +4,8 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include "app/picture_views.h"
+
 namespace trace::studio {
 
 Texture::~Texture() {
@@ -17,7 +19,13 @@ void Texture::set(const Bytes& bytes) {
   ++version_;
   glBindTexture(GL_TEXTURE_2D, name_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE, bytes.rgb.data());
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  const bool fits = bytes.width <= most && bytes.height <= most;
+  const Bytes smaller = fits ? Bytes() : fewerPixels(bytes, most);
+  const Bytes& taken = fits ? bytes : smaller;
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, taken.width, taken.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+               taken.rgb.data());
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -5,9 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include "app/edits.h"
 #include "app/texture_edits.h"
 #include "base/match.h"
+#include "shading/texture_flaws.h"
 #include "studio/landmarks.h"
+#include "studio/theme.h"
 
 namespace trace::studio {
 namespace {
@@ -50,6 +53,32 @@ std::string_view textureKeywordOf(const trace::Texture& texture) {
   return match(texture->model, [](const auto& model) { return model.kKeyword; });
 }
 
+/// A row that says why the field counts for nothing now, in place of its value.
+template <class Field>
+void idleField(const Field& field, const std::string& why) {
+  fieldName(field.keyword, field.help);
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", why.c_str());
+  ImGui::PopTextWrapPos();
+  landmark("idle");
+}
+
+/// What is wrong with it, over the whole width.
+void showFlaws(const TextureNode& node) {
+  for (const std::string& flaw : flawsOf(node)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+    ImGui::TextUnformatted(flaw.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    landmark("flaw");
+  }
+}
+
 /// The rows of its fields, and of how it lies.
 void textureFields(const trace::Texture& texture,
                    const std::function<void(trace::Texture, const std::string&)>& become) {
@@ -60,8 +89,16 @@ void textureFields(const trace::Texture& texture,
     next.name.clear();  // other fields may have the one of that name
     become(std::move(next), kind + " " + what);
   };
+  showFlaws(node);
   match(node.model, [&]<class Model>(Model& model) {
-    forEachField<Model>([&](const auto& f) { editTexturedField(f, model.*f.member, node.inputs, changed); });
+    const Model before = model;
+    forEachField<Model>([&](const auto& f) {
+      if (const std::string why = whyIdle(node.model, f.keyword); !why.empty()) return idleField(f, why);
+      editTexturedField(f, model.*f.member, node.inputs, [&](const std::string& what) {
+        followEdit(model, before, f.keyword);
+        changed(what);
+      });
+    });
   });
   editFields(node.placement, [&](std::string_view keyword) { changed(std::string(keyword)); });
 }
@@ -92,11 +129,13 @@ void editTextureOf(std::string_view field, std::vector<FieldTexture>& textures,
     ImGui::EndPopup();
   }
   if (texture) {
-    const FieldsWithin within(field);
+    const FieldsWithin within(name + " " + std::string(now), field);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    const bool open = ImGui::TreeNodeEx("texture", ImGuiTreeNodeFlags_DefaultOpen);
+    const std::string& called = (*texture)->name;
+    const std::string label = (called.empty() ? "texture" : '"' + called + '"') + "###texture";
+    const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
     landmark("fold");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s of %s", summary(*texture).c_str(), name.c_str());
     ImGui::TableNextColumn();

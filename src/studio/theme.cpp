@@ -60,6 +60,11 @@ void setColours(const Shades& s) {
   set(0x000000, {ImGuiCol_ModalWindowDimBg}, 0.45f);
 }
 
+bool& isLight() {
+  static bool light = false;  // as Dear ImGui keeps the style
+  return light;
+}
+
 }  // namespace
 
 const Palette& palette(bool light) {
@@ -70,7 +75,10 @@ const Palette& palette(bool light) {
   return light ? kLightPalette : kDarkPalette;
 }
 
+const Palette& palette() { return palette(isLight()); }
+
 void apply(const Theme& theme) {
+  isLight() = theme.light;
   ImGuiStyle& style = ImGui::GetStyle();
   style = {};
   setColours(theme.light ? kLight : kDark);

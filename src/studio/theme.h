@@ -15,6 +15,8 @@ struct Palette {
   ImVec4 accent, muted, changed, warning, error, good;
 };
 const Palette& palette(bool light);
+/// Of the theme that was set last.
+const Palette& palette();
 
 /// Sets style and fonts. Between frames; Window::fontsChanged() must follow.
 void apply(const Theme& theme);

@@ -126,6 +126,47 @@ TEST_F(DocumentTest, ReadingAgainIsAStepThatKeepsChoicesAndCanBeUndone) {
   EXPECT_EQ(document.file(), path("scene.ray"));
 }
 
+/// The ball of kAnimated in another place, so that the keys of its place are lost when it is saved.
+Scene withoutKeys(Scene scene, Real x) {
+  scene.objects.at(0).worldFromObject.offset.x = x;
+  return scene;
+}
+
+TEST_F(DocumentTest, WhatASaveLosesIsKeptInAFileBeside) {
+  const std::string text = std::string(kAnimated) + "// mine\n";
+  write("animated.ray", text);
+  write("animated.ray.bak", "somebody else's");
+  Document document;
+  document.open(path("animated.ray"));
+  document.edit("name", renamed(document.scene(), "moon"));
+  EXPECT_TRUE(document.save(path("animated.ray")).empty());
+  EXPECT_FALSE(fs::exists(path("animated.ray.bak2"))) << "nothing was lost";
+
+  document.undo();
+  document.save(path("animated.ray"));
+  ASSERT_EQ(readFile(path("animated.ray")), text);
+  for (const Real x : {3.0, 4.0}) {  // the second time only what was saved the first time is replaced
+    document.edit("move", withoutKeys(document.scene(), x));
+    const std::vector<Message> told = document.save(path("animated.ray"));
+    EXPECT_EQ(told.back().what.find("is kept as animated.ray.bak2") != std::string::npos, x == 3.0);
+    EXPECT_NE(readFile(path("animated.ray")), text);
+  }
+  EXPECT_EQ(readFile(path("animated.ray.bak")), "somebody else's");
+  EXPECT_EQ(readFile(path("animated.ray.bak2")), text);
+  EXPECT_FALSE(fs::exists(path("animated.ray.bak3")));
+}
+
+TEST_F(DocumentTest, AFileThatASceneCannotNameIsNoReasonToWriteItAnew) {
+  write("odd\".ppm", "P3\n1 1\n255\n0 255 0\n");
+  Document document;
+  document.open(path("scene.ray"));
+  Scene scene = document.scene();
+  setTexture(scene.materials.at(0).textures, "diffuse", pictureTexture("odd\".ppm"));
+  document.edit("diffuse image file", std::move(scene));
+  EXPECT_THROW(document.save(path("scene.ray")), Error);
+  EXPECT_EQ(readFile(path("scene.ray")), kScene);
+}
+
 TEST_F(DocumentTest, SavedScenesAreReadAsTheyWereEdited) {
   Document document;
   document.open(path("scene.ray"), {{"threads", "3", {}}});
@@ -271,8 +312,9 @@ TEST_F(DocumentTest, SavingAValueThatHadKeysWarns) {
   scene.objects[0].worldFromObject.offset.x = 7;
   document.edit("move", scene);
   const std::vector<Message> warnings = document.save(path("animated.ray"));
-  ASSERT_EQ(warnings.size(), 1u);
+  ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0].place.line, 4);
+  EXPECT_EQ(warnings[1].what, "the file as it was is kept as animated.ray.bak");
   EXPECT_FALSE(document.changesWithTime());
   EXPECT_NE(readFile(path("animated.ray")).find("translate(7, 0, 0, sphere"), std::string::npos);
 }

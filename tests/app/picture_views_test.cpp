@@ -15,6 +15,17 @@ TEST(PictureViews, ExposureIsInStopsAndZeroStopsAreTheLevelsOfAFile) {
   EXPECT_EQ(exposed(picture, 1, Rounding::truncate).rgb, (std::vector<std::uint8_t>{127, 255, 255}));
 }
 
+TEST(PictureViews, ATooLargePictureIsShownByMeansOfItsBlocks) {
+  Bytes wide;
+  wide.width = 5, wide.height = 2;
+  for (int i = 0; i < 10; ++i) wide.rgb.insert(wide.rgb.end(), {static_cast<std::uint8_t>(10 * i), 7, 9});
+  EXPECT_EQ(fewerPixels(wide, 5), wide);
+  const Bytes fewer = fewerPixels(wide, 2);  // blocks of three
+  EXPECT_EQ(fewer.width, 2);
+  EXPECT_EQ(fewer.height, 2);
+  EXPECT_EQ(fewer.rgb, (std::vector<std::uint8_t>{10, 7, 9, 35, 7, 9, 60, 7, 9, 85, 7, 9}));
+}
+
 TEST(PictureViews, WhatIsBrighterThanOneDoesNotDifferFromAFileThatCannotKeepIt) {
   Picture picture(1, 1);
   picture.at(0, 0) = {0.25, 1, 2.5};

@@ -126,7 +126,7 @@ TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
       if (Phong* phong = std::get_if<Phong>(&material.model)) phong->shininess += 3;
     }
     edited.choices = changedOptions(resolve({edited.choices}));
-    const auto files = writeEdited(read, edited, file, messages);
+    const auto files = writeEdited(read, edited, file, messages).files;
     EXPECT_EQ(small(readScene(file, files.at(0).bytes, messages)), small(edited)) << file;
   }
 }

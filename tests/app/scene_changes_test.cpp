@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
@@ -24,6 +26,26 @@ TEST(SceneChanges, TheOneThatCameIsFound) {
   EXPECT_FALSE(oneMore(all, all));
   EXPECT_FALSE(oneMore({4, 7}, all));
   EXPECT_FALSE(oneMore({4, 8, 7}, all));  // another changed, too
+}
+
+TEST(SceneChanges, ANameThatIsSharedFromNowOnIsTold) {
+  Scene before;
+  for (const char* name : {"ball", "", "wall", ""})
+    before.objects.push_back({name, Shape(Sphere{}), {}, 0, {}});
+  before.lights.resize(2);
+  before.lights[0].links.name = before.lights[1].links.name = "key";
+  const auto shared = [&](const std::function<void(Scene&)>& edit) {
+    Scene after = before;
+    edit(after);
+    return sharedName(before, after);
+  };
+  EXPECT_EQ(shared([](Scene&) {}), "") << "they shared it before";
+  EXPECT_EQ(shared([](Scene& s) { s.objects[1].name = "floor"; }), "");
+  EXPECT_EQ(shared([](Scene& s) { s.objects[1].name = "ball"; }), "ball");
+  EXPECT_EQ(shared([](Scene& s) { s.objects.push_back(s.objects[2]); }), "wall");
+  EXPECT_EQ(shared([](Scene& s) { s.objects.erase(s.objects.begin()); }), "");
+  EXPECT_EQ(shared([](Scene& s) { s.lights[0].links.name = "ball"; }), "") << "a light is no object";
+  EXPECT_EQ(shared([](Scene& s) { s.lights.push_back(s.lights[0]); }), "key");
 }
 
 TEST(SceneChanges, AnObjectUsesTheMaterialsOfItsParts) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/edits.h"
+#include "shading/texture_flaws.h"
+
 namespace trace {
 namespace {
 
@@ -28,6 +31,56 @@ TEST(TextureEdits, EveryKindCanBeChosen) {
     const Texture texture = textureOfKind(kind.keyword);
     match(texture->model, [&](const auto& model) { EXPECT_EQ(model.kKeyword, kind.keyword); });
   }
+}
+
+TEST(TextureEdits, AFieldThatCountsForNothingSaysWhy) {
+  const Noise plain;
+  Noise ramped;
+  ramped.ramp = {{0, 0, 0, 0}};
+  EXPECT_EQ(whyIdle(plain, "a"), "");
+  EXPECT_EQ(whyIdle(plain, "ramp"), "");
+  EXPECT_EQ(whyIdle(ramped, "a"), "ramp counts instead");
+  EXPECT_EQ(whyIdle(ramped, "b"), "ramp counts instead");
+  EXPECT_EQ(whyIdle(ramped, "octaves"), "");
+  EXPECT_EQ(whyIdle(Brick{}, "a"), "");
+  Formula formula;
+  formula.red = FormulaText("x");
+  EXPECT_EQ(whyIdle(formula, "red"), "");
+  EXPECT_EQ(whyIdle(formula, "a"), "value is empty");
+  formula.value = FormulaText("y");
+  EXPECT_EQ(whyIdle(formula, "red"), "value counts instead");
+  EXPECT_EQ(whyIdle(formula, "a"), "");
+}
+
+TEST(TextureEdits, ARampBeginsWithTheColoursThatItTakesThePlaceOf) {
+  Noise before;
+  before.a = Color(0.1, 0.2, 0.3), before.b = Color(0.9);
+  Noise now = before;
+  now.ramp.emplace_back();
+  followEdit(now, before, "ramp");
+  EXPECT_EQ(now.ramp, (ColorRamp{{0, 0.1, 0.2, 0.3}, {1, 0.9, 0.9, 0.9}}));
+  for (const Real t : {0.0, 0.3, 1.0}) EXPECT_EQ(now.shade(t), before.shade(t));
+  Noise less = now;
+  less.ramp.pop_back();
+  followEdit(less, now, "ramp");
+  EXPECT_EQ(less.ramp.size(), 1u) << "one that is left over stays alone";
+}
+
+TEST(TextureEdits, FlawsAreTold) {
+  const auto flaws = [](TextureModel model, Vec3 scale = {1, 1, 1}) {
+    return flawsOf({.model = std::move(model), .placement = {.scale = scale}}).size();
+  };
+  EXPECT_EQ(flaws(Checker{}), 0u);
+  EXPECT_EQ(flaws(Checker{}, {1, 0, 1}), 1u);
+  EXPECT_EQ(flaws(ImageMap{}), 1u);
+  EXPECT_EQ(flaws(Formula{}), 1u);
+  Formula formula;
+  formula.value = FormulaText("1/0");
+  EXPECT_EQ(flaws(formula), 1u);
+  formula.value = FormulaText("sqrt(x) / y");
+  EXPECT_EQ(flaws(formula), 0u) << "it has a value in places";
+  formula.red = FormulaText("log(-1)");
+  EXPECT_EQ(flaws(formula), 1u);
 }
 
 TEST(TextureEdits, AFileThatWasNamedIsLacking) {

@@ -31,6 +31,8 @@ TEST(TypedFile, CountsFromTheFolderOfTheScene) {
     EXPECT_EQ(error.messages().front().what,
               "backdrop: expected a file, found \"dusk.png\", which is not there; not taken");
   }
+  std::ofstream(folder / "odd\".png") << "no picture";
+  EXPECT_THROW(typedFile("odd\".png", "backdrop", scene), Error) << "no scene could name it";
   std::filesystem::remove_all(folder);
 }
 

@@ -10,10 +10,14 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
 #include <utility>
 
 #include "app/texture_edits.h"
+#include "geometry/shapes/csg.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/sphere.h"
 #include "image/codec.h"
 #include "support/panes.h"
 #include "support/scene_files.h"
@@ -322,6 +326,65 @@ TEST_F(WorkspaceTest, ASceneIsSavedOverItsFileUnlessThatWasChangedByOthers) {
   workspace.saveSceneOver();
   EXPECT_EQ(workspace.failures(), failures + 1);
   EXPECT_EQ(readFile(path("scene.ray")), theirs);
+}
+
+TEST_F(WorkspaceTest, ABrokenFileOfOthersIsNotSavedOverAndOneSavedOnPurposeIs) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  workspace.document.edit("name", renamed(workspace.document.scene(), "moon"));
+  const std::string theirs = readFile(path("scene.ray")) + "translate(0, 1, 0, sphere { name = mine; }\n";
+  write("scene.ray", theirs);
+  std::filesystem::last_write_time(path("scene.ray"),
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  for (; workspace.failures() == 0; workspace.update())  // it is looked at, and cannot be read
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(workspace.document.changedOnDisk());
+  for (int again = 0; again < 2; ++again) {
+    workspace.saveSceneOver();
+    EXPECT_FALSE(workspace.saving());
+    EXPECT_EQ(readFile(path("scene.ray")), theirs);
+    EXPECT_NE(workspace.log().back().text.find("not saved: the file was changed"), std::string::npos);
+    EXPECT_NE(workspace.log().back().hint.find("Save scene as"), std::string::npos);
+  }
+  workspace.saveScene(path("scene.ray"));  // as Save scene as... does
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_NE(readFile(path("scene.ray")).find("moon"), std::string::npos);
+  workspace.document.edit("name", renamed(workspace.document.scene(), "star"));
+  workspace.saveSceneOver();
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_NE(readFile(path("scene.ray")).find("star"), std::string::npos);
+}
+
+TEST_F(WorkspaceTest, NamesThatASceneFileCannotHoldAreNotTaken) {
+  write("odd\".ppm", "P3\n1 1\n255\n0 255 0\n");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  const auto refused = [&](const std::string& what, const std::function<void(Scene&)>& edit) {
+    const auto before = workspace.document.sharedScene();
+    const std::uint64_t refusals = workspace.refusals();
+    Scene scene = *before;
+    edit(scene);
+    workspace.edit(what, std::move(scene));
+    EXPECT_TRUE(settled(workspace));
+    EXPECT_EQ(workspace.refusals(), refusals + 1) << what;
+    EXPECT_EQ(workspace.document.sharedScene(), before) << what;
+    EXPECT_TRUE(workspace.log().back().text.starts_with(what + " was not taken: expected "))
+        << workspace.log().back().text;
+  };
+  refused("name", [](Scene& s) { s.objects[0].name = "my \"odd\" ball"; });
+  refused("part", [](Scene& s) {
+    s.objects[0].shape = Shape(Union{});
+    s.objects[0].shape.setOperands(Operands({{"a\"", Shape(Sphere{}), {}, 0}}));
+  });
+  refused("lit_by", [](Scene& s) { s.objects[0].links.litBy = {"a\""}; });
+  refused("light", [](Scene& s) { s.lights[0].links.name = "\""; });
+  refused("excludes", [](Scene& s) { s.lights[0].links.excludes = {"\""}; });
+  refused("material", [](Scene& s) { s.materials[0].name = "a\"b"; });
+  refused("long", [](Scene& s) { s.objects[0].name = std::string(5000, 'a'); });
+  refused("picture",
+          [](Scene& s) { setTexture(s.materials[0].textures, "diffuse", pictureTexture("odd\".ppm")); });
+  refused("face", [](Scene& s) { s.background.front.file = "odd\".ppm"; });
+  waitFor(workspace.render);
 }
 
 TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {

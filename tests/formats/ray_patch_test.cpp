@@ -298,9 +298,11 @@ TEST(RayPatch, AMaterialOutlivesTheObjectThatSaidIt) {
             "box { material = red; } cone { material = red; }",
             [](Scene& s) { s.objects.erase(s.objects.begin()); }),
       "box { material = { name = \"red\"; emissive = (0, 0, 0); ambient = (0, 0, 0); diffuse = (1, 0, 0); "
-      "specular = (0, 0, 0); reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; "
-      "shadow = 1; priority = 0; attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; "
-      "abbe = 0; }; } cone { material = red; }");
+      "specular = (0, 0, 0);\n"
+      "    reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; shadow = 1; priority "
+      "= 0;\n"
+      "    attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; abbe = 0; }; } cone { "
+      "material = red; }");
 }
 
 // --- deleting and adding ----------------------------------------------------------------------------------
@@ -513,6 +515,93 @@ TEST(RayPatch, LanternsThatAreWrittenAnewAreTheSame) {
   ASSERT_EQ(is.lights.size(), scene.lights.size());
   for (std::size_t i = 0; i < is.lights.size(); ++i)
     EXPECT_EQ(is.lights[i].light, scene.lights[i].light) << i;
+}
+
+/// Changes the texture of a field of the first object's material: change(TextureNode&).
+template <class Change>
+Edit textureEdit(const std::string& field, Change&& change) {
+  return [=](Scene& s) {
+    Material& material = s.materials.at(s.objects[0].material);
+    TextureNode node = **textureOf(material.textures, field);
+    change(node);
+    setTexture(material.textures, field, node);
+  };
+}
+
+TEST(RayPatch, AChangedTextureKeepsTheLinesOfWhatWasNotChanged) {
+  const std::string text = R"(material = { ambient = 0.5; diffuse = brick { size = (0.9, 0.3, 0.45); // wide
+      mortar = 0.035;
+      a = noise { octaves = 4; a = (0.62, 0.24, 0.17);  // red
+        scale = (0.35, 0.2, 0.35); };
+      b = texture(checker { }, (0.5, 0.5, 0.5)); }; }
+sphere { }
+)";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    return changed.replace(changed.find(from), from.size(), to);
+  };
+  EXPECT_EQ(
+      after(text, textureEdit("diffuse", [](TextureNode& n) { std::get<Brick>(n.model).mortar = 0.05; })),
+      with("0.035", "0.05"));
+  EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.placement.rotate.y = 30; })),
+            with("(0.5, 0.5, 0.5)); }", "(0.5, 0.5, 0.5)); rotate = (0, 30, 0); }"));
+  EXPECT_EQ(after(text, textureEdit("diffuse",
+                                    [](TextureNode& n) {
+                                      TextureNode noise = **textureOf(n.inputs, "a");
+                                      std::get<Noise>(noise.model).octaves = 2;
+                                      noise.placement.scale = {1, 1, 1};
+                                      setTexture(n.inputs, "a", noise);
+                                    })),
+            with("octaves = 4", "octaves = 2")
+                .replace(with("octaves = 4", "octaves = 2").find("(0.35, 0.2"), 17, "(1, 1, 1)"));
+  EXPECT_EQ(after(text, textureEdit("diffuse",
+                                    [](TextureNode& n) {
+                                      std::get<Brick>(n.model).b = Color(0.25);
+                                      setTexture(n.inputs, "b",
+                                                 TextureNode{.model = Checker{.a = Color(0.1)}});
+                                    })),
+            with("checker { }, (0.5, 0.5, 0.5)", "checker { a = (0.1, 0.1, 0.1); }, (0.25, 0.25, 0.25)"));
+  EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.inputs.clear(); }))
+                .substr(0, text.find("a = noise")),
+            text.substr(0, text.find("a = noise")));
+  EXPECT_EQ(after(text,
+                  [](Scene& s) {
+                    std::get<Phong>(s.materials.at(s.objects[0].material).model).diffuse = Color(0.5);
+                  }),
+            with("diffuse = brick", "diffuse = texture(brick")
+                .replace(with("diffuse = brick", "diffuse = texture(brick").rfind("; }; }") + 3, 0,
+                         ", (0.5, 0.5, 0.5))"));
+}
+
+TEST(RayPatch, ANamedTextureThatIsChangedBecomesAnotherAndTheOthersKeepTheirs) {
+  const std::string text = R"(sphere { material = { diffuse = wood { name = oak; // the tree
+    frequency = 5; }; } }
+box { material = { diffuse = texture("oak"); } }
+)";
+  const SceneText read = reading("test.ray", "SBT-raytracer 1.0\n" + text);
+  Scene wanted = *read.scene;
+  textureEdit("diffuse", [](TextureNode& n) {
+    n.name.clear();
+    std::get<Wood>(n.model).frequency = 7;
+  })(wanted);
+  const Saved result = saved(read, wanted);
+  EXPECT_TRUE(result.messages.empty()) << result.messages.front().what;
+  expectSays(read, result.text, wanted, "named texture");
+  EXPECT_NE(result.text.find("// the tree"), std::string::npos) << result.text;
+}
+
+TEST(RayPatch, ALongTextureThatIsNewStandsOnSeveralLines) {
+  const std::string text = after("sphere { material = { diffuse = 1 } }", [](Scene& s) {
+    Brick brick{.a = Color(0.125), .b = Color(0.25), .size = {2, 3, 4}, .mortar = 0.25};
+    TextureNode node{.model = brick, .placement = {.scale = {2, 3, 4}, .rotate = {5, 6, 7}}};
+    Noise noise{};
+    noise.octaves = 3;
+    setTexture(node.inputs, "a", TextureNode{.model = noise, .placement = {.translate = {0.5, 0.25, 0.75}}});
+    setTexture(s.materials.at(s.objects[0].material).textures, "diffuse", node);
+  });
+  constexpr std::size_t kBefore = 32;  // what stands before the value
+  for (const std::string& line : linesOf(text)) EXPECT_LE(line.size(), 110 + kBefore) << line;
+  EXPECT_GE(linesOf(text).size(), 2u) << text;
 }
 
 TEST(RayPatch, ATextureOfAFieldThatKeepsItsValueIsChanged) {

@@ -214,6 +214,47 @@ TEST(RayWriter, SaysSimpleTransformsAsAPersonWould) {
   expectRoundTrip(sheared, "sheared");
 }
 
+std::vector<Message> messagesOf(const std::string& text) {
+  Messages messages;
+  readScene("out.ray", text, messages);
+  return messages.all();
+}
+
+TEST(RayWriter, OptionsAreWrittenAsAPersonWritesThem) {
+  Scene scene = again("SBT-raytracer 1.0 settings { width = 200; integrator = path; } sphere { }");
+  const std::string text = written(scene);
+  EXPECT_NE(text.find("  width = 200;"), std::string::npos) << text;
+  EXPECT_NE(text.find("  integrator = path;"), std::string::npos) << text;
+  EXPECT_EQ(again(text).choices.size(), scene.choices.size());
+  scene.choices = {{"environment", "my \"odd.png", {}}};
+  EXPECT_THROW(written(scene), Error) << "another file would be named";
+}
+
+TEST(RayWriter, AMirrorThatFollowsAHighlightIsReadWithoutAWarning) {
+  const Scene scene = again(R"(SBT-raytracer 1.0
+material = { reflective = (0.2, 0.2, 0.2); }
+sphere { material = { specular = (0.1, 0.1, 0.1); } })");
+  ASSERT_TRUE(std::get<Phong>(scene.materials.at(scene.objects.at(0).material).model).mirrorsSpecular);
+  const std::string text = written(scene);
+  expectRoundTrip(scene, "mirror");
+  EXPECT_EQ(messagesOf(text), std::vector<Message>{}) << text;
+  EXPECT_EQ(
+      messagesOf("SBT-raytracer 1.0 sphere { material = { reflective = 1; reflective = 0.5; } }").size(), 1u);
+}
+
+TEST(RayWriter, FilesAreNamedAsTheyAreOrNotAtAll) {
+  Scene scene = again("SBT-raytracer 1.0 sphere { }");
+  for (const char* file : {"a \"b.png", "a\nb.png", "a\x1b[31m.png"}) {
+    setTexture(scene.materials[0].textures, "diffuse", pictureTexture(file));
+    EXPECT_THROW(written(scene), Error) << file;
+  }
+  setTexture(scene.materials[0].textures, "diffuse", pictureTexture("a\tb\\'.png"));
+  const Scene back = again(written(scene));
+  const Texture* texture = textureOf(back.materials.at(back.objects.at(0).material).textures, "diffuse");
+  ASSERT_NE(texture, nullptr);
+  EXPECT_EQ(std::get<ImageMap>((*texture)->model).file.file, "a\tb\\'.png");
+}
+
 TEST(RayWriter, NamesWithOddLettersLoseThem) {
   Scene scene = again("SBT-raytracer 1.0 sphere { name = x; }");
   scene.objects[0].name = "say \"hi\"\n// }";
@@ -221,6 +262,10 @@ TEST(RayWriter, NamesWithOddLettersLoseThem) {
   const Scene back = again(written(scene));
   EXPECT_EQ(back.objects.at(0).name, "say 'hi' // }");
   EXPECT_EQ(back.materials.at(0).name, "a b");
+  Messages messages;
+  writeRay(scene, outFile(scene), {}, messages);
+  ASSERT_EQ(messages.all().size(), 1u);
+  EXPECT_NE(messages.all()[0].what.find("expected a name without"), std::string::npos);
 }
 
 TEST(RayWriter, WritesFewerDigitsIfAsked) {

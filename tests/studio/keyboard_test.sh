@@ -117,7 +117,7 @@ goTo field fov number 0
 doubleClickAndType 500
 xdotool key Return
 next
-[[ "$(line logged)" == 'fov: expected 0 to 180, found 500'* ]] || fail "the log says: $(line logged)"
+[[ "$(line logged)" == 'camera: fov: expected 0 to 180, found 500'* ]] || fail "the log says: $(line logged)"
 ((now < 55)) || fail "more steps than were foreseen: $now"
 skipTo 55
 goTo field scale number 0

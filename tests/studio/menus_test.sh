@@ -67,7 +67,7 @@ goTo field fov number 0
 doubleClickAndType 4x5
 xdotool key Return
 next
-[[ "$(line logged)" == 'fov: expected 0 to 180, found "4x5"; not taken' ]] || fail "the log says: $(line logged)"
+[[ "$(line logged)" == 'camera: fov: expected 0 to 180, found "4x5"; not taken' ]] || fail "the log says: $(line logged)"
 is undo width "it is not taken"
 goTo field fov number 0
 doubleClickAndType 4e1

@@ -42,7 +42,7 @@ goTo() {
 }
 # All of it arrives at once, as if the last frame had taken that long.
 slowly() { kill -STOP "$program"; "$@"; kill -CONT "$program"; }
-doubleClickAndType() { xdotool click --repeat 2 --delay 20 1 type --delay 5 "$1"; }
+doubleClickAndType() { xdotool click --repeat 2 --delay 20 1 type --delay 5 -- "$1"; }
 click() { goTo "$@"; xdotool click 1; next; }  # needs a step
 # Takes a step for each turn of the wheel that it needs.
 seek() { # LANDMARK...: the fields of the panel Scene scroll down until it is well in sight

@@ -18,8 +18,6 @@ bool isKey(const Item& value) {
   return number && value.source().starts_with(Syntax::kKey);
 }
 
-std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
-
 /// Numbers and lists of them, as they are at this moment.
 bool sameNumbers(const Item& a, const Item& b) {
   if (a.kind() != b.kind()) return false;
@@ -229,6 +227,23 @@ std::string TextEdits::broken(std::string_view text) const {
       result += lineBreak_;
     else
       result += c;
+  }
+  return result;
+}
+
+std::string laidOut(std::string_view text, std::string_view indent) {
+  constexpr std::size_t kLine = 110;
+  std::string result;
+  std::size_t lineStart = 0, mayBreak = 0;  // in the result; behind the last field of the line
+  bool quoted = false;
+  for (const char c : text) {
+    result += c;
+    if (c == '"') quoted = !quoted;
+    if (c == '\n') lineStart = result.size();
+    if (!quoted && result.ends_with("; ")) mayBreak = result.size();
+    if (result.size() - lineStart <= kLine || mayBreak <= lineStart) continue;
+    result.replace(mayBreak - 1, 1, "\n" + std::string(indent));
+    lineStart = mayBreak;
   }
   return result;
 }

@@ -13,6 +13,9 @@
 
 namespace trace::rayfile {
 
+/// The place behind the item.
+inline std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
+
 /// The last field of that keyword in a block, or its synonym, which is the one that counts.
 std::optional<Item> fieldOf(const Item& block, std::string_view keyword);
 
@@ -39,6 +42,9 @@ class TextEdits {
   /// At the end of the file.
   void append(std::string text) { appended_ += std::move(text); }
 
+  /// The blanks at the start of the line there.
+  std::string_view indentAt(std::size_t at) const;
+
   /// Values of `key(...)` that became a number or list of numbers.
   const std::vector<std::size_t>& lostKeys() const { return lostKeys_; }
 
@@ -56,7 +62,6 @@ class TextEdits {
   bool isBlank(std::size_t begin, std::size_t end) const;
   std::size_t lineStart(std::size_t at) const;
   std::size_t lineEnd(std::size_t at) const;  ///< before its line break
-  std::string_view indentAt(std::size_t at) const;
   std::vector<Edit> edits() const;
   Edit addition(const Item& block, const std::vector<std::string>& fields) const;
   std::string tail() const;
@@ -71,6 +76,9 @@ class TextEdits {
   std::string appended_;
   std::vector<std::size_t> lostKeys_;
 };
+
+/// The text with line breaks after fields where a line would be too long; `indent` begins the new ones.
+std::string laidOut(std::string_view text, std::string_view indent);
 
 /// Makes the field of the block say the text, or adds it; erases it where the text is empty.
 void sayField(TextEdits& edits, const Item& block, std::string_view keyword, const std::string& text);

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ies.h"
+#include "formats/ray/ray_names.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/textures.h"
 #include "image/codec.h"
@@ -83,7 +84,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, FormulaT
 
 std::string written(const FormulaText& value, int digits) { return written(value.text(), digits); }
 
-std::string written(const Pixels& value, int digits) { return written(value.file, digits); }
+std::string written(const Pixels& value, int) { return exactly(value.file); }
 
 bool read(Findings& findings, std::string_view name, const Item& value, Vec3& to) {
   Real n[3];
@@ -175,8 +176,14 @@ std::string written(const Color& c, int digits) { return written(Vec3{c.r, c.g, 
 
 std::string written(const std::string& value, int) {
   std::string text = "\"";
-  for (char c : value) text += c == '"' ? '\'' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  for (char c : value) text += isHeld(c) ? c : c == '"' ? '\'' : ' ';
   return text.substr(0, Syntax::kLongestWord - 1) + "\"";
+}
+
+std::string exactly(const std::string& name) {
+  if (isSayable(name)) return written(name, 0);
+  const Unsayable file{name, true};
+  throw Error(Fault::scene, file.why(), file.hint());
 }
 
 namespace {
@@ -236,9 +243,9 @@ bool read(Findings& findings, std::string_view name, const Item& value, Photomet
   }
 }
 
-std::string written(const PhotometryFile& value, int digits) { return written(value.file, digits); }
+std::string written(const PhotometryFile& value, int) { return exactly(value.file); }
 
-std::string written(const Heights& value, int digits) { return written(value.file, digits); }
+std::string written(const Heights& value, int) { return exactly(value.file); }
 
 std::string_view canonical(std::string_view word) {
   if (word == "colour") return "color";

@@ -50,7 +50,10 @@ std::string written(bool value, int digits);
 std::string written(int value, int digits);
 std::string written(const Vec3& value, int digits);
 std::string written(const Color& value, int digits);
+/// A text with a quotation mark is written as another, as near as can be (ray_names.h).
 std::string written(const std::string& value, int digits);
+/// The name of a file, which stands for nothing else. Throws Error(Fault::scene) if it cannot be said.
+std::string exactly(const std::string& name);
 std::string written(const Heights& value, int digits);
 std::string written(const Pixels& value, int digits);
 std::string written(const FormulaText& value, int digits);

@@ -61,6 +61,11 @@ bool isNormalMap(const Item& field) {
   return value.value().count() == 1 && (*value.value().begin()).is(Kind::word);
 }
 
+/// `reflective = specular`.
+bool mirrorsSpecular(const Item& field) {
+  return field.key() == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular";
+}
+
 }  // namespace
 
 /// A material block being read.
@@ -96,7 +101,8 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
   if (const std::optional<Item> model = modelOf(value)) chooseModel(block, *model);
   RepeatedFields repeats(findings_, Material::kKeyword);
   for (const Item item : value) {
-    if (item.keyed()) repeats.note(item);
+    // It takes nothing back: the colour counts where a convention does not mirror with the highlight.
+    if (item.keyed() && !mirrorsSpecular(item)) repeats.note(item);
     field(block, item);
   }
   const Phong* phong = std::get_if<Phong>(&block.material.model);
@@ -158,7 +164,7 @@ void Materials::field(Block& block, const Item& field) {
   }
   if (key == kLibrary) return fromLibrary(block, field.value());
   Phong* phong = std::get_if<Phong>(&block.material.model);
-  if (phong && key == "reflective" && field.value().is(Kind::word) && field.value().text() == "specular") {
+  if (phong && mirrorsSpecular(field)) {
     block.gaveReflective = false;
     phong->mirrorsSpecular = true;
     return;

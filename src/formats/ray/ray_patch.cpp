@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "formats/ray/ray_edits.h"
 #include "formats/ray/ray_format.h"
+#include "formats/ray/ray_names.h"
 #include "formats/ray/ray_outline.h"
 #include "formats/ray/ray_round.h"
 #include "formats/ray/ray_same.h"
@@ -160,18 +161,20 @@ class MaterialMap {
 /// The changed text; nothing if it cannot be brought to say the scene.
 class Patch {
  public:
-  Patch(const SceneText& read, Messages& messages) : read_(read), messages_(messages) {}
+  /// `lost`: of what the text said. `messages`: of the rest.
+  Patch(const SceneText& read, Messages& lost, Messages& messages)
+      : read_(read), lost_(lost), messages_(messages) {}
 
   std::optional<std::string> text(const Scene& edited) {
     auto now = std::make_unique<Reading>(read_.file, *read_.bytes, read_.time);
     Wanted wanted = first(*read_.scene, edited);
     if (!takeOver(*read_.scene, now->scene, wanted)) return {};
-    breakUpChanged(*now, wanted, messages_);
+    breakUpChanged(*now, wanted, lost_);
     noteUnused(edited, now->scene.materials.size());
     std::set<std::size_t> rewrite;
     for (int round = 0; !says(*now, wanted); ++round) {
       if (round == kMostRounds) return {};
-      const std::string text = changedText(*now, wanted, rewrite, messages_);
+      const std::string text = changedText(*now, wanted, rewrite, lost_);
       noteRewritten(*now, rewrite);
       now = std::make_unique<Reading>(read_.file, text, read_.time);
       const Scene &is = now->scene, &to = wanted.scene;
@@ -241,12 +244,12 @@ class Patch {
 
   void noteRewritten(const Reading& now, const std::set<std::size_t>& rewrite) {
     for (std::size_t i : rewrite)
-      messages_.warn(now.scene.objects[i].place,
-                     "this object is written anew: comments and nesting within it are lost");
+      lost_.warn(now.scene.objects[i].place,
+                 "this object is written anew: comments and nesting within it are lost");
   }
 
   const SceneText& read_;
-  Messages& messages_;
+  Messages &lost_, &messages_;
 };
 
 bool isFileOption(std::string_view name) {
@@ -277,7 +280,7 @@ std::string moved(const std::string& text, const std::string& from, const std::s
     const fs::path path = fs::path(std::string(name.text()));
     if (!name.is(Kind::word) || path.empty() || path.is_absolute()) return;
     if (!fs::exists(source / path, error)) return;
-    edits.replace(name, written((source / path).lexically_relative(target).string(), 0));
+    edits.replace(name, exactly((source / path).lexically_relative(target).string()));
   };
   for (std::size_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, static_cast<std::uint32_t>(i));
@@ -293,25 +296,27 @@ std::string moved(const std::string& text, const std::string& from, const std::s
 }  // namespace
 }  // namespace rayfile
 
-std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
-                                   Messages& messages) {
-  Messages found;
+Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
+                     Messages& messages) {
+  Messages lost, others;
   std::optional<std::string> text;
   try {
-    text = rayfile::Patch(read, found).text(edited);
+    text = rayfile::Patch(read, lost, others).text(edited);
   } catch (const Error&) {
     text.reset();  // a file that it names is gone, or the reader does not take the text
   }
   if (text) {
-    for (const Message& message : found.all()) messages.warn(message.place, message.what, message.hint);
-    return {{file, rayfile::moved(*text, read.file, file)}};
+    warnOfUnsayable(edited, file, messages);
+    for (const Messages* all : {&lost, &others})
+      for (const Message& message : all->all()) messages.warn(message.place, message.what, message.hint);
+    return {{{file, rayfile::moved(*text, read.file, file)}}, lost.all().empty()};
   }
   messages.warn(
       Place{.file = file},
       "the text could not be kept: the scene is written anew, without its comments and nesting" +
           std::string(changesWithTime(read.file, *read.bytes) ? " and as it is at this moment" : ""),
       "undo, or edit the file itself");
-  return writeRay(edited, file, {}, messages);
+  return {writeRay(edited, file, {}, messages), false};
 }
 
 }  // namespace trace

@@ -19,7 +19,6 @@ namespace trace {
 std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time);
 
 /// The scene as `file`. Warns of what was written anew or is lost. Throws Error(Fault::scene) as writeRay().
-std::vector<NamedBytes> rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
-                                   Messages& messages);
+Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::string& file, Messages& messages);
 
 }  // namespace trace

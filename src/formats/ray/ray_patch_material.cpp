@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "formats/ray/ray_material.h"
+#include "formats/ray/ray_patch_texture.h"
 #include "formats/ray/ray_texture.h"
 #include "shading/library.h"
 
@@ -170,6 +171,15 @@ Material MaterialEdits::followed(const Item& block, const Material& from, const 
   return result;
 }
 
+template <class Value>
+void MaterialEdits::changeValue(const Item& item, const Material& was, const Value& from,
+                                const Material& wanted, const Value& to, std::string_view field) {
+  const Texture *before = textureOf(was.textures, field), *now = textureOf(wanted.textures, field);
+  if (before && now && changeTexture(edits_, item, *before, written(from, 0), *now, written(to, 0))) return;
+  const std::string indent = std::string(edits_.indentAt(item.offset())) + "    ";
+  edits_.change(item, laidOut(valueText(wanted, field, to), indent));
+}
+
 void MaterialEdits::changeBlock(const Item& block, const Material& from, const Material& was,
                                 const Material& wanted) {
   if (was.model.index() != wanted.model.index()) return edits_.replace(block, blockText(from, wanted, false));
@@ -184,14 +194,15 @@ void MaterialEdits::changeBlock(const Item& block, const Material& from, const M
       const std::optional<Item> given = fieldOf(block, f.keyword);
       const auto& value = model.*f.member;
       const bool same = value == std::get<Model>(was.model).*f.member && sameTexture(was, wanted, f.keyword);
-      if (given && !same) edits_.change(given->value(), valueText(wanted, f.keyword, value));
+      if (given && !same)
+        changeValue(given->value(), was, std::get<Model>(was.model).*f.member, wanted, value, f.keyword);
     });
   });
   forEachField<Material>([&](const auto& f) {
     const auto& value = wanted.*f.member;
     const bool same = was.*f.member == value && sameTexture(was, wanted, f.keyword);
     if (const auto given = fieldOf(block, f.keyword); given && !same)
-      edits_.change(given->value(), valueText(wanted, f.keyword, value));
+      changeValue(given->value(), was, was.*f.member, wanted, value, f.keyword);
   });
   for (const std::string& field : missing(&block, from, wanted, false)) edits_.addField(block, field);
 }
@@ -242,7 +253,7 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
 std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) const {
   std::string text = "{ ";
   for (const std::string& field : missing(nullptr, from, wanted, whole)) text += field + "; ";
-  return text + "}";
+  return laidOut(text + "}", "    ");
 }
 
 void MaterialEdits::add(const Addition& addition) {

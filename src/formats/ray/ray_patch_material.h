@@ -43,6 +43,10 @@ class MaterialEdits {
   void use(const Notes::Use& use);
   void add(const Addition& addition);
   void changeBlock(const Item& block, const Material& from, const Material& was, const Material& wanted);
+  /// A field that the block gives.
+  template <class Value>
+  void changeValue(const Item& item, const Material& was, const Value& from, const Material& wanted,
+                   const Value& to, std::string_view field);
   Material followed(const Item& block, const Material& from, const Material& was) const;
   const Material& now(const NotedMaterial& material) const;
   Fields missing(const Item* block, const Material& from, const Material& wanted, bool all) const;

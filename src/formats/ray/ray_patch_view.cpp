@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/text.h"
 #include "formats/ray/ray_keys.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_settings.h"
@@ -119,18 +118,6 @@ void changeBackground(TextEdits& edits, const Background& from, const Background
 
 // --- settings -------------------------------------------------------------------------------------------
 
-/// As a person writes it: numbers and words bare.
-std::string patchedChoice(const std::string& value) {
-  const std::optional<ParsedNumber> number = parseNumber(value);
-  if (number && number->length == value.size()) return value;
-  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const bool word =
-      !value.empty() && isLetter(value[0]) && std::all_of(value.begin(), value.end(), [&](char c) {
-        return isLetter(c) || c == '-' || c == '_' || (c >= '0' && c <= '9');
-      });
-  return word ? value : written(value, 0);
-}
-
 class SettingsChange {
  public:
   SettingsChange(TextEdits& edits, const Scene& from, const Scene& to)
@@ -166,11 +153,11 @@ class SettingsChange {
       for (const Item item : block)
         if (item.keyed() && item.key() == option.name) field.emplace(item);
     if (field)
-      edits_.replace(field->value(), patchedChoice(value));
+      edits_.replace(field->value(), writtenChoice(value));
     else if (!blocks_.empty())
-      edits_.addField(blocks_.back(), fieldText(option.name, patchedChoice(value)));
+      edits_.addField(blocks_.back(), fieldText(option.name, writtenChoice(value)));
     else
-      lines_ += " " + fieldText(option.name, patchedChoice(value)) + ";";
+      lines_ += " " + fieldText(option.name, writtenChoice(value)) + ";";
   }
 
   TextEdits& edits_;

@@ -63,8 +63,6 @@ class Round {
   }
 
  private:
-  static std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
-
   static const std::size_t* find(const std::vector<std::size_t>& all, std::size_t what) {
     const auto found = std::lower_bound(all.begin(), all.end(), what);  // they ascend
     return found == all.end() || *found != what ? nullptr : &*found;

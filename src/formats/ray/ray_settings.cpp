@@ -1,9 +1,11 @@
 #include "formats/ray/ray_settings.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "base/text.h"
+#include "formats/ray/ray_fields.h"
 #include "scene/options.h"
 
 namespace trace::rayfile {
@@ -47,6 +49,17 @@ void readSettings(Findings& findings, const Item& call) {
     repeats.note(item);
     choice(findings, item);
   }
+}
+
+std::string writtenChoice(const std::string& value) {
+  const std::optional<ParsedNumber> number = parseNumber(value);
+  if (number && number->length == value.size()) return value;
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const bool word =
+      !value.empty() && isLetter(value[0]) && std::all_of(value.begin(), value.end(), [&](char c) {
+        return isLetter(c) || c == '-' || c == '_' || (c >= '0' && c <= '9');
+      });
+  return word ? value : exactly(value);
 }
 
 }  // namespace trace::rayfile

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ray/ray_student_textures.h"
+#include "shading/texture_flaws.h"
 
 namespace trace::rayfile {
 namespace {
@@ -101,13 +102,7 @@ std::optional<Texture> TextureReader::block(const Item& call) {
   if (!fields) return {};
   if (!std::holds_alternative<Marble>(node.model) || !readStudentMarble(findings_, *fields, node))
     readFields(*fields, node);
-  const Vec3& scale = node.placement.scale;
-  if (scale.x == 0 || scale.y == 0 || scale.z == 0)
-    findings_.warn(call, "the scale of a texture has a 0, so the texture is placed as without one");
-  if (const auto* map = std::get_if<ImageMap>(&node.model); map && map->file.file.empty())
-    findings_.warn(call, "image: expected a file, as in image { file = \"wood.png\"; }: it is black");
-  if (const auto* formula = std::get_if<Formula>(&node.model); formula && *formula == Formula{})
-    findings_.warn(call, "formula: expected value, or red, green and blue: it is black");
+  for (const std::string& flaw : flawsOf(node)) findings_.warn(call, flaw);
   constexpr double kMostTextures = 1000;
   Texture texture(std::move(node));
   if (texture.size() > kMostTextures) {
@@ -185,8 +180,7 @@ const std::string* mappedFile(const Texture& texture) {
 
 std::string textured(const Texture& texture, const std::string& constant, bool plain, int digits,
                      WrittenTextures* names) {
-  if (const std::string* file = mappedFile(texture))
-    return "map(" + written(*file, digits) + ", " + constant + ")";
+  if (const std::string* file = mappedFile(texture)) return "map(" + exactly(*file) + ", " + constant + ")";
   const auto before = names ? names->find(texture->name) : WrittenTextures::iterator();
   if (names && before != names->end() && before->second == texture)
     return "texture(" + written(texture->name, digits) + ", " + constant + ")";

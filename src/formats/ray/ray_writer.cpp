@@ -18,8 +18,11 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "formats/picture_files.h"
+#include "formats/ray/ray_edits.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_material.h"
+#include "formats/ray/ray_names.h"
+#include "formats/ray/ray_settings.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_transform.h"
 #include "geometry/field_value.h"
@@ -126,7 +129,8 @@ class Writer {
     for (const Choice& choice : scene_.choices) {
       const bool file = findOption(choice.option).kind == Option::Kind::file && choice.value != "none";
       const fs::path path = file ? besideFile(choice.place.file, choice.value) : "";
-      field(choice.option, file ? fs::absolute(path).lexically_normal().string() : choice.value);
+      const std::string value = file ? fs::absolute(path).lexically_normal().string() : choice.value;
+      out_ += "  " + choice.option + " = " + writtenChoice(value) + ";\n";
     }
     out_ += "}\n\n";
   }
@@ -188,6 +192,7 @@ class Writer {
       }
       named->second = index;
     }
+    const std::size_t start = out_.size();
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
     if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
@@ -195,6 +200,7 @@ class Writer {
     match(material.model, [&](const auto& model) { modelFields(material, model); });
     modelFields(material, material, [&](std::string_view field) { return ownFields_.contains(field); });
     out_ += "}";
+    out_.replace(start, out_.npos, laidOut(std::string_view(out_).substr(start), "    "));
   }
 
   static std::set<std::string_view> ownFieldsOf(const std::vector<Material>& materials) {
@@ -376,6 +382,7 @@ std::string writtenLight(const Light& light) {
 
 std::vector<NamedBytes> writeRay(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
+  warnOfUnsayable(scene, file, messages);
   SeenFrom seen = seenFrom(scene, file, messages);
   std::vector<NamedBytes> files{{file, rayfile::Writer(seen.scene, options.digits).write()}};
   std::move(seen.pictures.begin(), seen.pictures.end(), std::back_inserter(files));
