@@ -141,4 +141,5 @@ def main():
                   max(1e-9, bright[int(0.97 * len(bright))]))
 
 
-main()
+if __name__ == "__main__":
+    main()
