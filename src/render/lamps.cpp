@@ -49,7 +49,8 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
     } else if (shape == Square::kKeyword) {
       const Vec3 a = linear(m, Vec3{1, 0, 0}), b = linear(m, Vec3{0, 1, 0});
       const bool upright = std::abs(dot(a, b)) <= 1e-9 * length(a) * length(b);
-      add({upright && !onlyHere ? Part::Kind::rectangle : Part::Kind::parallelogram, object, m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
+      add({upright && !onlyHere ? Part::Kind::rectangle : Part::Kind::parallelogram, object,
+           m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
           emissive);
     } else if (const Real radius = uniformScale(m); shape == Sphere::kKeyword && radius > 0) {
       add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, emissive);
@@ -158,8 +159,8 @@ Real Lamps::Part::densityByArea(const Vec3& from, const Vec3& at) const {
 }
 
 std::optional<SphericalRectangle> Lamps::Part::seen(const Vec3& from) const {
-  // Steradians. What is seen smaller is seen nearly alike from everywhere on it, at a third of the cost; below
-  // the least digits are lost.
+  // Steradians. What is seen smaller is seen nearly alike from everywhere on it, at a third of the cost;
+  // below the least digits are lost.
   constexpr Real kLarge = 0.3, kLeast = 1e-8;
   const Vec3 to = origin + (edgeA + edgeB) * 0.5 - from;
   if (kind != Kind::rectangle || size < kLarge * dot(to, to)) return {};

@@ -65,15 +65,14 @@ const std::array kRectangles{
 const Vec3 kEye{3, -1, 2};
 
 TEST(Warp, TheSolidAngleOfARectangle) {
-  EXPECT_NEAR(SphericalRectangle(kEye, kEye + kRectangles[0][0], kRectangles[0][1], kRectangles[0][2]).solidAngle(),
-              4 * kPi / 6, 1e-14);  // the side of a cube from its middle
+  EXPECT_NEAR(
+      SphericalRectangle(kEye, kEye + kRectangles[0][0], kRectangles[0][1], kRectangles[0][2]).solidAngle(),
+      4 * kPi / 6, 1e-14);  // the side of a cube from its middle
   for (const auto& [corner, a, b] : kRectangles) {
     // Of a corner at x, y over a plane at z: atan(x y / (z r)).
     const Vec3 x = normalize(a), y = normalize(b);
     const Real z = std::abs(dot(corner, cross(x, y)));
-    const auto to = [&](const Vec3& p) {
-      return std::atan(dot(p, x) * dot(p, y) / (z * length(p)));
-    };
+    const auto to = [&](const Vec3& p) { return std::atan(dot(p, x) * dot(p, y) / (z * length(p))); };
     const Real expected = to(corner + a + b) - to(corner + a) - to(corner + b) + to(corner);
     const Real found = SphericalRectangle(kEye, kEye + corner, a, b).solidAngle();
     EXPECT_NEAR(found, expected, 4e-15 + 1e-12 * expected);
