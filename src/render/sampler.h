@@ -154,8 +154,8 @@ class Sampler {
     return numbers_ ? numbers_->pair(draw.branch) : rules_->generator().pair(draw);
   }
 
-  /// Two numbers that go with the pair that next2() gives first: of all samples of a pixel the four fill their
-  /// space evenly, where the generator knows how.
+  /// Two numbers that go with the pair that next2() gives first: of all samples of a pixel the four fill
+  /// their space evenly, where the generator knows how.
   Vec2 second2() const {
     const Draw draw = drawAt(0);
     const GeneratorRow& row = rules_->generator();

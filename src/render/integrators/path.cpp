@@ -240,8 +240,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   if (all > 0 && choice.x < toLobe) {
     const Vec2 where = sampler.branch(kNext).branch(kArrival).next2();
     const Real choose = hasOneLobe(at.bsdf()) ? 0 : sampler.branch(kLobe).next();
-    const auto drawn =
-        sample(at.bsdf(), at.frame, -ray.direction, choose, where, Transport::importance);
+    const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, where, Transport::importance);
     const bool inward = drawn && dot(drawn->toLight, at.normal) < 0;
     const bool astray = drawn && !inward && at.isAstray(drawn->toLight);
     if (drawn && !astray && !isBlack(drawn->weight))
