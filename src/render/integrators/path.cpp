@@ -24,9 +24,13 @@ constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80
 /// The numbers by which a path came to a place: the second pair chooses the place's lamp, so that what
 /// depends on both is spread evenly, too. Where the camera ray arrives, they are its place in the picture.
 constexpr std::uint32_t kArrival = Sampler::kFilm;
-/// How often a path goes on that carries so much of what it brings to the sample. Up to half of it surely:
-/// to end paths sooner spares less time than the noise costs.
-Real survival(const Color& weight) { return std::min(2 * maxComponent(weight), 1.0); }
+/// How often a path goes on that was scattered so often and carries so much of what it brings to the sample.
+/// Short ones and those that carry half of it surely: to end them spares less time than the noise costs.
+Real survival(int bounces, const Color& weight) {
+  constexpr int kSurely = 3;
+  const Real carries = 2 * maxComponent(weight);
+  return bounces < kSurely && carries > 0 ? 1 : std::min(carries, 1.0);
+}
 
 /// A direction of that density, which another way of choosing gives with the density `other`: the two are
 /// weighed by the power heuristic.
@@ -196,7 +200,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
 
   /// Whether a ray of that weight goes on, and for how many it then stands.
   const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
-    const Real goes = survival(path.weight * weight);
+    const Real goes = survival(path.depth, path.weight * weight);
     if (path.depth >= depth_ && kind != RayKind::bounce)
       sum.stop(DepthLimit{kind, depth_});
     else if (!(goes > 0))
@@ -284,7 +288,7 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
   addPhotonsAt(sum, at, path.maps->media);
 
   Sampler lobe = sampler.branch(kLobe);
-  const Real goes = survival(path.weight * place.weight);
+  const Real goes = survival(path.depth + path.scattered, path.weight * place.weight);
   if (!(lobe.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
     const Color light = sum.radiance(after->passed);
