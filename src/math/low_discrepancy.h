@@ -61,6 +61,46 @@ constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {
           reversedBits(owenScrambledReversed(sobolSecondReversed(k), mixBits(seed ^ 3))) * 0x1p-32};
 }
 
+/// What Sobol's third and fourth dimension give for each byte of a point's number, bits reversed: with
+/// primitive polynomials and first numbers by Joe and Kuo (2008).
+struct SobolBytes {
+  std::uint32_t of[2][4][256];
+};
+constexpr SobolBytes sobolBytes() {
+  // x^2 + x + 1 with 1, 3; x^3 + x + 1 with 1, 3, 1.
+  std::uint32_t direction[2][32] = {{1u << 31, 3u << 30}, {1u << 31, 3u << 30, 1u << 29}};
+  for (int i = 2; i < 32; ++i) {
+    std::uint32_t* v = direction[0];
+    v[i] = v[i - 2] ^ (v[i - 2] >> 2) ^ v[i - 1];
+  }
+  for (int i = 3; i < 32; ++i) {
+    std::uint32_t* v = direction[1];
+    v[i] = v[i - 3] ^ (v[i - 3] >> 3) ^ v[i - 2];
+  }
+  SobolBytes bytes{};
+  for (int dimension = 0; dimension < 2; ++dimension)
+    for (int byte = 0; byte < 4; ++byte)
+      for (std::uint32_t value = 0; value < 256; ++value)
+        for (int bit = 0; bit < 8; ++bit)
+          if (value >> bit & 1)
+            bytes.of[dimension][byte][value] ^= reversedBits(direction[dimension][8 * byte + bit]);
+  return bytes;
+}
+inline constexpr SobolBytes kSobolBytes = sobolBytes();
+
+/// The third and fourth coordinate of the same point i, scrambled likewise.
+constexpr Vec2 sobolPointBeside(std::uint32_t i, std::uint64_t seed) {
+  const std::uint32_t k = owenScrambled(i, mixBits(seed ^ 1));
+  const auto coordinate = [&](int dimension) {
+    const auto& bytes = kSobolBytes.of[dimension];
+    const std::uint32_t reversed =
+        bytes[0][k & 255] ^ bytes[1][k >> 8 & 255] ^ bytes[2][k >> 16 & 255] ^ bytes[3][k >> 24];
+    const std::uint64_t own = mixBits(seed ^ static_cast<std::uint64_t>(4 + dimension));
+    return reversedBits(owenScrambledReversed(reversed, own)) * 0x1p-32;
+  };
+  return {coordinate(0), coordinate(1)};
+}
+
 /// i written in `base` and mirrored at the point (van der Corput 1935), with digits permuted by the seed.
 inline Real radicalInverse(std::uint32_t i, std::uint32_t base, std::uint64_t seed) {
   Real value = 0, place = 1;

@@ -48,7 +48,9 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
       }
     } else if (shape == Square::kKeyword) {
       const Vec3 a = linear(m, Vec3{1, 0, 0}), b = linear(m, Vec3{0, 1, 0});
-      add({Part::Kind::parallelogram, object, m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
+      const bool upright = std::abs(dot(a, b)) <= 1e-9 * length(a) * length(b);
+      add({upright && !onlyHere ? Part::Kind::rectangle : Part::Kind::parallelogram, object,
+           m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
           emissive);
     } else if (const Real radius = uniformScale(m); shape == Sphere::kKeyword && radius > 0) {
       add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, emissive);
@@ -86,7 +88,7 @@ LightReach Lamps::Part::reach(Real power) const {
     return reach;
   }
   for (const Vec3& corner : {origin, origin + edgeA, origin + edgeB}) reach.box.extend(corner);
-  if (kind == Kind::parallelogram) reach.box.extend(origin + edgeA + edgeB);
+  if (kind != Kind::triangle) reach.box.extend(origin + edgeA + edgeB);
   if (!(size > 0)) return reach;  // it is dark
   reach.axis = normalize(cross(edgeA, edgeB));
   reach.around = 0;
@@ -144,11 +146,27 @@ Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
     const Real sine2 = radius2 / away2;  // 1 - cosine, without the loss of digits
     return 1 / (2 * kPi * sine2 / (1 + std::sqrt(1 - sine2)));
   }
+  const auto rectangle = seen(from);
+  return rectangle ? 1 / rectangle->solidAngle() : densityByArea(from, at);
+}
+
+Real Lamps::Part::densityByArea(const Vec3& from, const Vec3& at) const {
   const Vec3 to = at - from;
   const Real away2 = dot(to, to), away = std::sqrt(away2);
   const Vec3 normal = cross(edgeA, edgeB);
   const Real facing = std::abs(dot(to, normal)) / (away * length(normal));
   return facing > 0 ? away2 / (facing * size) : 0;
+}
+
+std::optional<SphericalRectangle> Lamps::Part::seen(const Vec3& from) const {
+  // Steradians. What is seen smaller is seen nearly alike from everywhere on it, at a third of the cost;
+  // below the least digits are lost.
+  constexpr Real kLarge = 0.3, kLeast = 1e-8;
+  const Vec3 to = origin + (edgeA + edgeB) * 0.5 - from;
+  if (kind != Kind::rectangle || size < kLarge * dot(to, to)) return {};
+  std::optional<SphericalRectangle> rectangle(std::in_place, from, origin, edgeA, edgeB);
+  if (!(rectangle->solidAngle() > kLeast)) rectangle.reset();
+  return rectangle;
 }
 
 std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Vec2& u) const {
@@ -165,8 +183,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   const Part& part = parts_[number];
   const std::uint64_t inObject = number - first_[part.object];
   Vec3 toLight;
-  Vec3 at = part.origin;
-  Real distance;
+  Real distance, density;
   if (part.kind == Part::Kind::sphere) {
     const Vec3 to = part.origin - from;
     const Real away2 = dot(to, to), radius2 = part.size * part.size;
@@ -174,12 +191,15 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
     const Real along = dot(to, toLight);
     distance = along - std::sqrt(std::max(0.0, radius2 - (away2 - along * along)));
+    density = part.density(from, part.origin);
   } else {
-    at = placeOn(part, u);
+    const auto rectangle = part.seen(from);
+    const Vec3 at = rectangle ? rectangle->place(u) : placeOn(part, u);
     distance = length(at - from);
     toLight = normalize(at - from);
+    density = rectangle ? 1 / rectangle->solidAngle() : part.densityByArea(from, at);
   }
-  const Real density = (1 - skyShare) * share * part.density(from, at);
+  density *= (1 - skyShare) * share;
   if (!(density > 0)) return {};
   return Place{part.object, inObject, toLight, density, distance};
 }
@@ -234,13 +254,22 @@ Real Lamps::skyStartDensity(const Vec3& toLight) const {
   return sky_.empty() ? 1 / kSphere : sky_.density(toLight);
 }
 
-bool Lamps::met(const Place& place, const Hit& hit) const {
-  if (place.object == kNone) return false;
-  const bool mesh = parts_[first_[place.object]].kind == Part::Kind::triangle;
-  return hit.object == place.object && (!mesh || hit.part == place.part);
+bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const {
+  const World& world = tracer.world();
+  return place.object != kNone && world.isUniform(place.object) && !world.hasHoles() && !inside.nested() &&
+         !(tracer.settings().fog > 0) && !tracer.records();
 }
 
-Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const {
+Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Interfaces& from,
+                  Real chance) const {
+  if (isPlain(tracer, place, from)) {
+    constexpr Real kBehind = 1 + 0x1p-10;  // of the way: what lies farther away is not asked
+    ++tracer.statistics().depths;
+    const auto found = tracer.nearest(ray, RayKind::lamp, place.distance * kBehind);
+    if (!found || !met(place, *found)) return Color(0);
+    return tracer.world().termsOf(place.object).emissive * from.passed(found->t);
+  }
+  Interfaces inside = from;
   const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside, chance);
   Gather light(tracer, 1);
   if (!hit) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/spherical_rectangle.h"
 #include "render/light_tree.h"
 #include "render/sky_table.h"
 #include "render/tracer.h"
@@ -21,10 +22,13 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  /// Where no ray meets the sky by chance, it is a lamp as soon as it is not the same all around.
+  /// Where no ray meets lamps by chance, what is around is one as soon as it is not the same all around.
+  /// Places are then spread over areas, so that Whitted's pictures keep their bits.
   Lamps(const World& world, int threads, bool onlyHere = false);
 
   bool empty() const { return parts_.empty() && !choosesSky(); }
+  /// There is nothing to choose but a place on it.
+  bool isOne() const { return parts_.size() == 1 && !choosesSky(); }
 
   /// A place that was chosen.
   struct Place {
@@ -69,20 +73,25 @@ class Lamps {
   /// With which it gives that unit direction.
   Real skyStartDensity(const Vec3& toLight) const;
 
-  /// Whether the ray to the place met it.
-  bool met(const Place& place, const Hit& hit) const;
+  /// Whether the ray to the place met it: a Hit, or what was Found.
+  template <class Meeting>
+  bool met(const Place& place, const Meeting& at) const {
+    if (place.object == kNone || at.object != place.object) return false;
+    return parts_[first_[place.object]].kind != Part::Kind::triangle || at.part == place.part;
+  }
   /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
   /// `chance` is Tracer::chance().
-  Color look(Tracer& tracer, const Ray& ray, const Place& place, Interfaces inside, Real chance) const;
+  Color look(Tracer& tracer, const Ray& ray, const Place& place, const Interfaces& inside, Real chance) const;
   /// The radiance that the place sends along that ray to it, whatever is in the way.
   Color sent(Tracer& tracer, const Ray& ray, const Place& place) const;
   /// The part of the way to a place that ends before it.
   static constexpr Real kBefore = 1 - 1e-6;
 
  private:
-  /// A triangle, a parallelogram or a sphere, in world space.
+  /// A triangle, a parallelogram, a rectangle whose places are spread as they are seen, or a sphere; in world
+  /// space.
   struct Part {
-    enum class Kind { triangle, parallelogram, sphere } kind;
+    enum class Kind { triangle, parallelogram, rectangle, sphere } kind;
     std::uint32_t object;
     Vec3 origin;        ///< a corner, or the middle
     Vec3 edgeA, edgeB;  ///< from the corner
@@ -90,6 +99,10 @@ class Lamps {
     Real share;         ///< of all choices, where they are few
     /// The density of the direction to `at`, which lies on the part, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
+    /// A rectangle as it is seen from there, where that differs from its area as seen from far away.
+    std::optional<SphericalRectangle> seen(const Vec3& from) const;
+    /// The same per area.
+    Real densityByArea(const Vec3& from, const Vec3& at) const;
     /// Per area and side, of all choices.
     Real perArea() const;
     LightReach reach(Real power) const;
@@ -116,6 +129,9 @@ class Lamps {
     return tree_.empty() ? parts_[part].share
                          : tree_.probability(from, nullptr, static_cast<std::uint32_t>(part));
   }
+  /// Nothing has to be known of the place but that the ray to it met it.
+  bool isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const;
+
   SkyTable sky_;
   std::vector<Portal> portals_;
   std::vector<Part> parts_;

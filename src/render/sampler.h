@@ -23,6 +23,11 @@ struct Draw {
   int x, y, k;           ///< the pixel and its sample
   std::uint64_t branch;  ///< a hash of the branch and the dimension
   std::uint64_t pixel;   ///< a hash of both and of the pixel
+  /// The same where another pair is drawn.
+  Draw beside() const { return {rules, x, y, k, mixBits(branch ^ kBeside), mixBits(pixel ^ kBeside)}; }
+
+ private:
+  static constexpr std::uint64_t kBeside = 0x62657369646521u;
 };
 
 /// THE table of generators: rules by which the samples of a pixel are spread. A new one is a row in
@@ -38,6 +43,8 @@ struct GeneratorRow {
   Vec2 (*pair)(const Draw& draw);
   /// The first of the two alone, where that takes less; else null.
   Real (*first)(const Draw& draw) = nullptr;
+  /// Two more that with the pair fill four dimensions evenly; null: they have nothing to do with it.
+  Vec2 (*second)(const Draw& draw) = nullptr;
 };
 std::span<const GeneratorRow> generators();
 const GeneratorRow& generatorOf(const Settings& settings);
@@ -147,6 +154,15 @@ class Sampler {
     return numbers_ ? numbers_->pair(draw.branch) : rules_->generator().pair(draw);
   }
 
+  /// Two numbers that go with the pair that next2() gives first: of all samples of a pixel the four fill
+  /// their space evenly, where the generator knows how.
+  Vec2 second2() const {
+    const Draw draw = drawAt(0);
+    const GeneratorRow& row = rules_->generator();
+    if (numbers_) return numbers_->pair(draw.beside().branch);
+    return row.second ? row.second(draw) : row.pair(draw.beside());
+  }
+
   /// Numbers of its own for the n-th ray that is sent from here, whatever has been drawn here and elsewhere:
   /// a changed depth, light or extra changes only its own rays.
   Sampler branch(std::uint32_t n) const {
@@ -161,8 +177,9 @@ class Sampler {
                                  kHole = 0xf0000003u;
 
  private:
-  Draw nextDraw() {
-    const std::uint64_t branch = mixBits(branch_ ^ dimension_++);
+  Draw nextDraw() { return drawAt(dimension_++); }
+  Draw drawAt(std::uint32_t dimension) const {
+    const std::uint64_t branch = mixBits(branch_ ^ dimension);
     return {*rules_, x_, y_, k_, branch, mixBits(branch ^ pixel_)};
   }
 

@@ -43,6 +43,12 @@ class Tracer {
     return behindHoles(ray, kind, statistics_);
   }
 
+  /// What a ray that is not recorded meets first before tMost, in a scene without holes and nested glass.
+  std::optional<Found> nearest(const Ray& ray, RayKind kind, Real tMost) {
+    count(kind);
+    return world_.closest(ray, facesSeenBy(kind), statistics_, tMost);
+  }
+
   /// Where it meets that object nearest to t, whatever lies before; counted and not recorded, likewise.
   std::optional<Found> lookAt(const Ray& ray, RayKind kind, std::uint32_t object, Real t);
 

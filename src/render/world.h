@@ -80,9 +80,11 @@ struct Compiled;
 
 class World {
  public:
-  /// The nearest crossing at t > 0. Here and below the Statistics count what it takes, or other QueryCounts.
+  /// The nearest crossing at 0 < t < tMost. Here and below the Statistics count what it takes, or other
+  /// QueryCounts.
   template <class Nodes>
-  std::optional<Found> closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts) const;
+  std::optional<Found> closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
+                               Real tMost = kInfinity) const;
 
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
@@ -192,6 +194,10 @@ class World {
   std::string_view shapeOf(std::uint32_t object) const {
     const Instance& o = objects_[object];
     return o.bounds.empty() ? "" : o.shape.type().keyword;
+  }
+  /// All of it is made of one material, without textures.
+  bool isUniform(std::uint32_t object) const {
+    return !objects_[object].mixed && !surfaces_[objects_[object].material].textured;
   }
   /// What it is made of where its parts say nothing else; without its textures.
   const WhittedTerms& termsOf(std::uint32_t object) const { return whitted(bsdf(objects_[object].material)); }

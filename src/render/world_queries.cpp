@@ -30,8 +30,10 @@ void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
 // --- the nearest crossing -----------------------------------------------------------------------------
 
 template <class Nodes>
-std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts) const {
+std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
+                                    Real tMost) const {
   std::optional<Found> best(std::in_place);
+  best->t = tMost;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
     closestOf(object, ray, faces, counts, *best);
@@ -42,7 +44,7 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nod
     if (object != ray.leaves) ask(object);
   if (!bvh_->nodes().empty())
     bvh_->query(ray.origin, ray.direction, best->t, true, counts.nodes, ask, ray.leaves);
-  if (best->t == kInfinity) best.reset();
+  if (best->t == tMost) best.reset();
   return best;
 }
 
@@ -104,8 +106,8 @@ void World::closestOfShape(const Instance& instance, std::uint32_t object, const
   });
 }
 
-template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeCount>&) const;
-template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeWatch>&) const;
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeCount>&, Real) const;
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeWatch>&, Real) const;
 
 SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
   const Instance& instance = objects_[found.object];

@@ -44,13 +44,13 @@ bool mirrorIsExact(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) { return model.mirrorIsExact(); });
 }
 
-bool isGlossy(const Bsdf& bsdf) {
+bool isGlossyOfOthers(const Bsdf& bsdf) {
   return !std::holds_alternative<MixedBsdf>(bsdf) && !mirrorIsExact(bsdf) &&
          (whitted(bsdf).mirrors() || whitted(bsdf).transmits());
 }
 
-Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
-               Transport transport) {
+Color evaluateOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
+                       Transport transport) {
   return match(bsdf, [&](const auto& model) { return model.evaluate(frame, toEye, toLight, transport); });
 }
 
@@ -59,11 +59,11 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec
   return match(bsdf, [&](const auto& model) { return model.sample(frame, toEye, choose, u, transport); });
 }
 
-Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight) {
+Real densityOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight) {
   return match(bsdf, [&](const auto& model) { return model.density(frame, toEye, toLight); });
 }
 
-bool scatters(const Bsdf& bsdf) {
+bool scattersOfOthers(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) { return model.scatters(); });
 }
 

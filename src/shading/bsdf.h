@@ -68,19 +68,42 @@ Color passWeight(const Bsdf& bsdf, Real cosine);
 /// False if `evaluate` has all that is mirrored.
 bool mirrorIsExact(const Bsdf& bsdf);
 /// It mirrors or refracts into a lobe, for the core of which Whitted's rays stand.
-bool isGlossy(const Bsdf& bsdf);
+bool isGlossyOfOthers(const Bsdf& bsdf);
+inline bool isGlossy(const Bsdf& bsdf) {
+  return !std::holds_alternative<PhongBsdf>(bsdf) && isGlossyOfOthers(bsdf);
+}
 
 /// f |cos(toLight)|, of what is spread over directions.
-Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
-               Transport transport = Transport::radiance);
+Color evaluateOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
+                       Transport transport);
+inline Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
+                      Transport transport = Transport::radiance) {
+  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf))
+    return phong->evaluate(frame, toEye, toLight, transport);
+  return evaluateOfOthers(bsdf, frame, toEye, toLight, transport);
+}
 /// A direction chosen by three numbers from 0 to 1. Nothing where nothing is scattered to the eye.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
                                  Transport transport = Transport::radiance);
 /// The density of that choice, per solid angle.
-Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
+Real densityOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
+inline Real density(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight) {
+  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->density(frame, toEye, toLight);
+  return densityOfOthers(bsdf, frame, toEye, toLight);
+}
+
+/// It scatters evenly by the cosine: sample() asks for no number to choose by.
+inline bool hasOneLobe(const Bsdf& bsdf) {
+  const auto* phong = std::get_if<PhongBsdf>(&bsdf);
+  return phong && phong->isEven();
+}
 
 /// Lamps can be seen on it.
-bool scatters(const Bsdf& bsdf);
+bool scattersOfOthers(const Bsdf& bsdf);
+inline bool scatters(const Bsdf& bsdf) {
+  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->scatters();
+  return scattersOfOthers(bsdf);
+}
 /// It asks for Frame::along.
 bool hasGrainOfOthers(const Bsdf& bsdf);
 inline bool hasGrain(const Bsdf& bsdf) {

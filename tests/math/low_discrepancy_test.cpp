@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <set>
 
@@ -28,6 +29,22 @@ TEST(LowDiscrepancy, SobolPointsAreANetUnderEveryScrambling) {
   for (const std::uint64_t seed : {1u, 2u, 77u})
     for (const std::uint32_t first : {0u, 64u, 4096u})
       expectNet([&](std::uint32_t i) { return sobolPoint(i, seed); }, first, 6);
+}
+
+TEST(LowDiscrepancy, FourCoordinatesFillTheirSpace) {
+  for (const std::uint64_t seed : {1u, 2u, 77u})
+    for (const std::uint32_t first : {0u, 256u, 4096u}) {
+      std::array<int, 16> halves{};  // of each axis
+      std::array<std::set<int>, 2> strata;
+      for (std::uint32_t i = first; i < first + 256; ++i) {
+        const Vec2 p = sobolPoint(i, seed), q = sobolPointBeside(i, seed);
+        ++halves[static_cast<std::size_t>((p.x < 0.5) + 2 * (p.y < 0.5) + 4 * (q.x < 0.5) + 8 * (q.y < 0.5))];
+        strata[0].insert(static_cast<int>(q.x * 256));
+        strata[1].insert(static_cast<int>(q.y * 256));
+      }
+      for (const int count : halves) EXPECT_EQ(count, 16);
+      for (const auto& each : strata) EXPECT_EQ(each.size(), 256u);
+    }
 }
 
 TEST(LowDiscrepancy, ScramblingKeepsWhatLiesInABoxTogether) {

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "math/spherical_rectangle.h"
+
 namespace trace {
 namespace {
 
@@ -51,6 +53,59 @@ TEST(Warp, ConesAreFilledEvenly) {
     EXPECT_NEAR(length2 / kCount, 1, 1e-12);
   }
   EXPECT_EQ(toCone(kCenter, {0, 0, 1}, 0.5), (Vec3{0, 0, 1}));
+}
+
+/// A square that is seen straight on, one that is near the eye's plane, one beside it, and a long one.
+const std::array kRectangles{
+    std::array{Vec3{-1, -1, 1}, Vec3{2, 0, 0}, Vec3{0, 2, 0}},
+    std::array{Vec3{0.2, -0.5, 0.001}, Vec3{1, 0, 0}, Vec3{0, 1, 0}},
+    std::array{Vec3{1, 2, -0.5}, Vec3{0, 0.6, 0.8}, Vec3{0, -0.4, 0.3}},
+    std::array{Vec3{-20, 0.1, 0.2}, Vec3{40, 0, 0}, Vec3{0, 0.01, 0}},
+};
+const Vec3 kEye{3, -1, 2};
+
+TEST(Warp, TheSolidAngleOfARectangle) {
+  EXPECT_NEAR(
+      SphericalRectangle(kEye, kEye + kRectangles[0][0], kRectangles[0][1], kRectangles[0][2]).solidAngle(),
+      4 * kPi / 6, 1e-14);  // the side of a cube from its middle
+  for (const auto& [corner, a, b] : kRectangles) {
+    // Of a corner at x, y over a plane at z: atan(x y / (z r)).
+    const Vec3 x = normalize(a), y = normalize(b);
+    const Real z = std::abs(dot(corner, cross(x, y)));
+    const auto to = [&](const Vec3& p) { return std::atan(dot(p, x) * dot(p, y) / (z * length(p))); };
+    const Real expected = to(corner + a + b) - to(corner + a) - to(corner + b) + to(corner);
+    const Real found = SphericalRectangle(kEye, kEye + corner, a, b).solidAngle();
+    EXPECT_NEAR(found, expected, 4e-15 + 1e-12 * expected);
+  }
+}
+
+TEST(Warp, RectanglesAreFilledEvenlyAsTheyAreSeen) {
+  for (const auto& [corner, a, b] : kRectangles) {
+    const SphericalRectangle rectangle(kEye, kEye + corner, a, b);
+    // The mean direction, against the sum over the area.
+    Vec3 mean, sum;
+    constexpr Real kCount = kSide * kSide;
+    const Vec3 normal = normalize(cross(a, b));
+    forGrid([&](const Vec2& u) {
+      const Vec3 to = rectangle.place(u) - kEye, within = to - corner;
+      EXPECT_NEAR(dot(within, normal), 0, 1e-12);
+      for (const Vec3& side : {a, b}) {
+        EXPECT_GE(dot(within, side), -1e-9);
+        EXPECT_LE(dot(within, side), dot(side, side) + 1e-9);
+      }
+      mean += normalize(to) * (1 / kCount);
+    });
+    constexpr int kFine = 2048;
+    for (int i = 0; i < kFine; ++i)
+      for (int j = 0; j < kFine; ++j) {
+        const Vec3 to = corner + a * ((i + 0.5) / kFine) + b * ((j + 0.5) / kFine);
+        const Real away = length(to);
+        sum += to * (std::abs(dot(to, normal)) / (away * away * away * away));
+      }
+    sum = sum * (length(a) * length(b) / (kFine * kFine) / rectangle.solidAngle());
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+      EXPECT_NEAR(dot(mean, axis), dot(sum, axis), 2e-3);
+  }
 }
 
 }  // namespace

@@ -112,6 +112,29 @@ TEST(Sampler, EvenPairsEstimateBetterThanChance) {
   }
 }
 
+// The share of the samples in a ball around a corner, which depends on all four numbers at once.
+TEST(Sampler, TwoPairsOfABranchEstimateWhatDependsOnBoth) {
+  constexpr int kSamples = 64, kPixels = 1000;
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, kSamples), {1000, 1});
+    Real square = 0, mean = 0;
+    for (int x = 0; x < kPixels; ++x) {
+      Real inside = 0;
+      for (int k = 0; k < kSamples; ++k) {
+        Sampler sampler = Sampler(rules, x, 0, k).branch(5);
+        const Vec2 u = sampler.next2(), v = sampler.second2();
+        inside += u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y < 1;
+      }
+      const Real error = inside / kSamples - kPi * kPi / 32;
+      mean += error / kPixels, square += error * error / kPixels;
+    }
+    const Real share = kPi * kPi / 32, byChance = share * (1 - share) / kSamples;
+    EXPECT_NEAR(mean, 0, 0.006) << row.name;
+    if (row.kind == SampleKind::random) EXPECT_NEAR(square, byChance, 0.15 * byChance);
+    if (row.second) EXPECT_LT(square, 0.4 * byChance) << row.name;
+  }
+}
+
 // checks.md, E3: four times the samples, and all but chance become more than twice as exact.
 TEST(Sampler, FourTimesTheSamplesAreMoreThanTwiceAsExact) {
   constexpr int kPixels = 100, kBranches = 16;  // "blue" scrambles all pixels of a branch alike

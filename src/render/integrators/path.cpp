@@ -21,14 +21,27 @@ namespace {
 /// Branches of a place's numbers: its lights by their number, and these.
 constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
                         kMedium = 0x80000004u, kHole = 0x80000005u, kBody = 0x80000006u,
-                        kToLamp = 0x80000007u;
-/// Paths of fewer bounces are not ended by chance.
-constexpr int kSurely = 3;
+                        kToLamp = 0x80000007u, kRoulette = 0x80000008u;
+/// The numbers by which a path came to a place: the second pair chooses the place's lamp, so that what
+/// depends on both is spread evenly, too. Where the camera ray arrives, they are its place in the picture.
+constexpr std::uint32_t kArrival = Sampler::kFilm;
+/// How often a path goes on that was scattered so often and carries so much of what it brings to the sample.
+/// Short ones and those that carry half of it surely: to end them spares less time than the noise costs.
+Real survival(int bounces, const Color& weight) {
+  constexpr int kSurely = 3;
+  const Real carries = 2 * maxComponent(weight);
+  return bounces < kSurely && carries > 0 ? 1 : std::min(carries, 1.0);
+}
 
 /// A direction of that density, which another way of choosing gives with the density `other`: the two are
 /// weighed by the power heuristic.
 ChanceTerm weighed(Real density, Real other) {
   return {density, other, other > 0 ? density * density / (density * density + other * other) : 1};
+}
+
+std::unique_ptr<const SubsurfaceBsdf> takeBody(Interaction& at) {
+  const std::optional<SubsurfaceBsdf> body = at.takeBody();
+  return body ? std::make_unique<const SubsurfaceBsdf>(*body) : nullptr;
 }
 
 }  // namespace
@@ -129,16 +142,17 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   }
   Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
-  Sampler numbers = sampler.branch(kChoice);
-  const Vec2 choice = numbers.next2();
+  // Numbers are drawn where something is to be chosen.
+  const bool splits = tracer.settings().wavelengths > 1;
+  Vec2 choice = splits ? sampler.branch(kChoice).next2() : Vec2{};
   // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
   const Real wavelength = choice.y * tracer.settings().wavelengths;
   Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
-  std::optional<SubsurfaceBsdf> body;
+  std::unique_ptr<const SubsurfaceBsdf> body;  // apart: nearly everywhere there is none
   if (path.within)
     at.letIn();
   else if (world.hasSubsurface())
-    body = at.takeBody();
+    body = takeBody(at);
   sum.note(at.bsdf());
   sum.note(at.raised());
   sum.note(at.indices);
@@ -165,7 +179,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   }
   const bool glossy = isGlossy(at.bsdf()), asks = !gathers && !path.told;
   if (asks) {
-    at.addLights(sum, sampler);
+    if (!world.lights().empty()) at.addLights(sum, sampler);
     at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
   const bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
@@ -190,17 +204,17 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
   const Real toBody = all > 0 ? inBody / all : 0;
+  if (!splits && toLobe < 1) choice.x = sampler.branch(kChoice).next();
   if (toLobe > 0 || cached) addLamp(sum, at, toLobe, sampler);
 
   /// Whether a ray of that weight goes on, and for how many it then stands.
   const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
-    const Real most = maxComponent(path.weight * weight);
-    Real goes = 1;
+    const Real goes = survival(path.depth, path.weight * weight);
     if (path.depth >= depth_ && kind != RayKind::bounce)
       sum.stop(DepthLimit{kind, depth_});
-    else if (!(most > 0) || (path.told && photonsBring))
+    else if (!(goes > 0) || (path.told && photonsBring))
       sum.stop(BelowThreshold{kind, 0, 0});
-    else if (goes = path.depth < kSurely ? 1 : std::min(1.0, most); numbers.next() >= goes)
+    else if (goes < 1 && sampler.branch(kRoulette).next() >= goes)
       sum.stop(Roulette{kind, goes});
     else
       return 1 / goes;
@@ -238,10 +252,9 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const int places = both ? tracer.settings().subsurfaceSamples : 0;
   for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
   if (all > 0 && choice.x < toLobe) {
-    Sampler lobe = sampler.branch(kLobe);
-    const Real choose = lobe.next();
-    const auto drawn =
-        sample(at.bsdf(), at.frame, -ray.direction, choose, lobe.next2(), Transport::importance);
+    const Vec2 where = sampler.branch(kNext).branch(kArrival).next2();
+    const Real choose = hasOneLobe(at.bsdf()) ? 0 : sampler.branch(kLobe).next();
+    const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, where, Transport::importance);
     const bool inward = drawn && dot(drawn->toLight, at.normal) < 0;
     const bool astray = drawn && !inward && at.isAstray(drawn->toLight);
     if (drawn && !astray && !isBlack(drawn->weight))
@@ -285,9 +298,8 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
   addPhotonsAt(sum, at, path.maps->media);
 
   Sampler lobe = sampler.branch(kLobe);
-  const Real most = maxComponent(path.weight * place.weight);
-  const Real goes = path.depth + path.scattered < kSurely ? 1 : std::min(1.0, most);
-  if (!(most > 0) || !(lobe.next() < goes)) {
+  const Real goes = survival(path.depth + path.scattered, path.weight * place.weight);
+  if (!(lobe.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
     const Color light = sum.radiance(after->passed);
     after.reset();
@@ -309,8 +321,9 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
 void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const {
   if (lamps_.empty()) return;
   Sampler numbers = sampler.branch(kLamp);
-  const Real which = numbers.next();
-  const auto place = lamps_.choose(at.lightPlace(), which, numbers.next2());
+  const Vec2 where = sampler.branch(kArrival).second2();
+  const Real which = lamps_.isOne() ? 0 : numbers.next();
+  const auto place = lamps_.choose(at.lightPlace(), which, where);
   if (!place) return;
   const Vec3 toEye = -at.ray.direction;
   const Color scattered =
@@ -320,8 +333,9 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
   const ChanceTerm chance = weighed(place->density, other);
   const Ray toLamp = at.leaveToLight(place->toLight);
-  const Color seen = lamps_.look(at.tracer, toLamp, *place, inward && at.transmits ? at.behind() : at.inside,
-                                 at.tracer.chance(numbers));
+  const Real hole = at.tracer.chance(numbers);
+  const Color seen = inward && at.transmits ? lamps_.look(at.tracer, toLamp, *place, at.behind(), hole)
+                                            : lamps_.look(at.tracer, toLamp, *place, at.inside, hole);
   Color factor = scattered * (chance.share / place->density);
   if (!at.tracer.world().media().empty() && !isBlack(seen))
     factor *= passedByBodies(at.tracer, toLamp, place->distance, sampler.branch(kToLamp));

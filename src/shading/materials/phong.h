@@ -73,6 +73,8 @@ struct PhongBsdf : WhittedTerms {
   }
 
   bool scatters() const { return !isBlack(diffuse) || !isBlack(specular); }
+  /// Light of one side is scattered by the cosine.
+  bool isEven() const { return isBlack(specular) && !litFromBehind; }
   bool mirrorIsExact() const { return true; }
   Color mirrorWeight(Real) const { return reflective; }
   Color passWeight(Real) const { return transmissive; }
@@ -107,6 +109,11 @@ struct PhongBsdf : WhittedTerms {
   std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
                                    Transport transport) const {
     if (!scatters() || !(dot(frame.normal, toEye) > 0)) return {};
+    if (isEven()) {
+      const Vec3 light = cosineDirection(u);
+      if (!(light.z > 0)) return {};
+      return BsdfSample{frame.basis().toWorld(light), diffuse, light.z / kPi};
+    }
     const Basis basis = frame.basis();
     const Vec3 eye = basis.toLocal(toEye);
     const Real highlightShare = shareOfHighlight();
@@ -129,6 +136,8 @@ struct PhongBsdf : WhittedTerms {
     const Real cosLight = dot(frame.normal, toLight);
     if (!scatters() || !(dot(frame.normal, toEye) > 0)) return 0;
     const Real even = litFromBehind ? std::abs(cosLight) / (2 * kPi) : max(0, cosLight) / kPi;
+    const Real share = shareOfHighlight();
+    if (!(share > 0)) return even;
     Real lobe = 0;
     if (highlight == Highlight::blinn) {
       const Vec3 half = halfway(toEye, toLight);
@@ -137,7 +146,7 @@ struct PhongBsdf : WhittedTerms {
     } else {
       lobe = powerDensity(shininess, dot(mirroredAt(frame.normal, toEye), toLight));
     }
-    return even + (lobe - even) * shareOfHighlight();
+    return even + (lobe - even) * share;
   }
 
  private:
