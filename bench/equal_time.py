@@ -22,8 +22,8 @@ INTEGRATORS = {
     "path": ["path"],
     "bdpt": ["bdpt"],
     "photon": ["photon"],
+    "mlt --chains path": ["mlt", "--chains", "path", "--chain-starts", "50000"],
     "mlt": ["mlt", "--chain-starts", "50000"],
-    "mlt --chains bdpt": ["mlt", "--chains", "bdpt", "--chain-starts", "50000"],
     "mlt --chains veach": ["mlt", "--chains", "veach", "--chain-starts", "50000"],
 }
 

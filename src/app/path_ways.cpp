@@ -54,11 +54,6 @@ std::vector<PathWay> pathWays(const RayTree& tree) {
   return ways;
 }
 
-bool joinsPaths(const Settings& settings) {
-  return settings.integrator == IntegratorKind::bdpt ||
-         (settings.integrator == IntegratorKind::mlt && settings.chains == Chains::bdpt);
-}
-
 std::string whyNoWays(const RayTree& tree, const Settings& settings) {
   if (settings.integrator == IntegratorKind::mlt)
     return "The numbers of this sample chose one way to join its paths, and found no such path.";

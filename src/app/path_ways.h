@@ -29,9 +29,7 @@ struct PathWay {
 /// no path from a light belongs to, and of none of `bdpt`.
 std::vector<PathWay> pathWays(const RayTree& tree);
 
-/// The integrator joins paths from both ends.
-bool joinsPaths(const Settings& settings);
-/// Why the tree of one that does has no ways.
+/// Why the tree of an integrator that joins paths from both ends has no ways.
 std::string whyNoWays(const RayTree& tree, const Settings& settings);
 
 /// The rays of the path, from the camera to the light.

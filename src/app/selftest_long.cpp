@@ -91,8 +91,7 @@ translate(-0.4, 0.45, -0.4, rotate(0, 1, 0, 0.3, scale(0.5, 0.9, 0.5, box { mate
 
 using Choices = std::vector<Choice>;
 
-Agreement agreementOf(Room room, const Choices& a, const Choices& b, int seeds,
-                      double bias = 0) {
+Agreement agreementOf(Room room, const Choices& a, const Choices& b, int seeds, double bias = 0) {
   Messages messages;
   const Scene scene = readScene("room.ray", "SBT-raytracer 1.0\n" + roomText(room), messages, 0);
   messages.throwIfFailed();
@@ -111,7 +110,8 @@ Choices choices(std::initializer_list<std::pair<const char*, const char*>> pairs
 
 const Choices kPath = choices({{"integrator", "path"}, {"spp", "96"}});
 const Choices kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}});
-const Choices kMlt = choices({{"integrator", "mlt"}, {"spp", "96"}, {"chain-starts", "400000"}});
+const Choices kMlt =
+    choices({{"integrator", "mlt"}, {"chains", "path"}, {"spp", "96"}, {"chain-starts", "400000"}});
 const Choices kMltBdpt =
     choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}});
 const Choices kMltVeach =
@@ -132,9 +132,7 @@ const Choices kPhotonGather = choices({{"integrator", "photon"},
 constexpr int kSeeds = 8;
 
 /// The p-value of all tiles' p-values together.
-double alike(Room room, const Choices& other) {
-  return agreementOf(room, kPath, other, kSeeds).uniform;
-}
+double alike(Room room, const Choices& other) { return agreementOf(room, kPath, other, kSeeds).uniform; }
 /// Photons blur light, however many passes they have: of a tile of 8 by 8 pixels they may change this part,
 /// where rays gather them and where they are seen at once.
 constexpr double kBias = 0.01, kSeenBias = 0.04;

@@ -113,8 +113,8 @@ class TreeText {
     const SurfacePoint& s = hit.surface;
     const WhittedTerms& whittedTerms = whitted(*node.bsdf);
     const bool lets = whittedTerms.transmits() || whittedTerms.passage == Passage::straight;
-    std::string side = lets ? (hit.leaving ? "leaving it" : "entering it")
-                            : (hit.leaving ? "from inside" : "from outside");
+    std::string side =
+        lets ? (hit.leaving ? "leaving it" : "entering it") : (hit.leaving ? "from inside" : "from outside");
     const Indices& indices = node.indices;
     const auto index = [&](Real value, std::uint32_t body, Real priority) {
       if (!indices.nested) return text(value);
@@ -260,7 +260,11 @@ std::string sharesText(const RayTree& tree, const Scene& scene) {
   for (std::size_t i = 0; i < std::min(kMost, shares.size()) && shares[i].share >= kLeast; ++i) {
     char percent[16];
     std::snprintf(percent, sizeof percent, "%5.1f %%", 100 * shares[i].share);
-    lines += percent + ("  " + printable(shares[i].from)) + "\n";
+    std::string line = percent + ("  " + printable(shares[i].from));
+    constexpr std::size_t kWidest = 100;
+    if (const std::size_t way = line.find(", by "); line.size() > kWidest && way != line.npos)
+      line.insert(way + 1, "\n         ");
+    lines += line + "\n";
     told += shares[i].share;
   }
   char rest[48];

@@ -393,7 +393,7 @@ std::string_view enabledValue(const Option& option) {
                                                                        {"firefly-limit", "4"},
                                                                        {"light-vertices", "1"},
                                                                        {"camera-vertices", "1"},
-                                                                       {"chains", "bdpt"},
+                                                                       {"chains", "veach"},
                                                                        {"light-choices", "4"},
                                                                        {"lamp-samples", "4"},
                                                                        {"ambient-occlusion", "16"},

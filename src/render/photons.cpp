@@ -94,14 +94,24 @@ std::size_t nearestOfPass(int pass) {
   return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
 }
 
+/// From how far away photons count if nothing is said: by the scene's size, but of a glass on a wide floor by
+/// that of the glass.
+Real causticReach(const World& world, const std::vector<PhotonTarget>& targets) {
+  constexpr Real kOfScene = 0.02, kOfTargets = 0.1;
+  Box3 around;
+  for (const PhotonTarget& t : targets) {
+    around.extend(t.center - Vec3(t.radius, t.radius, t.radius));
+    around.extend(t.center + Vec3(t.radius, t.radius, t.radius));
+  }
+  return std::min(kOfScene * length(world.bounds().size()), kOfTargets * length(around.size()));
+}
+
 GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side,
                           Job& job, int pass) {
   const std::vector<PhotonTarget> targets = photonTargetsOf(world);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};
-  constexpr Real kReach = 0.02;  // of the scene's size
-  const Real widest =
-      settings.causticRadius > 0 ? settings.causticRadius : kReach * length(world.bounds().size());
+  const Real widest = settings.causticRadius > 0 ? settings.causticRadius : causticReach(world, targets);
   const Real reach = widest * std::sqrt(areaOfPass(pass));
   LandedPhotons landed =
       landedPhotons(world, settings, lamps, targets, Kept::caustics, side, photons, job, pass);

@@ -39,8 +39,8 @@ std::string sentOn(const RayNode& node) {
   }
   std::string text;
   for (const auto& [kind, count] : kinds)
-    text += (text.empty() ? "" : " and ") + (count > 1 ? std::to_string(count) + " " : "") + std::string(kind) +
-            (count > 1 ? "s" : "");
+    text += (text.empty() ? "" : " and ") + (count > 1 ? std::to_string(count) + " " : "") +
+            std::string(kind) + (count > 1 ? "s" : "");
   return text;
 }
 

@@ -124,7 +124,7 @@ std::vector<Splat> Chains::chain(PixelTracer& tracer, std::uint64_t start, std::
     const Splat pixel = pixelOf(shown);
     move.x = pixel.x;
     move.y = pixel.y;
-    move.brings = pixel.value;
+    move.brings = shown.f / shown.nodes.front().factor.r;  // without the camera's part, as its rays bring it
     move.light = path.brightness;
     watch(move, [&](PixelTracer& other) {
       record(shown, other.tracer(shown.moment));

@@ -695,7 +695,9 @@ const std::array kOptions{
     row<&Settings::causticRadius>(
         {.name = "caustic-radius",
          .group = "Tracing",
-         .help = "photons farther away do not count; 0 is a fiftieth of the scene's size",
+         .help =
+             "photons farther away do not count; 0 is a fiftieth of the scene's size, and at most a tenth of "
+             "the size of what mirrors and refracts",
          .source = "",
          .least = 0,
          .most = 1e9,

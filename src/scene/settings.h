@@ -120,7 +120,7 @@ struct Settings {
   Real fireflyLimit = 0;
   int lightVertices = -1, cameraVertices = -1;
   bool unweighted = false;
-  Chains chains = Chains::path;
+  Chains chains = Chains::bdpt;
   EnumSet<Mutation> mutations{Mutation::bidirectional, Mutation::lens, Mutation::caustic,
                               Mutation::multiChain};
   int chainStarts = 100000;

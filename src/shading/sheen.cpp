@@ -17,13 +17,13 @@ struct SheenTable {
   }
 
   static Real albedo(const Sheen& sheen, Real cosine) {
-    constexpr int kCosines = 40, kTurns = 40;
+    constexpr int kHeights = 40, kTurns = 40;
     const Vec3 eye = sphericalDirection(max(1e-4, cosine), 0);
     Real sum = 0;
-    for (int i = 0; i < kCosines; ++i)
+    for (int i = 0; i < kHeights; ++i)
       for (int j = 0; j < kTurns; ++j)
-        sum += sheen.value(eye, sphericalDirection((i + 0.5) / kCosines, (j + 0.5) * kPi / kTurns));
-    return min(1, sum * 2 * kPi / (kCosines * kTurns));
+        sum += sheen.value(eye, sphericalDirection((i + 0.5) / kHeights, (j + 0.5) * kPi / kTurns));
+    return min(1, sum * 2 * kPi / (kHeights * kTurns));
   }
 };
 

@@ -238,7 +238,7 @@ void drawRays(Studio& studio) {
       if (view.chains.offered()) tab("Chain", drawChain);
       tab("Tree", drawTree);
       tab("Ray", drawNumbers);
-      if (joinsPaths(pixel->session->settings())) tab("Ways", drawWays);
+      if (isBidirectional(pixel->session->settings())) tab("Ways", drawWays);
       if (pixel->session->settings().integrator == IntegratorKind::bdpt) tab("Pyramid", drawPyramid);
       tab("Difference", drawDifference);
       ImGui::EndTabBar();

@@ -11,8 +11,8 @@ namespace trace::test {
 namespace {
 
 TEST(LightShares, SumUpToTheSampleInOurScenes) {
-  for (const char* name : {"glass", "fog", "holes", "caustics", "jade", "cornell", "cloud", "window", "uplight",
-                           "kitchen", "dappled", "underwater", "ink", "nested-glass"}) {
+  for (const char* name : {"glass", "fog", "holes", "caustics", "jade", "cornell", "cloud", "window",
+                           "uplight", "kitchen", "dappled", "underwater", "ink", "nested-glass"}) {
     Session session;
     session.open(test::sourceFolder() + "/scenes/" + name + ".ray",
                  std::vector<Choice>{{"width", "24", {}}, {"spp", "1", {}}});

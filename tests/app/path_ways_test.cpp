@@ -131,7 +131,7 @@ TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
   traceWays(traced, 12, 20, IntegratorKind::bdpt);
   const RayTree& tree = traced.explained.tree;
   Settings settings = traced.session.settings();
-  EXPECT_TRUE(joinsPaths(settings));
+  EXPECT_TRUE(isBidirectional(settings));
   EXPECT_EQ(whyNoWays(tree, settings), "No paths were joined in this sample. Another sample may have some.");
   settings.cameraVertices = 3;
   EXPECT_EQ(
@@ -147,7 +147,7 @@ TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
   EXPECT_EQ(whyNoWays(sky, settings),
             "The camera ray met nothing, so there is no place to join with a light.");
   settings.integrator = IntegratorKind::path;
-  EXPECT_FALSE(joinsPaths(settings));
+  EXPECT_FALSE(isBidirectional(settings));
 }
 
 }  // namespace

@@ -85,9 +85,11 @@ TEST(LightTree, ProbabilitiesAddUpToOneAndAreThoseOfTheChoice) {
       for (int i = 0; i < count; ++i) sum += tree.probability(from, facing, static_cast<std::uint32_t>(i));
       // Ways that end where nothing shines are lost.
       EXPECT_LE(sum, 1 + 1e-9);
-      for (int n = 0; n < 50; ++n)
-        if (const auto chosen = tree.choose(from, facing, random.uniform()))
-          EXPECT_NEAR(chosen->probability / tree.probability(from, facing, chosen->light), 1, 1e-9);
+      for (int n = 0; n < 50; ++n) {
+        const auto chosen = tree.choose(from, facing, random.uniform());
+        if (!chosen) continue;
+        EXPECT_NEAR(chosen->probability / tree.probability(from, facing, chosen->light), 1, 1e-9);
+      }
     }
   }
   // Where all shine to all sides none is lost.

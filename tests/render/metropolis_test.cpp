@@ -87,7 +87,7 @@ Scene gap(bool withGlass) {
 
 Settings chains(int spp, int width = 16) {
   Settings settings;
-  settings.integrator = IntegratorKind::mlt;
+  settings.integrator = IntegratorKind::mlt, settings.chains = Chains::path;
   settings.width = settings.height = width;
   settings.depth = 4, settings.spp = spp, settings.chainStarts = 20000;
   settings.fresnel = Fresnel::exact;

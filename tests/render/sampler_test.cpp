@@ -130,8 +130,12 @@ TEST(Sampler, TwoPairsOfABranchEstimateWhatDependsOnBoth) {
     }
     const Real share = kPi * kPi / 32, byChance = share * (1 - share) / kSamples;
     EXPECT_NEAR(mean, 0, 0.006) << row.name;
-    if (row.kind == SampleKind::random) EXPECT_NEAR(square, byChance, 0.15 * byChance);
-    if (row.second) EXPECT_LT(square, 0.4 * byChance) << row.name;
+    if (row.kind == SampleKind::random) {
+      EXPECT_NEAR(square, byChance, 0.15 * byChance);
+    }
+    if (row.second) {
+      EXPECT_LT(square, 0.4 * byChance) << row.name;
+    }
   }
 }
 

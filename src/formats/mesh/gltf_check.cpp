@@ -36,8 +36,8 @@ constexpr std::string_view kRead[] = {kGltfLights,
 
 class GltfCheck : private GltfMaterialCheck {
  public:
-  GltfCheck(const json& root, const Place& place, Messages& messages)
-      : GltfMaterialCheck(root, place), messages_(messages) {}
+  GltfCheck(const json& file, const Place& place, Messages& messages)
+      : GltfMaterialCheck(file, place), messages_(messages) {}
 
   void check() {
     checkVersion();

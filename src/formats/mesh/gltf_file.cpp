@@ -34,13 +34,13 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
   if (!bytes.starts_with(kMagic)) return bytes;
   const auto fail = [&](const char* what) { throw Error(Fault::scene, place, what); };
   if (bytes.size() < 20) fail("expected a glTF header of 20 bytes, found the end of the file");
-  const std::size_t json = littleInt(bytes, 12), end = 20 + json;
+  const std::size_t length = littleInt(bytes, 12), end = 20 + length;
   if (littleInt(bytes, 8) > bytes.size() || end > bytes.size())
     fail("the file is shorter than its header says");
   const bool hasChunks = littleInt(bytes, 4) >= 2;  // before, the rest was the body
   if (hasChunks && end + 8 <= bytes.size() && littleInt(bytes, end) > bytes.size() - end - 8)
     fail("the binary chunk is longer than the rest of the file");
-  return bytes.substr(20, json);
+  return bytes.substr(20, length);
 }
 
 /// Files that the scene names, each read once.

@@ -37,7 +37,7 @@ class GltfRules {
   using json = nlohmann::json;
   using Part = GltfPart;
 
-  GltfRules(const json& root, const Place& place) : root{root, ""}, place_(place) {}
+  GltfRules(const json& file, const Place& place) : root{file, ""}, place_(place) {}
 
   [[noreturn]] void fail(const std::string& what, std::string hint = {}) const {
     throw Error(Fault::scene, place_, what, std::move(hint));

@@ -225,9 +225,15 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     const auto stands = goesOn(kind, weight);
     if (!stands) return;
     const Color factor = weight * *stands;
-    const bool gathers = path.gathers || (gathers_ && kind == RayKind::bounce && !glossy);
-    Path next{kind,    path.depth + 1, path.weight * factor, density, widened.get(), 0,
-              gathers, path.maps,      path.scattered};
+    Path next{kind,
+              path.depth + 1,
+              path.weight * factor,
+              density,
+              widened.get(),
+              0,
+              path.gathers || (gathers_ && kind == RayKind::bounce && !glossy),
+              path.maps,
+              path.scattered};
     next.told = path.told || (tells && kind == RayKind::bounce);
     next.asked = kind == RayKind::bounce ||
                  (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.material));

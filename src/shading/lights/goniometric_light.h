@@ -23,7 +23,7 @@ struct GoniometricLight {
   Vec3 position{};
   Vec3 direction{0, -1, 0};
   Color color{};
-  PhotometryFile file;
+  PhotometryFile file{};
   Vec3 up{0, 0, 1};
   Real perCandela = 0;
   Real constant = 0, linear = 0, quadratic = 1;

@@ -22,7 +22,7 @@ struct ProjectorLight {
   Vec3 position{};
   Vec3 direction{0, 0, -1};
   Color color{};
-  Pixels file;
+  Pixels file{};
   Vec3 up{0, 1, 0};
   Real fov = 40;
   Real aspectRatio = 0;
