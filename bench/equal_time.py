@@ -23,7 +23,7 @@ INTEGRATORS = {
     "bdpt": ["bdpt"],
     "photon": ["photon"],
     "mlt --chains path": ["mlt", "--chains", "path", "--chain-starts", "50000"],
-    "mlt": ["mlt", "--chain-starts", "50000"],
+    "mlt": ["mlt", "--chains", "bdpt", "--chain-starts", "50000"],
     "mlt --chains veach": ["mlt", "--chains", "veach", "--chain-starts", "50000"],
 }
 

@@ -66,7 +66,10 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   if (changesPaths(settings_))
     paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
   std::atomic<std::int64_t> looked{0};
-  parallelChunks(chunks, settings.threads, job, [&](std::int64_t chunk, int) {
+  Job looking;  // the other one counts what is done of the picture
+  parallelChunks(chunks, settings.threads, looking, [&](std::int64_t chunk, int) {
+    if (job.cancel) looking.cancel = true;
+    if (looking.cancel) return;
     Budget budget(interrupt);
     const BudgetScope scope(&budget);
     PixelTracer tracer = this->tracer();
@@ -78,7 +81,6 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     }
     work.reached(++looked);
   });
-  job.done = 0;  // what comes next counts anew
   if (job.cancel) return;
   Real squares = 0;
   for (const Real light : sums_) squares += light * light;

@@ -166,6 +166,17 @@ TEST(Metropolis, TheSameBitsForAnyNumberOfThreadsAndAfterAStop) {
   EXPECT_EQ(part.picture(), one);
 }
 
+TEST(Metropolis, LookingForLightIsNoPartOfThePictureThatIsDone) {
+  const Settings settings = chains(1, 8);
+  const World world = build(gap(true), settings);
+  const auto integrator = integratorOf(world, settings);
+  const Moment moment{&world, integrator.get()};
+  Job job;
+  const Metropolis metropolis({&moment, 1}, settings, Size{8, 8}, job, [] {});
+  EXPECT_EQ(job.done, 0);
+  EXPECT_EQ(job.total, 0) << "or a watch reports the share of the first samples as that of the picture";
+}
+
 TEST(Metropolis, LooksAtTheRegionAlone) {
   Settings settings = chains(1024, 16);
   const Picture whole = picture(gap(true), settings);
