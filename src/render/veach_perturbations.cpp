@@ -39,6 +39,15 @@ bool Moves::hasLens(const Path& path) const {
   return joint + 1 >= end || isSpread(path, joint + 1);
 }
 
+/// The path goes up to the place `joint`: the rest is that of the other, or it has come to such an end.
+bool Moves::joinAgain(Path& path, const Path& from, std::size_t joint) {
+  if (joint < from.last())
+    return path.nodes.back().vertex->place.joins() &&
+           paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
+  return path.end == from.end ||
+         (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
+}
+
 /// The densities of the film's place are the same both ways, and what is left of T is 1 / G of the edge that
 /// joins the path again, and the camera's density, which stands in f, too.
 Offer Moves::lens(const Path& from) {
@@ -53,11 +62,7 @@ Offer Moves::lens(const Path& from) {
     for (std::size_t i = 0; i < joint; ++i)
       if (!paths_.follow(path, from.nodes[i].leaves) || (path.end != Path::End::open && i + 1 < end))
         return false;
-    if (joint < end)
-      return path.nodes.back().vertex->place.joins() &&
-             paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
-    return path.end == from.end ||
-           (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
+    return joinAgain(path, from, joint);
   };
   if (!build() || !paths_.weigh(path, 0, joint + 1)) {
     path.brightness = 0;
@@ -156,11 +161,7 @@ Offer Moves::multiChain(const Path& from) {
           (path.end != Path::End::open && i + 1 < end))
         return false;
     }
-    if (joint < end)
-      return path.nodes.back().vertex->place.joins() &&
-             paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
-    return path.end == from.end ||
-           (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
+    return joinAgain(path, from, joint);
   };
   if (!build() || !paths_.weigh(path, 0, joint + 1)) {
     path.brightness = 0;
