@@ -151,8 +151,7 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
 }
 
 PhotonMap::Near Interaction::photonsOf(const PhotonMap& photons) const {
-  const Vec3& flat = hit.surface.normal;
-  return photons.near(hit.surface.point, facing() > 0 ? flat : -flat);
+  return photons.near(hit.surface.point, trueNormal(), tracer.world().boundsOf(hit.object));
 }
 
 void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all) const {

@@ -31,6 +31,8 @@ class Interaction {
   void letIn();
   /// Above 0 if the surface's true normal is on the side where the ray comes from.
   Real facing() const { return -dot(ray.direction, hit.surface.normal); }
+  /// That normal, on this side.
+  Vec3 trueNormal() const { return facing() > 0 ? hit.surface.normal : -hit.surface.normal; }
 
   // --- light that arrives from elsewhere ---
 
@@ -57,12 +59,13 @@ class Interaction {
   /// it.
   void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
 
-  /// The nearest photons of the map, on the side where the ray comes from.
+  /// The nearest photons of a map of light that changes slowly, on the side where the ray comes from.
   PhotonMap::Near photonsOf(const PhotonMap& photons) const;
   /// Adds their light that is scattered to where the ray comes from: the diffuse part of it, or all.
   void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all) const;
   void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const {
-    if (!photons.empty() && scatters(*bsdf_)) addPhotons(sum, kind, photonsOf(photons), all);
+    if (!photons.empty() && scatters(*bsdf_))
+      addPhotons(sum, kind, photons.near(hit.surface.point, trueNormal()), all);
   }
 
   // --- rays that go on in one direction ---

@@ -120,7 +120,6 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
     if (isBlack(f.power) || (f.straight && f.light && !world_.lights(*f.light, f.hit->object))) return;
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
-    const Vec3& normal = f.hit->surface.normal;
     const bool scattersIt = scatters(at.bsdf());
     std::optional<SubsurfaceBsdf> body;
     if (world_.hasSubsurface()) body = at.takeBody();
@@ -128,8 +127,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
       else
-        landed.photons.push_back(
-            {f.hit->surface.point, f.ray.direction, at.facing() > 0 ? normal : -normal, f.power});
+        landed.photons.push_back({f.hit->surface.point, f.ray.direction, at.trueNormal(), f.power});
     }
     if (f.bounces >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
     f.parallel = f.fromSky = false;

@@ -40,10 +40,15 @@ class PhotonMap {
     std::array<const Photon*, kNearest> photons;
     std::array<Real, kNearest> distance2;
     std::size_t count = 0;
-    Real radius2 = 0;  ///< of the disk on which they arrived
-    /// The share of an area that photon i counts for: they count less toward the edge of the disk
+    Real radius2 = 0;        ///< of the disk on which they arrived
+    bool enough = false;     ///< as many as an estimate takes
+    bool onSmaller = false;  ///< the surface is smaller than the disk
+    Real area = 0;           ///< of the part of the disk that is there, if that is known
+    /// The share of an area that photon i counts for. Where the part of the disk that is there is known, all
+    /// count alike, but for the one that says how large the disk is. Else they count less toward its edge
     /// (Epanechnikov's kernel, which keeps edges of light sharper than a disk does).
     Real perArea(std::size_t i) const {
+      if (area > 0) return distance2[i] < radius2 ? 1 / area : 0;
       return 2 / (kPi * radius2) * std::max(0.0, 1 - distance2[i] / radius2);
     }
     /// The share of a volume, by the same kernel in a ball.
@@ -52,6 +57,9 @@ class PhotonMap {
     }
   };
   Near near(const Vec3& point, const Vec3& normal) const;
+  /// The same of light that changes slowly, on a surface within such bounds: where that is smaller than the
+  /// disk, photons tell by where they lie how much of the disk is there.
+  Near near(const Vec3& point, const Vec3& normal, const Box3& bounds) const;
   /// The same in a medium: all around.
   Near around(const Vec3& point) const;
 

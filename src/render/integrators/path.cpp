@@ -182,8 +182,14 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     if (!world.lights().empty()) at.addLights(sum, sampler);
     at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
   }
-  const bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
-  if (tells) at.addPhotons(sum, Term::Kind::photons, path.maps->all, true);
+  // Photons tell what is scattered. Not on a thing that is smaller than the disk on which enough of them
+  // would lie: from there the path goes on.
+  bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
+  if (tells) {
+    const PhotonMap::Near near = at.photonsOf(path.maps->all);
+    tells = near.enough || !near.onSmaller;
+    if (tells) at.addPhotons(sum, Term::Kind::photons, near, true);
+  }
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
   const auto shares = glossy ? at.shares().first(0) : at.shares();
