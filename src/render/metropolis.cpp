@@ -17,7 +17,7 @@ Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(lum
 struct Stop {
   std::vector<Splat> splats;
   Real light = 0;
-  Real target = 0;  ///< of the chain
+  Real target = 0;  ///< of that light
   Real visits = 0;
 };
 
@@ -135,7 +135,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
   if (watch)
-    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1,
+    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.target, 0, 1,
            true},
           again);
   for (std::int64_t n = 0; n < moves; ++n) {
@@ -148,7 +148,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
+      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.target, here.target,
              accepts, goes},
             again);
     if (goes) std::swap(here, there);

@@ -135,7 +135,7 @@ std::vector<Splat> Chains::chain(PixelTracer& tracer, std::uint64_t start, std::
   Numbers first(start), numbers(seed);
   Stop here{this->start(tracer, first)};
   here.part = targetPart(tracer, here.path, target);
-  const auto tell = [&](ChainMove move, const Path& path) {
+  const auto tell = [&](ChainMove move, const Path& path, Real part) {
     const Path& shown = path.nodes.empty() ? here.path : path;
     const Splat pixel = pixelOf(shown);
     move.x = pixel.x;
@@ -143,13 +143,13 @@ std::vector<Splat> Chains::chain(PixelTracer& tracer, std::uint64_t start, std::
     if (path.brightness > 0 || move.number < 0)
       move.brings =
           shown.f / shown.nodes.front().factor.r;  // without the camera's part, as its rays bring it
-    move.light = path.brightness;
+    move.light = path.brightness * part;
     watch(move, [&](PixelTracer& other) {
       record(shown, other.tracer(shown.moment));
       return pixel;
     });
   };
-  if (watch) tell({.number = -1, .kind = MoveKind::anywhere}, here.path);
+  if (watch) tell({.number = -1, .kind = MoveKind::anywhere}, here.path, here.part);
   for (std::int64_t n = 0; n < moves; ++n) {
     MoveKind kind;
     Offer offer = this->offer(tracer, here.path, numbers, kind);
@@ -157,8 +157,12 @@ std::vector<Splat> Chains::chain(PixelTracer& tracer, std::uint64_t start, std::
     const Real accepts = offer.path.brightness > 0 ? std::min(1.0, offer.ratio * part / here.part) : 0;
     const bool goes = numbers.next() < accepts;
     if (watch)
-      tell({.number = n, .kind = kind, .before = here.path.brightness, .chance = accepts, .made = goes},
-           offer.path);
+      tell({.number = n,
+            .kind = kind,
+            .before = here.path.brightness * here.part,
+            .chance = accepts,
+            .made = goes},
+           offer.path, part);
     Stop there{std::move(offer.path), part, accepts};
     here.visits += 1 - accepts;
     if (goes) std::swap(here, there);
