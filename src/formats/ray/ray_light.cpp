@@ -112,7 +112,8 @@ bool checkRadius(Findings& findings, const Item& item, L& light) {
   if constexpr (requires { light.radius; }) {
     if (!(light.radius < 0)) return false;
     findings.warn(item, std::string(item.key()) + " of " + std::string(L::kKeyword) +
-                            ": expected at least 0, found " + toText(light.radius) + ": the light has no size");
+                            ": expected at least 0, found " + toText(light.radius) +
+                            ": the light has no size");
     light.radius = 0;
     return true;
   }

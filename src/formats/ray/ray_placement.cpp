@@ -122,7 +122,8 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
     own = matrix(findings, items);
   if (!own) {
     const bool several = !items.empty() && (items.back().is(Kind::call) || items.back().is(Kind::block));
-    const auto word = std::find_if(items.begin(), items.end(), [](const Item& item) { return item.is(Kind::word); });
+    const auto word =
+        std::find_if(items.begin(), items.end(), [](const Item& item) { return item.is(Kind::word); });
     if (!several && word != items.end()) {
       findings.error(*word, "expected " + std::string(transform.form) + ", found " + describe(*word));
       return {};
