@@ -67,13 +67,13 @@ void Overseer::report() {
   const double now = budget_.seconds();
   if (!*step.doing || now - since < kQuietSeconds) return clear();
   std::string text = step.doing;
-  if (since != since_) estimate_ = {};
+  if (since != since_) estimate_ = {}, share_ = 0;
   since_ = since;
   std::optional<double> left;
   if (step.total > 0) {
-    const double share = static_cast<double>(step.done) / static_cast<double>(step.total);
-    left = estimate_.update(now - since, share);
-    text += ": " + std::to_string(static_cast<int>(100 * share)) + " %";
+    share_ = std::max(share_, step.share);  // a step may do several things, one after the other
+    left = estimate_.update(now - since, share_);
+    text += ": " + std::to_string(static_cast<int>(100 * share_)) + " %";
   }
   text += ", " + durationText(now) + " elapsed" + (left ? ", " + durationText(*left) + " of this left" : "");
   if (draws_) {

@@ -39,6 +39,7 @@ class Overseer {
   const LateEnd lateEnd_;
   double lastPrint_ = 0;  // seconds of the budget
   double since_ = 0;      // of the work that estimate_ is of
+  double share_ = 0;      // of that work
   RemainingTime estimate_;
   bool drawn_ = false;
   std::mutex mutex_;
