@@ -193,7 +193,7 @@ TEST(RayFormat, MakesConesOfNegativeSizePositive) {
 TEST(RayFormat, ALightOfARadiusBelow0HasNoSize) {
   const std::string text = "point_light { position = (0, 1, 0); color = (1, 1, 1); radius = -1; }";
   EXPECT_EQ(warningsOf(text),
-            "2:55: radius of point_light: expected at least 0, found -1: the light has no size");
+            "2:56: radius of point_light: expected at least 0, found -1: the light has no size");
   EXPECT_EQ(std::get<PointLight>(load(text).scene.lights.at(0).light).radius, 0);
 }
 
