@@ -114,13 +114,19 @@ Difference differenceOf(const std::string& a, const std::string& b) {
       if (one[name] != other[name]) names.insert(name);
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return {list + (names.size() == 1 ? " differs" : " differ"), names.size()};
+  list += names.size() == 1 ? " differs" : " differ";
+  if (names == std::set<std::string>{"--noise-target"})
+    list +=
+        " (pixels that had settled for the one were given no more samples, and for the other they may need "
+        "them)";
+  return {list, names.size()};
 }
 
 /// A file does not fit.
 struct Misfit {
   std::string why;
   std::size_t distance = 0;  ///< how much less it is worth to tell of it
+  bool damaged = false;
 };
 
 /// Throws Misfit, or what restoring throws.
@@ -133,7 +139,7 @@ void fill(Film& film, const std::string& path, const std::string& identity) {
   }
   const std::string bytes = readFile(path);
   const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
-  if (hashOf(state) != head->hash) throw Misfit{"it is damaged"};
+  if (hashOf(state) != head->hash) throw Misfit{.why = "it is damaged", .damaged = true};
   film.restore(state);
 }
 
@@ -156,6 +162,7 @@ bool Checkpoint::load(Film& film) {
       path_ = path;
       return true;
     } catch (const Misfit& misfit) {
+      if (misfit.damaged) damaged_.insert(path);
       note(misfit);
     } catch (const Error& error) {
       note({error.messages().front().what});
@@ -173,7 +180,7 @@ void Checkpoint::save(const Film& film) {
   std::error_code ignored;
   for (int number = 1; path_.empty() || fs::exists(path_, ignored); ++number) {
     const std::optional<Head> head = path_.empty() ? std::nullopt : headOf(path_);
-    const bool ours = head && head->identity == identity_;
+    const bool ours = head && head->identity == identity_ && !damaged_.contains(path_);
     if (ours && head->done >= done) return;  // another process is ahead
     if (ours) break;
     path_ = checkpointName(picture_, number);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class Checkpoint {
   /// Why a file that lies there did not fit, of several the one that comes nearest, for a person:
   /// "out.png.checkpoint: it is of another picture"; "" if there was none.
   const std::string& whyNot() const { return whyNot_; }
+  /// load() has found files of this picture that are damaged: save() leaves them alone, remove() does not.
+  bool damaged() const { return !damaged_.empty(); }
 
   /// Where it is written; "" before load() has found one, or save() has written.
   const std::string& path() const { return path_; }
@@ -44,6 +47,7 @@ class Checkpoint {
   bool isOurs(const std::string& path) const;
 
   std::string picture_, identity_;
+  std::set<std::string> damaged_;
   std::string path_;
   std::string whyNot_;
 };

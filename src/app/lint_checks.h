@@ -39,6 +39,8 @@ std::string percent(double share);
 const Place& placeOf(const LintScene& s, std::uint32_t object);
 Phong materialOf(const LintScene& s, std::uint32_t object);
 bool isAroundCamera(const LintScene& s, std::uint32_t object);
+/// The opaque objects that shut in a light that stands somewhere.
+std::vector<std::uint32_t> opaqueAround(const LintScene& s, const Light& light);
 /// A box around the object in the world.
 Box3 boxAround(const Object& object);
 /// To three digits, for people.

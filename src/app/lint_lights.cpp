@@ -35,18 +35,22 @@ Color lightColor(const Light& light) {
 
 }  // namespace
 
+std::vector<std::uint32_t> opaqueAround(const LintScene& s, const Light& light) {
+  const Vec3* position = positionOf(light);
+  if (!position) return {};
+  std::vector<std::uint32_t> around = objectsAround(s.world, *position);
+  std::erase_if(around,
+                [&](std::uint32_t object) { return !s.world.opaque(object) || isAroundCamera(s, object); });
+  return around;
+}
+
 void lightInside(const LintScene& s, Findings& findings) {
-  for (const LightSource& source : s.scene.lights) {
-    const Vec3* position = positionOf(source.light);
-    if (!position) continue;
-    for (std::uint32_t object : objectsAround(s.world, *position)) {
-      if (!s.world.opaque(object) || isAroundCamera(s, object)) continue;
+  for (const LightSource& source : s.scene.lights)
+    for (const std::uint32_t object : opaqueAround(s, source.light))
       warn(findings, "light-inside", source.place,
            "the light is inside " + quoted(s, object) + ", which is opaque: it lights nothing outside",
            "move the light out of it; a lamp that shines needs `emissive` for its looks and a light beside "
            "it");
-    }
-  }
 }
 
 /// Looks at lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus

@@ -106,14 +106,18 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
     const auto found = s.world.closest({eye, place - eye}, Faces::both, statistics);
     return found && found->t > kThere;
   };
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs = overlappingFaces(s.scene, isSeen);
+  const std::set<std::pair<std::uint32_t, std::uint32_t>> flat = overlappingFaces(s.scene, isSeen);
+  auto pairs = flat;
   for (const auto& [pair, places] : s.survey.coplanar)
     if (places >= kFew) pairs.insert(pair);
   for (const auto& pair : pairs) {
     if (s.world.opaque(pair.first) && materialOf(s, pair.first) == materialOf(s, pair.second)) continue;
     warn(findings, "coplanar", placeOf(s, pair.second),
-         "a face of " + quoted(s, pair.second) + " lies in the same plane as one of " +
-             quoted(s, pair.first) + " and covers it: which of them is seen is left to rounding",
+         (flat.contains(pair) ? "a face of " + quoted(s, pair.second) + " lies in the same plane as one of " +
+                                    quoted(s, pair.first) + " and covers it"
+                              : "the surfaces of " + quoted(s, pair.second) + " and " +
+                                    quoted(s, pair.first) + " are at the same place") +
+             ": which of them is seen is left to rounding",
          "move one of them a little, or leave out the part that is covered");
   }
 }

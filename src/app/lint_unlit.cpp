@@ -1,5 +1,6 @@
 // The checks of light that is not there: things that nothing lights, and caustics.
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "app/lint_checks.h"
@@ -104,12 +105,16 @@ void unlit(const LintScene& s, Findings& findings) {
   const std::string thrown =
       gathers < all ? "; --integrator photon shows what " + quoted(s, gathers) + " throws on it" : "";
   const bool isCauseSaid = spotsOnNothing(s, findings);
+  std::set<std::uint32_t> cases;  // around a light, of which light-inside tells
+  for (const LightSource& source : s.scene.lights)
+    for (const std::uint32_t around : opaqueAround(s, source.light)) cases.insert(around);
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
     if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
     const auto most = mostOf(seen.blockedBy);
     const int blocked = most == seen.blockedBy.end() ? 0 : most->second;
     const int others = std::max(seen.facesAway, blocked);
+    if (cases.contains(seen.facesAway > blocked || blocked == 0 ? object : most->first)) continue;
     std::string cause, hint;
     if (seen.unlinked > std::max(seen.outOfCone, others)) {
       cause = "; links, its own or those of the lights, keep them off it";

@@ -1,5 +1,6 @@
 #include "base/budget.h"
 
+#include <algorithm>
 #include <exception>
 #include <vector>
 
@@ -45,7 +46,9 @@ void Budget::look() const {
 std::pair<Budget::Step, double> Budget::outermost() const {
   const std::lock_guard lock(mutex_);
   if (!outermost_) return {};
-  return {outermost_->step(), outermost_->since_};
+  Step step = outermost_->step();
+  step.share = outermost_->share();
+  return {step, outermost_->since_};
 }
 
 std::string Budget::brokenOff() const {
@@ -67,8 +70,10 @@ Work::Work(const char* doing, std::int64_t total)
       since_(budget_ ? budget_->seconds() : 0),
       exceptions_(std::uncaught_exceptions()) {
   budgetOfThread.work = this;
-  if (!budget_ || outer_) return;
+  if (!budget_) return;
   const std::lock_guard lock(budget_->mutex_);
+  if (outer_ && outer_->budget_ == budget_) outer_->inner_ = this;
+  if (outer_) return;
   budget_->outermost_ = this;
   budget_->brokenCount_ = 0;
 }
@@ -78,10 +83,17 @@ Work::~Work() {
   if (!budget_) return;
   const std::lock_guard lock(budget_->mutex_);
   if (budget_->outermost_ == this) budget_->outermost_ = nullptr;
+  if (outer_ && outer_->inner_ == this) outer_->inner_ = nullptr;
   if (std::uncaught_exceptions() == exceptions_)
     budget_->brokenCount_ = 0;  // whatever was thrown inside was dealt with
   else if (budget_->brokenCount_ < Budget::kMostSteps)
     budget_->broken_[budget_->brokenCount_++] = step();
+}
+
+double Work::share() const {
+  if (total_ <= 0) return 0;
+  const double begun = inner_ ? inner_->share() : 0;
+  return std::min(1.0, (static_cast<double>(done_) + begun) / static_cast<double>(total_));
 }
 
 std::string doingNow() {

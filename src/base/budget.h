@@ -48,6 +48,7 @@ class Budget {
   struct Step {
     const char* doing = "";
     std::int64_t done = 0, total = 0;  ///< total 0: it is not known
+    double share = 0;                  ///< with the part of the next one that is done; of outermost() only
   };
   /// The outermost work that is done now and its start, in seconds(); "" if there is none. From any thread.
   std::pair<Step, double> outermost() const;
@@ -120,12 +121,15 @@ class Work {
   friend class Budget;
   friend std::string doingNow();
   Budget::Step step() const { return {doing_, done_, total_}; }
+  /// 0 to 1. The budget's mutex is held.
+  double share() const;
 
   const char* const doing_;
   const std::int64_t total_;
   std::atomic<std::int64_t> done_{0};
   Budget* const budget_;
   const Work* const outer_;
+  mutable const Work* inner_ = nullptr;  ///< that began last; the budget's mutex guards it
   const double since_;
   const int exceptions_;
 };

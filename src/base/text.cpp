@@ -31,6 +31,14 @@ size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// The letters of the shorter word stand in the other one in the same order.
+bool isPartOf(std::string_view a, std::string_view b) {
+  if (a.size() > b.size()) std::swap(a, b);
+  for (const char letter : b)
+    if (!a.empty() && letter == a.front()) a.remove_prefix(1);
+  return a.empty();
+}
+
 /// What files are full of: up to 15 digits, perhaps with a point among them. They are a whole number and a
 /// power of ten that doubles hold exactly, so that their quotient is rounded once, as it should be.
 std::optional<ParsedNumber> parseShort(std::string_view text) {
@@ -132,9 +140,10 @@ void appendNumber(std::string& text, float number, int digits) {
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.size() > 60) return {};
   std::string_view best;
-  size_t least = std::max<size_t>(1, word.size() / 3) + 1;
+  // Of words as near as each other it is one with letters left out or too many: no letter was chosen wrong.
+  size_t least = 2 * (std::max<size_t>(1, word.size() / 3) + 1);
   for (std::string_view candidate : candidates) {
-    const size_t distance = editDistance(word, candidate);
+    const size_t distance = 2 * editDistance(word, candidate) + (isPartOf(word, candidate) ? 0 : 1);
     if (distance < least) {
       least = distance;
       best = candidate;

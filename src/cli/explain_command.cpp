@@ -92,17 +92,21 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const auto corner = [](int u, int v) { return std::to_string(u) + "," + std::to_string(v); };
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
   opened->open(arguments.files[0], choices, arguments.strict);
-  const IntegratorRow& row = rowOf(opened->settings());
-  const bool byChains = row.byChains;
-  if (arguments.lightImage && (!row.throws || byChains))
+  const std::string asked(rowOf(opened->settings()).name);
+  const bool byChains = rowOf(opened->settings()).byChains;
+  const bool bothWays = byChains && opened->settings().chains == Chains::bdpt;
+  if (arguments.lightImage && !bothWays && (byChains || !rowOf(opened->settings()).throws))
     throw Error(Fault::usage,
-                "--light-image: expected --integrator bdpt, which has one, found " + std::string(row.name));
+                "--light-image: expected --integrator bdpt, which has one, found " + asked +
+                    (byChains ? " --chains " + findOption("chains").get(opened->settings()) : ""));
   if (byChains) {
-    console.line(
-        LogLevel::info,
-        "note: chains make this picture, in no order of pixels; shown are paths of --integrator path, "
-        "to whose mean they tend, and a chain that comes by");
-    choices.push_back({"integrator", "path", {}});
+    const std::string shown = bothWays ? "bdpt" : "path";
+    console.line(LogLevel::info,
+                 "note: chains make this picture, in no order of pixels; shown are paths of --integrator " +
+                     shown + ", to whose mean they tend, and a chain that comes by");
+    std::erase_if(choices,
+                  [&](const Choice& choice) { return findOption(choice.option).integrators == asked; });
+    choices.push_back({"integrator", shown, {}});
     opened.emplace().open(arguments.files[0], choices, arguments.strict);
   }
   Session& session = *opened;

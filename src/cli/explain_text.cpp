@@ -313,11 +313,12 @@ std::string lightImageText(const PixelFacts& facts) {
            "the "
            "camera, as\n            caustics on matt things; --light-image finds it\n";
   const LightImagePixel& image = facts.light->image;
-  std::string lines =
-      "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
-      " paths that landed here, of " + std::to_string(image.paths) +
-      (facts.settings.noiseTarget > 0 ? "\nof all samples (--noise-target takes fewer) " : "\nthe picture ") +
-      exact(facts.rendered + image.value) + "\n";
+  std::string lines = "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
+                      " paths that landed here, of " + std::to_string(image.paths) +
+                      (facts.settings.noiseTarget > 0 ? "\nof all samples (--noise-target takes fewer) "
+                       : facts.chain                  ? "\nby `bdpt`   "
+                                                      : "\nthe picture ") +
+                      exact(facts.rendered + image.value) + "\n";
   if (!image.brightest.empty()) lines += "The brightest of these paths:\n";
   for (std::size_t i = 0; i < image.brightest.size(); ++i) {
     const Landing& l = image.brightest[i];
@@ -384,12 +385,13 @@ std::string explainText(const PixelFacts& facts, bool color) {
         "corner\n";
   const bool throws = facts.settings.integrator == IntegratorKind::bdpt;
   text += "their mean  " + exact(e.pixel) +
-          (facts.chain ? "\nby `path`   "
-           : throws    ? "\nits paths   "
-                       : "\nthe picture ") +
+          (throws        ? "\nits paths   "
+           : facts.chain ? "\nby `path`   "
+                         : "\nthe picture ") +
           exact(facts.rendered) + "\n";
   if (facts.chain)
-    text += "            chains make the picture, in no order of pixels: it tends to the same\n";
+    text += "            chains make the picture, in no order of pixels: it tends to the same" +
+            std::string(throws ? ", and to what the light image adds" : "") + "\n";
   if (throws) text += lightImageText(facts);
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   const bool whole =

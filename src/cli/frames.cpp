@@ -115,7 +115,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     Session session;
     try {
       open(session, arguments, missing[done]);
-      if (done == 0) checkOutputs(session, picture);
+      if (done == 0) checkOutputs(session, picture, console);
       if (done == 0) checkAllPlaces(session, pattern, missing);
       checkPlaces(session, picture);
       signals.preparingBegins();

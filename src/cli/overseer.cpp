@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <system_error>
 
-#include "app/remaining_time.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/terminal.h"
@@ -67,12 +67,15 @@ void Overseer::report() {
   const double now = budget_.seconds();
   if (!*step.doing || now - since < kQuietSeconds) return clear();
   std::string text = step.doing;
-  if (step.total > 0)
-    text += ": " +
-            std::to_string(
-                static_cast<int>(100.0 * static_cast<double>(step.done) / static_cast<double>(step.total))) +
-            " %";
-  text += ", " + durationText(now) + " elapsed";
+  if (since != since_) estimate_ = {}, share_ = 0;
+  since_ = since;
+  std::optional<double> left;
+  if (step.total > 0) {
+    share_ = std::max(share_, step.share);  // a step may do several things, one after the other
+    left = estimate_.update(now - since, share_);
+    text += ": " + std::to_string(static_cast<int>(100 * share_)) + " %";
+  }
+  text += ", " + durationText(now) + " elapsed" + (left ? ", " + durationText(*left) + " of this left" : "");
   if (draws_) {
     // The cursor goes back, so that whatever is printed next begins there.
     printToTerminal("\r" + text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))) + "\033[K\r");

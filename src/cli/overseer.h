@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "app/remaining_time.h"
 #include "base/budget.h"
 #include "cli/console.h"
 #include "cli/progress.h"
@@ -37,6 +38,9 @@ class Overseer {
   const bool shows_, draws_;
   const LateEnd lateEnd_;
   double lastPrint_ = 0;  // seconds of the budget
+  double since_ = 0;      // of the work that estimate_ is of
+  double share_ = 0;      // of that work
+  RemainingTime estimate_;
   bool drawn_ = false;
   std::mutex mutex_;
   std::condition_variable ends_;

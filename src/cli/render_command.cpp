@@ -87,7 +87,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
     console.last(false, "stopped by the user: nothing written, for nothing was finished");
     return kStopped;
   }
-  checkOutputs(session, output);
+  checkOutputs(session, output, console);
   console.warnings(session.messages().all());
   const auto isRegion = [](const Choice& choice) { return choice.option == "region"; };
   if (std::any_of(arguments.choices.begin(), arguments.choices.end(), isRegion) && !arguments.quick &&

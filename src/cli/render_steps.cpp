@@ -12,6 +12,7 @@
 #include "image/codec.h"
 #include "image/srgb.h"
 #include "render/passes.h"
+#include "render/render.h"
 #include "render/sampler.h"
 
 namespace trace::cli {
@@ -31,7 +32,11 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
     return;
   }
   if (!checkpoint.whyNot().empty())
-    console.line(LogLevel::info, "note: the render begins anew; " + checkpoint.whyNot());
+    console.line(LogLevel::info,
+                 "note: the render begins anew; " + checkpoint.whyNot() +
+                     (!checkpoint.damaged()              ? ""
+                      : arguments.resume == Resume::keep ? "; it is left there"
+                                                         : "; it is removed when the picture is finished"));
   if (const GeneratorRow& generator = generatorOf(session.settings());
       arguments.resume == Resume::keep && !generator.continues)
     console.line(LogLevel::info, "note: samples of \"" + std::string(generator.name) +
@@ -53,6 +58,14 @@ std::string brightnessDoubt(const Settings& settings, Real error) {
          std::to_string(static_cast<std::int64_t>(std::ceil(enough / digit) * digit)) + " makes that 2 %";
 }
 
+std::string regionText(const Region& r) {
+  return std::to_string(r.x0) + "," + std::to_string(r.y0) + "," + std::to_string(r.x1) + "," +
+         std::to_string(r.y1);
+}
+std::string pixelsText(const Size& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels";
+}
+
 }  // namespace
 
 void checkPlaces(const Session& session, const std::string& output) {
@@ -62,12 +75,17 @@ void checkPlaces(const Session& session, const std::string& output) {
   }
 }
 
-void checkOutputs(const Session& session, const std::string& output) {
+void checkOutputs(const Session& session, const std::string& output, const Console& console) {
   const Size size = session.size();
   const Region& region = session.settings().region;
   if (region.x0 >= size.width || region.y0 >= size.height)
-    throw Error(Fault::usage, "the region is outside the picture of " + std::to_string(size.width) + " x " +
-                                  std::to_string(size.height) + " pixels");
+    throw Error(Fault::usage,
+                "the region " + regionText(region) + " is outside the picture of " + pixelsText(size));
+  const Tile left = areaOf(region, size);
+  if (!region.whole() && (left.x1 < region.x1 || left.y1 < region.y1))
+    console.line(LogLevel::warning, "warning: the region " + regionText(region) +
+                                        " goes beyond the picture of " + pixelsText(size) + ": " +
+                                        regionText({left.x0, left.y0, left.x1, left.y1}) + " is rendered");
   for (const Output& file : outputs(output, session.settings()))
     checkEncodable(pictureFormatFor(file.path), size.width, size.height);
   checkPlaces(session, output);

@@ -17,8 +17,8 @@ namespace trace::cli {
 void checkPlaces(const Session& session, const std::string& output);
 
 /// Throws Error unless all files of the render can be written and hold a picture of its size, in which
-/// something is to be rendered.
-void checkOutputs(const Session& session, const std::string& output);
+/// something is to be rendered. Warns where that is less than --region names.
+void checkOutputs(const Session& session, const std::string& output, const Console& console);
 
 /// Renders with an eye on progress and signals: from the picture's checkpoint on, if there is one, and leaves
 /// one if it stops early.

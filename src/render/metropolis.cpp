@@ -17,14 +17,18 @@ Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(lum
 struct Stop {
   std::vector<Splat> splats;
   Real light = 0;
+  Real target = 0;  ///< of that light
   Real visits = 0;
 };
 
 /// Takes the sample of the numbers: what it brings to its own pixel, and to others.
 class Sampling {
  public:
-  Sampling(PixelTracer& tracer, const Tile& area)
-      : tracer_(tracer), area_(area), pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
+  Sampling(PixelTracer& tracer, const Tile& area, const ChainTarget& target)
+      : tracer_(tracer),
+        area_(area),
+        target_(target),
+        pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
     tracer_.collect(&thrown_);
   }
   ~Sampling() { tracer_.collect(nullptr); }
@@ -40,6 +44,7 @@ class Sampling {
       if (splat.x >= area_.x0 && splat.x < area_.x1 && splat.y >= area_.y0 && splat.y < area_.y1)
         stop.splats.push_back({splat.x, splat.y, splat.value * (1 / pixels_)});
     for (const Splat& splat : stop.splats) stop.light += lightOf(splat);
+    stop.target = target_.of(stop.light);
     return stop;
   }
   Real pixels() const { return pixels_; }
@@ -47,6 +52,7 @@ class Sampling {
  private:
   PixelTracer& tracer_;
   const Tile& area_;
+  const ChainTarget& target_;
   Real pixels_;
   std::vector<Splat> thrown_;
 };
@@ -73,7 +79,7 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     Budget budget(interrupt);
     const BudgetScope scope(&budget);
     PixelTracer tracer = this->tracer();
-    Sampling samples(tracer, area_);
+    Sampling samples(tracer, area_, target_);
     for (std::int64_t n = chunk * kChunk; n < std::min(starts, (chunk + 1) * kChunk); ++n) {
       PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
       sums_[static_cast<std::size_t>(n)] =
@@ -82,8 +88,12 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     work.reached(++looked);
   });
   if (job.cancel) return;
+  target_ = ChainTarget(sums_);
   Real squares = 0;
-  for (const Real light : sums_) squares += light * light;
+  for (Real& one : sums_) {
+    one = target_.of(one);
+    squares += one * one;
+  }
   for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
   const Real count = static_cast<Real>(starts);
   mean_ = sums_.back() / count;
@@ -112,14 +122,14 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
   const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
   const auto start = static_cast<std::uint64_t>(from - sums_.begin());
-  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, mean_, watch);
+  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, target_, mean_, watch);
   PrimarySample numbers = startOf(start, mixBits(chances));
-  Sampling samples(tracer, area_);
+  Sampling samples(tracer, area_, target_);
   // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how
   // often both choose this one, for each move and on the average, is the density of the two.
   const auto leave = [&](const Stop& at) {
-    if (!(at.light > 0)) return;
-    const Real counts = samples.pixels() * at.visits / (at.light / mean_ + settings_.moveAnywhere);
+    if (!(at.target > 0)) return;
+    const Real counts = samples.pixels() * at.visits / (at.target / mean_ + settings_.moveAnywhere);
     for (const Splat& splat : at.splats) splats.push_back({splat.x, splat.y, splat.value * counts});
   };
 
@@ -127,7 +137,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
   if (watch)
-    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1,
+    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.target, 0, 1,
            true},
           again);
   for (std::int64_t n = 0; n < moves; ++n) {
@@ -135,12 +145,12 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
     Stop there = samples.at(numbers);
-    const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
+    const Real accepts = here.target > 0 ? std::min(1.0, there.target / here.target) : 1;
     there.visits = accepts + (anywhere ? 1 : 0);
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
+      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.target, here.target,
              accepts, goes},
             again);
     if (goes) std::swap(here, there);

@@ -175,6 +175,36 @@ TEST_F(Checkpoints, ThatAreDamagedAreLeftAlone) {
   }
 }
 
+TEST_F(Checkpoints, ThatAreDamagedKeepNoneFromBeingWritten) {
+  checkpoint().save(film(3));
+  const std::string name = folder_ / "out.png.checkpoint";
+  std::string bytes = readFile(name);
+  bytes.back() = static_cast<char>(bytes.back() ^ 0x10);
+  writeFile(name, bytes);
+  Checkpoint own = checkpoint();
+  Film back = blank();
+  ASSERT_FALSE(own.load(back));
+  EXPECT_TRUE(own.damaged());
+  own.save(film(1));  // less than the damaged one held
+  EXPECT_EQ(readFile(name), bytes);
+  EXPECT_TRUE(checkpoint().load(back)) << "from the one beside it";
+  EXPECT_EQ(back.picture(), film(1).picture());
+  checkpoint().remove(film(3));
+  EXPECT_FALSE(exists("out.png.checkpoint"));
+  EXPECT_FALSE(exists("out.png.checkpoint-2"));
+}
+
+TEST_F(Checkpoints, OfAnotherNoiseTargetSayWhyTheyDoNotServe) {
+  settings_.noiseTarget = 0.02;
+  checkpoint().save(film(2));
+  settings_.noiseTarget = 0.01;
+  Checkpoint tighter = checkpoint();
+  Film back = blank();
+  EXPECT_FALSE(tighter.load(back));
+  EXPECT_NE(tighter.whyNot().find("--noise-target differs (pixels that had settled"), std::string::npos)
+      << tighter.whyNot();
+}
+
 TEST_F(Checkpoints, OfAnotherProcessThatIsAheadIsKept) {
   Checkpoint slow = checkpoint(), quick = checkpoint();
   quick.save(film(3));

@@ -151,11 +151,15 @@ TEST(Lint, FindsUnusedMaterialsOfOtherFormats) {
   EXPECT_EQ(found, 1);
 }
 
-std::vector<std::string> checksOf(const std::string& text) {
+std::vector<LintFinding> lintText(const std::string& text) {
   const Folder folder;
   writeFile(folder / "s.ray", "SBT-raytracer 1.0\n" + text);
+  return lintFile(folder / "s.ray");
+}
+
+std::vector<std::string> checksOf(const std::string& text) {
   std::vector<std::string> checks;
-  for (const LintFinding& finding : lintFile(folder / "s.ray")) checks.emplace_back(finding.check);
+  for (const LintFinding& finding : lintText(text)) checks.emplace_back(finding.check);
   return checks;
 }
 
@@ -388,6 +392,21 @@ TEST(Lint, PartsOfSolidsNeedMaterialsAndWhatOnlyCutsNeedsNone) {
   EXPECT_EQ(checksOf(lit + "material = { diffuse = (1, 1, 1); ambient = (1, 1, 1); } union(sphere {}, " +
                      box + ")"),
             Checks{});
+}
+
+TEST(Lint, ALampInACaseHasOneCure) {
+  const std::string lamp = "point_light { position = (0, 0, 0); color = (1, 1, 1); }";
+  const std::string box = "box { material = { diffuse = (1, 1, 1); } }";
+  EXPECT_EQ(checksOf(kCamera + lamp + box + kFloor), Checks{"light-inside"});
+}
+
+TEST(Lint, RoundThingsAtOnePlaceAreInNoPlane) {
+  const std::string other = "sphere { name = \"other\"; material = { diffuse = (0, 1, 0); } }";
+  const auto what = [&](const std::string& things) { return names(lintText(kCamera + kSun + things)); };
+  EXPECT_EQ(
+      what("sphere { name = \"one\"; material = { diffuse = (1, 0, 0); } }" + other),
+      "coplanar: the surfaces of \"other\" and \"one\" are at the same place: which of them is seen is left "
+      "to rounding\n");
 }
 
 TEST(Lint, GlassAndMirrorsUnderABackgroundAreBlackWhereNothingIs) {

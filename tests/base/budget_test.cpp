@@ -51,6 +51,13 @@ TEST(Budget, SaysHowFarTheWorkIs) {
   const BudgetScope scope(&budget);
   Work objects("building the objects", 10);
   objects.reached(3);
+  EXPECT_EQ(budget.outermost().first.share, 0.3);
+  {
+    Work triangles("smoothing", 4);
+    triangles.reached(2);
+    EXPECT_EQ(budget.outermost().first.share, 0.35);
+  }
+  EXPECT_EQ(budget.outermost().first.share, 0.3);
   Work copies("laying out copies");
   EXPECT_EQ(doingNow(), "building the objects (3 of 10 done), laying out copies");
   EXPECT_STREQ(budget.outermost().first.doing, "building the objects");

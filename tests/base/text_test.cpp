@@ -62,6 +62,9 @@ TEST(DidYouMean, NearWordsOnly) {
   EXPECT_EQ(nearest("difuse", words), "diffuse");
   EXPECT_EQ(nearest("shinyness", words), "shininess");
   EXPECT_EQ(nearest("camera", words), "");
+  constexpr std::array<std::string_view, 3> flags{"--set", "--seed", "--send"};
+  EXPECT_EQ(nearest("--sed", flags), "--seed") << "a letter that is missing is likelier than a wrong one";
+  EXPECT_EQ(nearest("--det", flags), "--set");
   EXPECT_EQ(didYouMean("speculr", words), "did you mean \"specular\"?");
   EXPECT_EQ(nearest(std::string(100000, 'x'), words), "");
 }

@@ -288,6 +288,17 @@ TEST_F(Cli, WhatIsWrongIsSaidOnce) {
   EXPECT_EQ(r.last, "nothing written: the command cannot be followed");
 }
 
+TEST_F(Cli, ARegionThatGoesBeyondThePictureIsTold) {
+  const Run r = run({"white.ray", "-w", "20", "--height", "10", "--region", "5,2,400,9"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(contains(r.err,
+                       "warning: the region 5,2,400,9 goes beyond the picture of 20 x 10 pixels: 5,2,20,9 is "
+                       "rendered"))
+      << r.err;
+  const Run whole = run({"white.ray", "-w", "20", "--height", "10", "--region", "5,2,20,10"});
+  EXPECT_FALSE(contains(whole.err, "warning")) << whole.err;
+}
+
 TEST_F(Cli, AnEmptyRegionIsToldToBeTheWholePicture) {
   const Run r = run({"white.ray", "-w", "10", "--region", "0,0,0,0"});
   EXPECT_EQ(r.code, 0) << r.err;

@@ -81,7 +81,13 @@ TEST_F(Explain, TellsOfWaysAndOfAChain) {
   const std::string text = out(mlt);
   EXPECT_NE(text.find("A chain of the picture ("), std::string::npos) << text;
   EXPECT_NE(text.find("  > "), std::string::npos);
-  EXPECT_NE(text.find("sum to the pixel as it was traced, bit for bit"), std::string::npos);
+  EXPECT_NE(text.find("s places from the light's end"), std::string::npos) << "they are of bdpt";
+  EXPECT_NE(text.find("sum to what the pixel's own paths bring, bit for bit"), std::string::npos);
+  EXPECT_FALSE(contains(error(mlt, 0), "changes nothing"));
+  std::vector<std::string> veach = mlt;
+  veach.insert(veach.end(), {"--chains", "veach"});
+  EXPECT_NE(out(veach).find("sum to the pixel as it was traced, bit for bit"), std::string::npos);
+  EXPECT_FALSE(contains(error(veach, 0), "changes nothing")) << "of the paths that are shown";
   mlt.insert(mlt.end(), {"--format", "json"});
   const json chain = json::parse(out(mlt))["chain"];
   ASSERT_GT(chain["moves"].size(), 100u);
@@ -107,12 +113,15 @@ TEST_F(Explain, FindsWhatTheLightImageBrings) {
   words.back() = "svg";
   EXPECT_NE(error(words, 2).find("--light-image: expected --format text or json"), std::string::npos);
   words.back() = "text";
-  for (const std::string integrator : {"path", "mlt"}) {
-    std::vector<std::string> others = words;
-    others.insert(others.end(), {"--integrator", integrator});
-    EXPECT_NE(error(others, 2).find("expected --integrator bdpt, which has one, found " + integrator),
-              std::string::npos);
-  }
+  std::vector<std::string> others = words;
+  others.insert(others.end(), {"--integrator", "path"});
+  EXPECT_NE(error(others, 2).find("expected --integrator bdpt, which has one, found path"),
+            std::string::npos);
+  others.back() = "mlt";
+  others.insert(others.end(), {"--chain-starts", "2000"});
+  EXPECT_NE(out(others).find("\nby `bdpt`  "), std::string::npos) << "chains walk among its paths";
+  others.insert(others.end(), {"--chains", "veach"});
+  EXPECT_NE(error(others, 2).find("which has one, found mlt --chains veach"), std::string::npos);
 }
 
 /// What the schema promises: each ray's radiance follows from its terms.

@@ -259,6 +259,20 @@ TEST_F(Stop, PlainProgressInALog) {
   EXPECT_EQ(brief.err().substr(0, 6), "wrote ");
 }
 
+TEST_F(Stop, HowLongPhotonsOfMomentsWillFlyIsTold) {
+  write("moves.ray", R"(SBT-raytracer 1.0
+settings { integrator = photon; fog = 0.05; fog-color = (1, 1, 1); shutter = 0.5; moments = 64; photons = 100000; }
+camera { position = (0, 1, 6); look_at = (0, 1, 0); fov = 50; }
+point_light { position = (0, 3, 3); color = (1, 1, 1); }
+scale(6, 0.1, 6, box { material = { diffuse = (1, 1, 1); }; })
+translate(key((0, 0), (1, 1)), 1, 0, sphere { material = { diffuse = (1, 1, 1); }; })
+)");
+  Program program(folder(), {"moves.ray", "-o", "moves.png", "-w", "20", "-t", "1", "--progress=bar"});
+  EXPECT_TRUE(program.says(" of this left")) << program.err();
+  program.kill(SIGINT);
+  program.wait();
+}
+
 TEST_F(Stop, BarIfAskedFor) {
   Program program(folder(), longRender({"--time-limit", "1.5", "--progress=bar"}), {{"COLUMNS", "60"}});
   program.wait();

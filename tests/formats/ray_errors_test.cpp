@@ -42,7 +42,9 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
        "2:1: expected transform((a, b, c, d), (e, f, g, h), (i, j, k, l), (0, 0, 0, 1), object)"},
       {"transform((1,0,0),(0,1,0),(0,0,1),(0,0,0),sphere{})",
        "2:1: expected transform((a, b, c, d), (e, f, g, h), (i, j, k, l), (0, 0, 0, 1), object)"},
-      {"translate(nan, 0, 0, sphere{})", "2:1: expected translate(x, y, z, object)"},
+      {"translate(nan, 0, 0, sphere{})", "2:11: expected translate(x, y, z, object), found \"nan\""},
+      {"scale(2, nan, 1, sphere{})",
+       "2:10: expected scale(factor, object) or scale(x, y, z, object), found \"nan\""},
       {"translate(1e999, 0, 0, sphere{})", "2:11: expected a finite number, found \"1e999\""},
       // shapes
       {"sphere { 5 }", "2:10: sphere: expected a field, as in name = value, found 5"},

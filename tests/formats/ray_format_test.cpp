@@ -190,6 +190,13 @@ TEST(RayFormat, MakesConesOfNegativeSizePositive) {
   EXPECT_EQ(warningsOf("cone { bottom_radius = 0; }"), "2:1: a cone of radius 0 is left out");
 }
 
+TEST(RayFormat, ALightOfARadiusBelow0HasNoSize) {
+  const std::string text = "point_light { position = (0, 1, 0); color = (1, 1, 1); radius = -1; }";
+  EXPECT_EQ(warningsOf(text),
+            "2:56: radius of point_light: expected at least 0, found -1: the light has no size");
+  EXPECT_EQ(std::get<PointLight>(load(text).scene.lights.at(0).light).radius, 0);
+}
+
 // --- transforms ---------------------------------------------------------------------------------------
 
 TEST(RayFormat, MultipliesTransformsInnermostFirst) {

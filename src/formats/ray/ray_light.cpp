@@ -106,6 +106,20 @@ void checkArea(Findings& findings, const Item& call, const L& light) {
                     std::string(L::kKeyword) + ": expected sides u and v that are not parallel: it is dark");
 }
 
+/// True if a radius below 0 was found, and set to 0.
+template <class L>
+bool checkRadius(Findings& findings, const Item& item, L& light) {
+  if constexpr (requires { light.radius; }) {
+    if (!(light.radius < 0)) return false;
+    findings.warn(item, std::string(item.key()) + " of " + std::string(L::kKeyword) +
+                            ": expected at least 0, found " + toText(light.radius) +
+                            ": the light has no size");
+    light.radius = 0;
+    return true;
+  }
+  return false;
+}
+
 /// Between nothing and all that is ahead.
 template <class L>
 bool checkView(Findings& findings, const Item& call, const L& light) {
@@ -158,6 +172,7 @@ void read(Findings& findings, const Item& call) {
       if (call.key() == kAreaLight &&
           std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
         rayfile::read(findings, item.key(), item.value(), light.radius);
+        checkRadius(findings, item, light);
         continue;
       }
     if constexpr (std::is_same_v<L, SpotLight>)
@@ -173,7 +188,7 @@ void read(Findings& findings, const Item& call) {
       unknown.push_back(item.key());
       continue;
     }
-    checkRange(findings, light, item);
+    if (!checkRadius(findings, item, light)) checkRange(findings, light, item);
     given.push_back(canonical(item.key()));
   }
   const auto isGiven = [&](std::string_view field) {

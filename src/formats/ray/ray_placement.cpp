@@ -1,5 +1,6 @@
 #include "formats/ray/ray_placement.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -121,6 +122,12 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
     own = matrix(findings, items);
   if (!own) {
     const bool several = !items.empty() && (items.back().is(Kind::call) || items.back().is(Kind::block));
+    const auto word =
+        std::find_if(items.begin(), items.end(), [](const Item& item) { return item.is(Kind::word); });
+    if (!several && word != items.end()) {
+      findings.error(*word, "expected " + std::string(transform.form) + ", found " + describe(*word));
+      return {};
+    }
     return wrongForm(findings, call, transform, several ? "several objects stand in a group { }" : "");
   }
   worldFromObject = worldFromObject * *own;

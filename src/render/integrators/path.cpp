@@ -61,6 +61,7 @@ void PathTracer::prepare(const World& world, const Settings& settings, Job& job)
   photonsTell_ = light_ == Light::photons && !gathers_;
   mostScattered_ = light_ == Light::bounced ? settings.mediumDepth : 1;
   if (light_ != Light::photons) return;
+  Work work("sending photons", passes);
   for (int pass = 0; pass < passes && !job.cancel; ++pass) {
     Maps& maps = maps_[static_cast<std::size_t>(pass)];
     maps.caustics = causticMap(world, settings, &lamps_, job, pass);
@@ -68,6 +69,7 @@ void PathTracer::prepare(const World& world, const Settings& settings, Job& job)
     GlobalMaps all = globalMaps(world, settings, lamps_, job, pass);
     maps.all = std::move(all.surfaces);
     maps.media = std::move(all.media);
+    work.reached(pass + 1);
   }
   if (settings.irradianceCache > 0) fillCache(world, settings, job);
 }
