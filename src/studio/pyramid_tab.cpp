@@ -46,6 +46,11 @@ std::string wayName(const Way& way) {
   return std::to_string(way.light) + " + " + std::to_string(way.camera);
 }
 
+std::string placesOf(const Way& way) {
+  return counted(static_cast<std::size_t>(way.light), "place") + " from the light's end (s), " +
+         std::to_string(way.camera) + " from the camera's (t)";
+}
+
 /// What the pictures are, or why they are not there.
 std::string standing(const Studio& studio) {
   const PyramidView& view = studio.rays.pyramid;
@@ -74,8 +79,7 @@ void pyramidCell(Studio& studio, const Way& way, const Texture& texture, ImVec2 
   list.AddImage(texture.id(), at, end, {0, 0}, {1, 1}, current ? kLetters : kPast);
   if (shown) list.AddRect(at, end, ImGui::GetColorU32(studio.palette().accent), 0, 0, 2);
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s from the light's end (s), %d from the camera's (t)%s\nclick: %s",
-                      counted(static_cast<std::uint64_t>(way.light), "place").c_str(), way.camera,
+    ImGui::SetTooltip("%s%s\nclick: %s", placesOf(way).c_str(),
                       current ? "" : "\nas it was: it is being made anew",
                       shown ? "the whole picture again" : "this way alone in place of the picture");
   const ImVec2 text = ImGui::CalcTextSize(name.c_str());
@@ -133,11 +137,12 @@ InPlaceOfPicture wayAlone(const Studio& studio) {
   const PyramidView& view = studio.rays.pyramid;
   if (!view.alone) return {};
   const std::string name = wayName(*view.alone) + (view.unweighted ? " alone, unweighted" : " alone");
-  if (const Texture* texture = textureOf(view.one, *view.alone)) return {texture, name};
+  if (const Texture* texture = textureOf(view.one, *view.alone))
+    return {texture, name + ": " + placesOf(*view.alone)};
   if (view.one.maker.current()) return {nullptr, view.one.maker.pyramid().problem};
   if (const Texture* texture = textureOf(view.all, *view.alone))
     return {texture, name + ", coarse; it is being made"};
-  return {nullptr, "all ways; " + name + (view.waits ? " is made when they are" : " is being made")};
+  return {nullptr, "all ways; " + name + (view.waits ? " is made when the picture is finished" : " is being made")};
 }
 
 void drawPyramid(Studio& studio, const TracedPixel&) {
