@@ -207,7 +207,7 @@ void drawSwitches(Studio& studio) {
   ImGui::EndPopup();
 }
 
-/// The classes that occur, each a switch, over the lower left corner; in columns where they are more than fit.
+/// The classes that occur, each a switch, over the lower left corner; without names where they do not fit.
 void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   RaysView& view = studio.rays;
   const TracedPixel* pixel = shownPixel(studio);
@@ -222,7 +222,7 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   const auto columns = std::ceil(static_cast<float>(classes) / fit);
   const auto rows = std::ceil(static_cast<float>(classes) / columns);
   const auto textOf = [&](std::size_t i) {
-    return std::string(kRayLooks[i].name) + "  " + std::to_string(count[i]);
+    return (columns > 1 ? "" : std::string(kRayLooks[i].name) + "  ") + std::to_string(count[i]);
   };
   const float side = ImGui::GetTextLineHeight() * 0.7f;
   float widest = 0;
@@ -246,7 +246,7 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
       view.lookHidden[i] = !view.lookHidden[i];
     ImGui::PopID();
     landmark("legend " + std::string(kRayLooks[i].name));
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s\nclick to show or hide", kRayLooks[i].help.data());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s\nclick to show or hide", kRayLooks[i].name.data(), kRayLooks[i].help.data());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool on = !view.lookHidden[i];
     const ImU32 tint = ImGui::GetColorU32(

@@ -262,6 +262,17 @@ rays
 rays
 screenshot pyramid.png pyramid 1 2
 state pyramid
+alone 1 2
+rays
+state alone
+screenshot alone.png picture
+set depth 2
+state changed
+wait
+rays
+state again
+alone 1 2
+state all-ways
 set integrator mlt
 wait
 rays
@@ -287,6 +298,12 @@ if command -v convert >/dev/null; then
   bright="$(convert pyramid.png -format '%[fx:mean]' info:)"
   awk "BEGIN { exit !($bright > 0.001) }" || fail "the pyramid's picture of s = 1, t = 2 is black"
 fi
+grep -q '^alone 1 + 2 alone: ' alone || fail "a way is not seen alone"
+[[ "$(grep '^undo ' alone)" == "$(grep '^undo ' pyramid)" ]] || fail "looking at a way alone is a step of undo"
+diff <(grep '^chosen ' pyramid) <(grep '^chosen ' alone) || fail "looking at a way alone changes options"
+grep -q '^alone all ways' changed || fail "an old picture of a way is shown as if it were current"
+grep -q '^alone 1 + 2 alone: ' again || fail "the way is not made anew"
+grep -q '^alone ' all-ways && fail "the way stays alone"
 grep -q '^chain [0-9]* of [1-9]' chain || fail "no chain is followed"
 at() { grep '^chain ' "$1" | cut -d' ' -f2; }
 (($(at moved) == $(at chain) + 1)) || fail "the chain does not go on"
