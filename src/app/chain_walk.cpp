@@ -24,7 +24,8 @@ std::string ChainWalk::missed() const {
   const ChainMove& came = moves[static_cast<std::size_t>(nearest)];
   if (came.x == x && came.y == y) return "";
   const auto pixel = [](int px, int py) { return std::to_string(px) + ", " + std::to_string(py); };
-  return "No chain followed here came to " + pixel(x, y) + "; this one came to " + pixel(came.x, came.y) + ". ";
+  return "No chain followed here came to " + pixel(x, y) + "; this one came to " + pixel(came.x, came.y) +
+         ". ";
 }
 
 std::string ChainWalk::summary() const {

@@ -1,5 +1,5 @@
-// What a render warns of, since nobody wants it: before it begins, what was chosen or said and changes nothing,
-// and an integrator that does not suit the scene; when it ends, what is not exact in the picture.
+// What a render warns of, since nobody wants it: before it begins, what was chosen or said and changes
+// nothing, and an integrator that does not suit the scene; when it ends, what is not exact in the picture.
 #pragma once
 
 #include <string>

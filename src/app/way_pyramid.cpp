@@ -30,10 +30,9 @@ Settings pyramidSettings(const PyramidPlan& plan) {
 }
 
 /// Both have the same pictures.
-bool alike(const PyramidPlan& a, const PyramidPlan& b) {
+bool samePictures(const PyramidPlan& a, const PyramidPlan& b) {
   if (!a.session || !b.session || a.places != b.places || a.alone != b.alone) return false;
-  return a.session->scene() == b.session->scene() &&
-         !differInPicture(pyramidSettings(a), pyramidSettings(b));
+  return a.session->scene() == b.session->scene() && !differInPicture(pyramidSettings(a), pyramidSettings(b));
 }
 
 /// Cancels a job as soon as its answer is not wanted, as long as this lives.
@@ -52,7 +51,7 @@ class CancelWatch {
 };
 
 /// What these paths bring: all, if they have -1 places from both ends.
-Picture pictureOf(const Session& session, Settings settings, const Way& way, const Cancelled& cancelled) {
+Picture wayPicture(const Session& session, Settings settings, const Way& way, const Cancelled& cancelled) {
   settings.lightVertices = way.light;
   settings.cameraVertices = way.camera;
   Session one;
@@ -90,12 +89,12 @@ Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled) {
     double light = 0;
     for (const Way& way : waysOf(plan)) {
       if (given()) return pyramid;
-      pyramid.pictures.push_back({way, pictureOf(*plan.session, settings, way, cancelled)});
+      pyramid.pictures.push_back({way, wayPicture(*plan.session, settings, way, cancelled)});
       light += lightIn(pyramid.pictures.back().picture);
     }
     if (plan.alone || plan.unweighted) return pyramid;
     // The same samples, so that what is left is not noise.
-    if (const double all = lightIn(pictureOf(*plan.session, settings, {-1, -1}, cancelled)); all > 0)
+    if (const double all = lightIn(wayPicture(*plan.session, settings, {-1, -1}, cancelled)); all > 0)
       pyramid.longer = std::max(0.0, 1 - light / all);
   } catch (const Error& error) {
     pyramid.problem = error.messages().front().what;
@@ -108,8 +107,8 @@ Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled) {
 void PyramidMaker::want(const PyramidPlan& plan) {
   if (plan == wanted_) return;
   wanted_ = plan;
-  if (alike(plan, asked_)) return;
-  const bool there = alike(plan, shown_.plan);
+  if (samePictures(plan, asked_)) return;
+  const bool there = samePictures(plan, shown_.plan);
   asked_ = there ? shown_.plan : plan;
   if (plan.session && !there)
     task_.start([plan](const Cancelled& cancelled) { return wayPyramid(plan, cancelled); });

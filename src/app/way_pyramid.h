@@ -1,6 +1,6 @@
 // The pyramid of strategies (Veach 1997, figure 10.5): what each way of putting paths together from both ends
-// brings to the picture of `bdpt`, a row for each number of places. It is looked at beside the picture: nothing
-// of the scene or its options changes for it.
+// brings to the picture of `bdpt`, a row for each number of places. It is looked at beside the picture:
+// nothing of the scene or its options changes for it.
 #pragma once
 
 #include <memory>

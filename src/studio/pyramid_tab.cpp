@@ -1,5 +1,5 @@
-// The tab Pyramid of the panel Rays: what each way of `bdpt` brings to the whole picture; and one of them alone,
-// seen in place of the picture.
+// The tab Pyramid of the panel Rays: what each way of `bdpt` brings to the whole picture; and one of them
+// alone, seen in place of the picture.
 #include <imgui.h>
 
 #include <algorithm>
@@ -28,8 +28,7 @@ void refreshTextures(WayPictures& ways, const PyramidView& view, Rounding roundi
   ways.textures.resize(pictures.size());
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     if (!ways.textures[i]) ways.textures[i] = std::make_unique<Texture>();
-    ways.textures[i]->set(
-        exposed(developed(pictures[i].picture, view.development), view.exposure, rounding));
+    ways.textures[i]->set(exposed(developed(pictures[i].picture, view.development), view.exposure, rounding));
   }
 }
 
@@ -42,9 +41,7 @@ const Texture* textureOf(const WayPictures& ways, const Way& way) {
   return nullptr;
 }
 
-std::string wayName(const Way& way) {
-  return std::to_string(way.light) + " + " + std::to_string(way.camera);
-}
+std::string wayName(const Way& way) { return std::to_string(way.light) + " + " + std::to_string(way.camera); }
 
 std::string placesOf(const Way& way) {
   return counted(static_cast<std::size_t>(way.light), "place") + " from the light's end (s), " +
@@ -125,8 +122,7 @@ void updateWays(Studio& studio) {
   if (view.open || view.alone) view.all.maker.want({session, view.unweighted, view.places});
   view.one.maker.want(view.alone ? PyramidPlan{session, view.unweighted, 0, view.alone} : PyramidPlan{});
   const Settings settings = studio.workspace.shownSettings();
-  const bool tone =
-      view.exposure != studio.picture.exposure || view.development != developmentOf(settings);
+  const bool tone = view.exposure != studio.picture.exposure || view.development != developmentOf(settings);
   view.exposure = studio.picture.exposure;
   view.development = developmentOf(settings);
   for (WayPictures* ways : {&view.all, &view.one})
@@ -142,7 +138,8 @@ InPlaceOfPicture wayAlone(const Studio& studio) {
   if (view.one.maker.current()) return {nullptr, view.one.maker.pyramid().problem};
   if (const Texture* texture = textureOf(view.all, *view.alone))
     return {texture, name + ", coarse; it is being made"};
-  return {nullptr, "all ways; " + name + (view.waits ? " is made when the picture is finished" : " is being made")};
+  return {nullptr,
+          "all ways; " + name + (view.waits ? " is made when the picture is finished" : " is being made")};
 }
 
 void drawPyramid(Studio& studio, const TracedPixel&) {

@@ -200,7 +200,8 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
   landmark("note on rays");
   if (!studio.rays.chains.offered() && !lightImageAt(pixel).empty() && ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "paths from lights that the camera sees at their end:\nsamples of all pixels send them, so they are not "
+        "paths from lights that the camera sees at their end:\nsamples of all pixels send them, so they are "
+        "not "
         "among this pixel's rays");
 }
 

@@ -150,11 +150,11 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
   }
 }
 
-/// What was counted at the place where a ray ended: each photon as it arrived, and the rim of their disk. From
-/// far away they are enlarged about that place; the rim is dashed then.
+/// What was counted at the place where a ray ended: each photon as it arrived, and the rim of their disk.
+/// From far away they are enlarged about that place; the rim is dashed then.
 void addPhotons(const RayNode& node, const Color& colour, const Vec3& eye, Pen& pen) {
-  constexpr int kRim = 48;          // corners
-  constexpr Real kLeast = 0.03;     // of the distance from which it is seen
+  constexpr int kRim = 48;       // corners
+  constexpr Real kLeast = 0.03;  // of the distance from which it is seen
   if (!node.hit) return;
   const Vec3 &middle = node.hit->surface.point, &normal = node.hit->surface.normal;
   for (const Term& term : node.terms) {
@@ -220,7 +220,8 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
   if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
   if (const TracedPixel* pixel = shownPixel(studio); pixel && view.selected >= 0)
     addPhotons(pixel->tree().nodes[static_cast<std::size_t>(view.selected)],
-               toColor(studio.palette().changed), view.fromCamera ? frustum.eye : view.orbit.frame(1).eye, pen);
+               toColor(studio.palette().changed), view.fromCamera ? frustum.eye : view.orbit.frame(1).eye,
+               pen);
   if (view.hierarchyShown && view.boxesOf >= 0)
     for (int i = 0; i < view.box; ++i) {
       const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];

@@ -246,7 +246,8 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
       view.lookHidden[i] = !view.lookHidden[i];
     ImGui::PopID();
     landmark("legend " + std::string(kRayLooks[i].name));
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s\nclick to show or hide", kRayLooks[i].name.data(), kRayLooks[i].help.data());
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s: %s\nclick to show or hide", kRayLooks[i].name.data(), kRayLooks[i].help.data());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool on = !view.lookHidden[i];
     const ImU32 tint = ImGui::GetColorU32(

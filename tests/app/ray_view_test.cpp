@@ -72,7 +72,8 @@ TEST(RayView, TellsHowManyPhotonsWereCountedAndHowFarAway) {
       const auto row =
           std::find_if(rows.begin(), rows.end(), [](const auto& each) { return each.first == "  photons"; });
       ASSERT_NE(row, rows.end());
-      EXPECT_TRUE(row->second.starts_with(counted(term.photons->count, "photon") + " within ")) << row->second;
+      EXPECT_TRUE(row->second.starts_with(counted(term.photons->count, "photon") + " within "))
+          << row->second;
       ++told;
     }
   EXPECT_GT(told, 0u);

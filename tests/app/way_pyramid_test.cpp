@@ -58,7 +58,8 @@ TEST_F(WayPyramidTest, ItsPicturesAddUpToThePicture) {
 
 TEST_F(WayPyramidTest, WhatLongerPathsBringIsTheRestOfThePicturesLight) {
   const auto session = bowl(path("bowl.ray"), "bdpt", {{"depth", "3", {}}});
-  const double light = lightOf(wayPyramid({session, false, 5})), shorter = lightOf(wayPyramid({session, false, 2}));
+  const double light = lightOf(wayPyramid({session, false, 5})),
+               shorter = lightOf(wayPyramid({session, false, 2}));
   ASSERT_LT(shorter, 0.95 * light);
   EXPECT_NEAR(wayPyramid({session, false, 5}).longer, 0, 1e-9);
   EXPECT_NEAR(wayPyramid({session, false, 2}).longer, 1 - shorter / light, 1e-9);

@@ -310,6 +310,23 @@ if command -v convert >/dev/null; then
   awk "BEGIN { exit !($red > 8) }" || fail "a blocked shadow ray is not drawn: $red red points"
 fi
 
+# In a small window the legend of rays leaves the switches above it free, also beside the pyramid.
+cat >script <<'END'
+open lamp.ray
+wait
+pixel 12 20
+rays
+tab Pyramid
+rays
+rays
+state small
+END
+"$studio" --window 800x600 --script script >log 2>&1 || fail "the small window is not shown"
+side() { grep -- "^box .* $2\$" small | cut -d' ' -f"$1"; }
+grep -q '^box .* legend camera$' small || fail "the small window has no legend"
+(($(side 3 'legend camera') >= $(side 5 'from camera'))) || fail "the legend covers the switches of the view in space"
+grep -q ' pyramid 0 5$' small || fail "the last row of the pyramid is not to be seen in a small window"
+
 # What was changed is remembered, and `ray` alone opens the window that remembers it.
 if command -v xdotool >/dev/null; then
   "$(dirname -- "$studio")/ray" >log 2>&1 &
