@@ -20,6 +20,14 @@ int ChainWalk::before(int index) const {
   return -1;
 }
 
+std::string ChainWalk::missed() const {
+  const ChainMove& came = moves[static_cast<std::size_t>(nearest)];
+  if (came.x == x && came.y == y) return "";
+  const auto pixel = [](int px, int py) { return std::to_string(px) + ", " + std::to_string(py); };
+  return "No chain followed here came to " + pixel(x, y) + "; this one came to " + pixel(came.x, came.y) +
+         ". ";
+}
+
 std::string ChainWalk::summary() const {
   std::vector<std::string> parts;
   for (std::size_t kind = 0; kind < kMoveKinds; ++kind) {
@@ -73,7 +81,7 @@ ChainWalk ChainWalker::near(int x, int y, const Cancelled& cancelled) const {
     if (cancelled && cancelled()) break;
     const std::int64_t moves = movesOf(tile);
     if (moves == 0) continue;
-    ChainWalk walk{tile};
+    ChainWalk walk{x, y, tile};
     double distance = kInfinity;
     chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves,
                   [&](const ChainMove& move, const OfferedSample&) {

@@ -12,12 +12,15 @@
 namespace trace {
 
 struct ChainWalk {
+  int x = 0, y = 0;                ///< the pixel by which it was to come
   std::int64_t tile = 0;           ///< whose first wave of samples the chain makes
   std::vector<ChainMove> moves{};  ///< its start, then its moves
   int nearest = 0;                 ///< of these, that came to the pixel, or nearest to it
 
   /// The one that brought the chain to where it is offered `moves[index]`; -1 for the start, which had none.
   int before(int index) const;
+  /// "No chain followed here came to 12, 30; this one came to 14, 31. "; "" if it came by the pixel.
+  std::string missed() const;
   /// "12 of 70 moves nearby and 3 of 30 anywhere were made".
   std::string summary() const;
 };

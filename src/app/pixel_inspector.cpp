@@ -11,16 +11,11 @@ int mostRaysOf(const Settings& settings) {
   return subdivides(settings) ? across * across : samplesOf(settings);
 }
 
-/// What has a part in the picture, and no ray of the pixel.
+/// What has a part in the picture, and no ray of the pixel; the light image of bdpt the film knows.
 std::string noteOn(const Settings& settings) {
   if (settings.integrator == IntegratorKind::mlt)
     return "Chains made this picture, in no order of pixels: these are paths to whose mean they tend.";
-  std::string note;
-  if (settings.integrator == IntegratorKind::bdpt)
-    note = "Beside these, paths from lights that end at the camera (t = 1) bring light, those of all pixels.";
-  if (settings.denoise)
-    note += std::string(note.empty() ? "" : " ") + "Denoise makes the pixel a mean of pixels that are alike.";
-  return note;
+  return settings.denoise ? "Denoise makes the pixel a mean of pixels that are alike." : "";
 }
 
 /// What follows from the tree.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text.h"
+
 namespace trace {
 namespace {
 
@@ -162,6 +164,8 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
         row("  s, t, counts", std::to_string(term.connection->light) + ", " +
                                   std::to_string(term.connection->camera) + ", " +
                                   text(term.connection->share));
+      if (term.photons)
+        row("  photons", counted(term.photons->count, "photon") + " within " + text(term.photons->radius));
       continue;
     }
     row(lightName(scene, term.light->light), text(term.factor * term.value));

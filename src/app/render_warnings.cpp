@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -375,6 +377,21 @@ void warnOfWrongLinks(const Scene& scene, Messages& messages) {
   for (const LightSource& source : scene.lights) lights.know(source.links.name);
   for (const LightSource& source : scene.lights) objects.look(source.links, source.place, messages);
   for (const Object& object : scene.objects) lights.look(object.links, object.place, messages);
+}
+
+std::string brightnessDoubt(const Settings& settings, Real error) {
+  constexpr Real kLarge = 0.03, kWanted = 0.02;
+  if (!(error > kLarge)) return {};
+  if (!std::isfinite(error))
+    return "none of the first " + counted(static_cast<std::uint64_t>(settings.chainStarts), "sample") +
+           " found light, and so the picture is black; a larger --chain-starts looks longer";
+  const Real enough = settings.chainStarts * (error / kWanted) * (error / kWanted);
+  const Real digit = std::pow(10, std::floor(std::log10(enough)));
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.2g", 100 * error);
+  return "how bright the whole picture is, is known to " + std::string(percent) +
+         " % only (one standard error); --chain-starts " +
+         std::to_string(static_cast<std::int64_t>(std::ceil(enough / digit) * digit)) + " makes that 2 %";
 }
 
 }  // namespace trace

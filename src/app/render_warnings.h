@@ -1,6 +1,8 @@
-// What a render warns of before it begins, since nobody wants it: what was chosen or said and changes
-// nothing, and an integrator that does not suit the scene.
+// What a render warns of, since nobody wants it: before it begins, what was chosen or said and changes
+// nothing, and an integrator that does not suit the scene; when it ends, what is not exact in the picture.
 #pragma once
+
+#include <string>
 
 #include "base/error.h"
 #include "render/world.h"
@@ -16,5 +18,9 @@ void warnOfEmptyMedia(const Scene& scene, Messages& messages);
 
 /// Of each name in the links of lights and objects that nothing has.
 void warnOfWrongLinks(const Scene& scene, Messages& messages);
+
+/// What a user should know of the brightness of a picture by chains, whose standard error is `error` of it;
+/// "" where that is exact enough.
+std::string brightnessDoubt(const Settings& settings, Real error);
 
 }  // namespace trace

@@ -11,26 +11,28 @@
 namespace trace {
 namespace {
 
-constexpr int kPyramidWidth = 96, kPyramidSamples = 16;
+constexpr int kSmallWidth = 96, kLargeWidth = 320, kSamples = 16;
 
 /// Of all ways; with those of the session that shows one of them.
-Settings pyramidSettings(const Session& session, bool unweighted) {
-  Settings settings = session.settings();
+Settings pyramidSettings(const PyramidPlan& plan) {
+  Settings settings = plan.session->settings();
   settings.lightVertices = settings.cameraVertices = -1;
-  const Size size = session.size();
-  settings.width = std::min(kPyramidWidth, size.width);
+  const Size size = plan.session->size();
+  settings.width = std::min(plan.alone ? kLargeWidth : kSmallWidth, size.width);
   settings.height = std::max(1, settings.width * size.height / std::max(1, size.width));
   settings.region = {};
-  settings.spp = kPyramidSamples;
+  settings.spp = kSamples;
   settings.noiseTarget = 0;
   settings.subdivide = 0;
   settings.denoise = false;
-  settings.unweighted = unweighted;
+  settings.unweighted = plan.unweighted;
   return settings;
 }
 
-bool samePyramid(const Session& a, const Session& b) {
-  return !differInPicture(pyramidSettings(a, false), pyramidSettings(b, false)) && a.scene() == b.scene();
+/// Both have the same pictures.
+bool samePictures(const PyramidPlan& a, const PyramidPlan& b) {
+  if (!a.session || !b.session || a.places != b.places || a.alone != b.alone) return false;
+  return a.session->scene() == b.session->scene() && !differInPicture(pyramidSettings(a), pyramidSettings(b));
 }
 
 /// Cancels a job as soon as its answer is not wanted, as long as this lives.
@@ -48,27 +50,52 @@ class CancelWatch {
   std::jthread thread_;
 };
 
+/// What these paths bring: all, if they have -1 places from both ends.
+Picture wayPicture(const Session& session, Settings settings, const Way& way, const Cancelled& cancelled) {
+  settings.lightVertices = way.light;
+  settings.cameraVertices = way.camera;
+  Session one;
+  one.open(session.scene(), settings);
+  one.build(&session);
+  one.job().patience = {};
+  const CancelWatch watch(one.job(), cancelled);
+  if (const RenderResult result = one.renderPicture(); !result.failure.empty())
+    throw Error(Fault::scene, result.failure);
+  return one.film().picture();
+}
+
+std::vector<Way> waysOf(const PyramidPlan& plan) {
+  if (plan.alone) return {*plan.alone};
+  std::vector<Way> ways;
+  for (int count = 2; count <= plan.places; ++count)
+    for (int light = 0; light < count; ++light) ways.push_back({light, count - light});
+  return ways;
+}
+
+double lightIn(const Picture& picture) {
+  double sum = 0;
+  for (const Color& c : picture.pixels) sum += luminanceOf(c);
+  return sum;
+}
+
 }  // namespace
 
-Pyramid wayPyramid(std::shared_ptr<const Session> session, bool unweighted, int places,
-                   const Cancelled& cancelled) {
-  Pyramid pyramid{session, unweighted, places};
-  if (!session || session->settings().integrator != IntegratorKind::bdpt) return pyramid;
-  Settings settings = pyramidSettings(*session, unweighted);
+Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled) {
+  Pyramid pyramid{plan};
+  if (!plan.session || plan.session->settings().integrator != IntegratorKind::bdpt) return pyramid;
+  const Settings settings = pyramidSettings(plan);
+  const auto given = [&] { return cancelled && cancelled(); };
   try {
-    for (int count = 2; count <= places; ++count)
-      for (int light = 0; light < count && !(cancelled && cancelled()); ++light) {
-        settings.lightVertices = light;
-        settings.cameraVertices = count - light;
-        Session one;
-        one.open(session->scene(), settings);
-        one.build(session.get());
-        one.job().patience = {};
-        const CancelWatch watch(one.job(), cancelled);
-        if (const RenderResult result = one.renderPicture(); !result.failure.empty())
-          throw Error(Fault::scene, result.failure);
-        pyramid.pictures.push_back({light, count - light, one.film().picture()});
-      }
+    double light = 0;
+    for (const Way& way : waysOf(plan)) {
+      if (given()) return pyramid;
+      pyramid.pictures.push_back({way, wayPicture(*plan.session, settings, way, cancelled)});
+      light += lightIn(pyramid.pictures.back().picture);
+    }
+    if (plan.alone || plan.unweighted) return pyramid;
+    // The same samples, so that what is left is not noise.
+    if (const double all = lightIn(wayPicture(*plan.session, settings, {-1, -1}, cancelled)); all > 0)
+      pyramid.longer = std::max(0.0, 1 - light / all);
   } catch (const Error& error) {
     pyramid.problem = error.messages().front().what;
   } catch (const std::bad_alloc&) {
@@ -77,28 +104,22 @@ Pyramid wayPyramid(std::shared_ptr<const Session> session, bool unweighted, int 
   return pyramid;
 }
 
-void PyramidMaker::want(const std::shared_ptr<const Session>& session, bool unweighted, int places) {
-  const bool same = asked_.unweighted == unweighted && asked_.places == places;
-  if (same && (session == asked_.session || session == alike_)) return;
-  alike_ = session;
-  if (same && session && asked_.session && samePyramid(*session, *asked_.session)) return;
-  asked_ = {session, unweighted, places};
-  task_.start([=](const Cancelled& cancelled) { return wayPyramid(session, unweighted, places, cancelled); });
-}
-
-void PyramidMaker::giveUp() {
-  if (asked_.session == shown_.session && asked_.unweighted == shown_.unweighted &&
-      asked_.places == shown_.places)
-    return;
-  asked_ = {shown_.session, shown_.unweighted, shown_.places};
-  alike_.reset();
-  task_.start([old = shown_](const Cancelled&) { return old; });
+void PyramidMaker::want(const PyramidPlan& plan) {
+  if (plan == wanted_) return;
+  wanted_ = plan;
+  if (samePictures(plan, asked_)) return;
+  const bool there = samePictures(plan, shown_.plan);
+  asked_ = there ? shown_.plan : plan;
+  if (plan.session && !there)
+    task_.start([plan](const Cancelled& cancelled) { return wayPyramid(plan, cancelled); });
+  else if (task_.pending())
+    task_.start([](const Cancelled&) { return std::nullopt; });
 }
 
 bool PyramidMaker::update() {
-  std::optional<Pyramid> made = task_.take();
-  if (!made) return false;
-  shown_ = std::move(*made);
+  std::optional<std::optional<Pyramid>> made = task_.take();
+  if (!made || !*made) return false;
+  shown_ = std::move(**made);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/output.h"
+#include "app/render_warnings.h"
 #include "app/scene_changes.h"
 #include "app/texture_edits.h"
 #include "base/text.h"
@@ -418,6 +419,9 @@ void Workspace::noteEnd() {
   const RenderResult result = render.result();
   note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +
        durationText(state.elapsed) + ", " + counted(result.statistics.allRays(), "ray"));
+  if (std::string doubt = brightnessDoubt(render.session()->settings(), result.brightnessError);
+      !doubt.empty())
+    log_.push_back({Level::warning, std::move(doubt), {}, {}});
   if (const auto bad = result.statistics.badSamples; bad > 0)
     log_.push_back(
         {Level::warning,

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/render_warnings.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/formatted.h"
@@ -42,20 +43,6 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
     console.line(LogLevel::info, "note: samples of \"" + std::string(generator.name) +
                                      "\" are placed by their number, so that none can be added later; "
                                      "--sampling sobol allows it");
-}
-
-/// What a user should know of the brightness of a picture by chains; nothing where that is exact enough.
-std::string brightnessDoubt(const Settings& settings, Real error) {
-  constexpr Real kLarge = 0.03, kWanted = 0.02;
-  if (!(error > kLarge)) return {};
-  if (!std::isfinite(error))
-    return "none of the first " + counted(static_cast<std::uint64_t>(settings.chainStarts), "sample") +
-           " found light, and so the picture is black; a larger --chain-starts looks longer";
-  const Real enough = settings.chainStarts * (error / kWanted) * (error / kWanted);
-  const Real digit = std::pow(10, std::floor(std::log10(enough)));
-  return "how bright the whole picture is is known to " + formatted("%.2g", 100 * error) +
-         " % only (one standard error); --chain-starts " +
-         std::to_string(static_cast<std::int64_t>(std::ceil(enough / digit) * digit)) + " makes that 2 %";
 }
 
 std::string regionText(const Region& r) {

@@ -120,6 +120,7 @@ void drawStudio(Studio& studio) {
   forgetLandmarks();
   keepKeyboard(studio);
   followScene(studio);
+  updateWays(studio);
   if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
   drawMenu(studio);
   Layout& layout = studio.layout;

@@ -46,7 +46,7 @@ bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
          workspace.inspector.busy() || studio.rays.modelTask.busy() || studio.rays.chains.busy() ||
-         studio.rays.pyramid.maker.busy();
+         studio.rays.pyramid.busy();
 }
 
 /// True if there is something new to see. Waits for it, but not longer than so many seconds.
@@ -63,7 +63,7 @@ bool update(Studio& studio, double longest) {
   if (workspace.refusals() > refusals) studio.show("Log");
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling =
-      studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.maker.busy();
+      studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
   due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
         ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;

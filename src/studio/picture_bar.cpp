@@ -48,6 +48,13 @@ void drawBar(Studio& studio) {
   ImGui::SameLine();
   roomFor(characters(17));
   ImGui::SetNextItemWidth(characters(17));
+  std::optional<Way>& alone = studio.rays.pyramid.alone;
+  if (alone) {
+    if (ImGui::Button("All ways", {characters(17), 0})) alone.reset();
+    landmark("all ways");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("the whole picture again, not one way to make its paths");
+    return;
+  }
   int plane = static_cast<int>(view.plane);
   if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
     view.plane = static_cast<FilmPlane>(plane);

@@ -166,13 +166,21 @@ void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int h
   }
 }
 
+/// One way of the pyramid, or a plane of the render.
+InPlaceOfPicture inPlaceOfPicture(const Studio& studio) {
+  const PictureView& view = studio.picture;
+  if (InPlaceOfPicture way = wayAlone(studio); !way.caption.empty()) return way;
+  if (view.plane == FilmPlane::picture || view.planeTexture.empty()) return {};
+  return {&view.planeTexture, view.planeLegend};
+}
+
 /// The picture or pictures in the area; true with the pixel if the cursor is on one.
 bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   PictureView& view = studio.picture;
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
-  const bool ofPlane = view.plane != FilmPlane::picture && !view.planeTexture.empty();
-  const View mode = reference && !ofPlane ? view.view : View::picture;
+  const InPlaceOfPicture other = inPlaceOfPicture(studio);
+  const View mode = reference && other.caption.empty() ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
   const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   const FrameArea frame = frameOf(view, canvas, part, width, height);
@@ -185,15 +193,10 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PopClipRect();
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
-  if (ofPlane) {
-    clipped(canvas, end, frame, view.planeTexture);
-    caption({canvas.x + 8, canvas.y + 8}, view.planeLegend.c_str(), area.x - 16);
-    landmark("caption");
-  }
   const bool comparable = reference && sameSize(*reference, view.shown);
   const bool differs = mode == View::difference || mode == View::falseColour;
-  if (!ofPlane && (mode == View::picture || (differs && !comparable)))
-    clipped(canvas, end, frame, view.pictureTexture);
+  if (mode == View::picture || (differs && !comparable))
+    clipped(canvas, end, frame, other.texture ? *other.texture : view.pictureTexture);
   if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);
@@ -210,7 +213,10 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   }
   if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
-  if (mode != View::picture && !comparable) {
+  if (!other.caption.empty()) {
+    caption(corner, other.caption.c_str(), area.x - 16);
+    landmark("caption");
+  } else if (mode != View::picture && !comparable) {
     caption(corner,
             ("the reference has another size: " + std::to_string(reference->width) + " x " +
              std::to_string(reference->height) + " beside " + std::to_string(width) + " x " +
@@ -232,7 +238,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   y = static_cast<int>(std::floor((mouse.y - under.low.y) / under.size.y * static_cast<float>(height)));
   const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
-  if (!ofPlane && mode == View::picture) {
+  if (!other.texture && mode == View::picture) {
     list.PushClipRect(canvas, end, true);
     drawChainWay(studio, frame, width, height);
     list.PopClipRect();

@@ -75,7 +75,8 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
         {static_cast<float>(clamped.r), static_cast<float>(clamped.g), static_cast<float>(clamped.b), 1},
         ImGuiColorEditFlags_NoTooltip, {side, side});
     ImGui::SameLine();
-    ImGui::TextUnformatted(pixelText(view.shown.at(x, y), c, rounding).c_str());
+    const char* ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
+    ImGui::TextUnformatted((ofWhat + pixelText(view.shown.at(x, y), c, rounding)).c_str());
     const auto& reference = workspace.reference();
     if (reference && sameSize(*reference, view.shown)) {
       ImGui::TextDisabled("reference  %s",

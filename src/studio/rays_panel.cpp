@@ -166,25 +166,43 @@ void updatePixel(Studio& studio) {
   view.boxesOf = -1;
 }
 
-/// What the light image has brought the pixel so far; "" where there is none.
+/// What the light image brings the pixel beside its rays; "" where there is none.
 std::string lightImageAt(const TracedPixel& pixel) {
   const Film& film = pixel.session->film();
   if (!film.takesSplats() || rowOf(pixel.session->settings()).byChains) return "";
   const Color light = film.ofSplats(pixel.x, pixel.y);
-  char text[96];
-  std::snprintf(text, sizeof text, " They have brought %.4g %.4g %.4g here.", light.r, light.g, light.b);
-  return text;
+  return "The light image (t = 1) adds " + channels(light) + " to this pixel.";
 }
 
 /// What the pixel's rays leave unsaid, or which move of a chain they belong to.
 std::string noteOn(const RaysView& view, const TracedPixel& pixel) {
-  if (!view.chains.offered())
-    return pixel.note + lightImageAt(pixel) +
-           (view.chains.busy() ? " A chain that comes by this pixel is looked for." : "");
-  const ChainMove& move = view.chains.walk()->moves[static_cast<std::size_t>(view.chains.index())];
+  if (!view.chains.offered()) {
+    std::string note;
+    for (const std::string& each :
+         {lightImageAt(pixel), pixel.note,
+          std::string(view.chains.busy() ? "A chain that comes by this pixel is looked for." : "")})
+      if (!each.empty()) note += (note.empty() ? "" : " ") + each;
+    return note;
+  }
+  const ChainWalk& walk = *view.chains.walk();
+  const ChainMove& move = walk.moves[static_cast<std::size_t>(view.chains.index())];
   const std::string which = move.number < 0 ? " " : ", move " + std::to_string(move.number) + ": ";
-  return "A chain of this picture" + which + sentence(move) +
+  return walk.missed() + "A chain of this picture" + which + sentence(move) +
          (view.chains.before() ? ". Grey: where it was." : ".");
+}
+
+void drawNote(const Studio& studio, const TracedPixel& pixel) {
+  const std::string note = noteOn(studio.rays, pixel);
+  if (note.empty()) return;
+  ImGui::PushTextWrapPos();
+  ImGui::TextColored(studio.palette().changed, "%s", note.c_str());
+  ImGui::PopTextWrapPos();
+  landmark("note on rays");
+  if (!studio.rays.chains.offered() && !lightImageAt(pixel).empty() && ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "paths from lights that the camera sees at their end:\nsamples of all pixels send them, so they are "
+        "not "
+        "among this pixel's rays");
 }
 
 }  // namespace
@@ -199,7 +217,7 @@ void drawRays(Studio& studio) {
   const float height = ImGui::GetContentRegionAvail().y;
   ImGui::BeginChild("space",
                     {0, height * (!pixel              ? 0.88f
-                                  : view.pyramid.open ? 0.3f
+                                  : view.pyramid.open ? 0.38f
                                                       : 0.52f)},
                     false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
@@ -217,12 +235,7 @@ void drawRays(Studio& studio) {
     ImGui::PopTextWrapPos();
   } else {
     drawHead(studio, *pixel);
-    if (const std::string note = noteOn(view, *pixel); !note.empty()) {
-      ImGui::PushTextWrapPos();
-      ImGui::TextColored(studio.palette().changed, "%s", note.c_str());
-      ImGui::PopTextWrapPos();
-      landmark("note on rays");
-    }
+    if (!view.pyramid.open) drawNote(studio, *pixel);  // the pyramid is of the whole picture
     view.pyramid.open = false;
     if (ImGui::BeginTabBar("about rays")) {
       const auto tab = [&](const char* name, void (*draw)(Studio&, const TracedPixel&)) {

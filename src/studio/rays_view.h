@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,29 @@
 
 namespace trace::studio {
 
-/// The tab Pyramid.
-struct PyramidView {
+/// Pictures of ways, on the graphics card too.
+struct WayPictures {
   PyramidMaker maker;
-  bool open = false;  ///< it was drawn in the last frame
+  std::vector<std::unique_ptr<Texture>> textures{};
+};
+
+/// The tab Pyramid, and the way that is seen alone in place of the picture.
+struct PyramidView {
+  WayPictures all, one;
+  bool open = false;   ///< the tab was drawn in the last frame
+  bool waits = false;  ///< for the picture, which comes first
   bool unweighted = false;
-  int places = 5;                                    ///< of the longest paths
-  std::vector<std::unique_ptr<Texture>> textures{};  ///< of its pictures
-  double exposure = 0;                               ///< with which they are shown
+  int places = 5;              ///< of the longest paths
+  std::optional<Way> alone{};  ///< nothing of the document changes for it
+  double exposure = 0;         ///< with which the pictures are shown
   Development development{};
+  bool busy() const { return all.maker.busy() || one.maker.busy(); }
+};
+
+/// What is seen in the panel Picture in place of the picture.
+struct InPlaceOfPicture {
+  const Texture* texture = nullptr;  ///< null: the picture is seen all the same
+  std::string caption{};             ///< "" if nothing is to be said of it
 };
 
 enum class Surfaces { shaded, wireframe, none };
@@ -100,6 +115,10 @@ void chooseWay(Studio& studio, int way);
 void drawWays(Studio& studio, const TracedPixel& pixel);
 /// The tab that shows what each way brings to the whole picture.
 void drawPyramid(Studio& studio, const TracedPixel& pixel);
+/// Asks for the pictures of ways that are to be seen, and takes those that have come. For each frame.
+void updateWays(Studio& studio);
+/// The way that is seen alone, if one is chosen.
+InPlaceOfPicture wayAlone(const Studio& studio);
 /// The tab that compares the rays with those that were pinned.
 void drawDifference(Studio& studio, const TracedPixel& traced);
 /// The scene and the rays in space, with its switches and legend, in the rest of the child window.

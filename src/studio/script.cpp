@@ -182,7 +182,7 @@ constexpr std::array kCommands{
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown", nullptr, nullptr, 3,
             [](Studio& s, const Words&) {
-              return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.maker.busy();
+              return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.busy();
             }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
             [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
@@ -197,6 +197,14 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) {
               chooseWay(s, whole(a[0]));
               if (s.rays.way < 0) throw Error(Fault::usage, "the pixel has no way " + a[0]);
+            },
+            checkNumbers},
+    Command{"alone", "LIGHT CAMERA", 2, 2,
+            "show the pyramid's way with so many places from both ends alone; or all if it is",
+            [](Studio& s, const Words& a) {
+              std::optional<Way>& alone = s.rays.pyramid.alone;
+              const Way way{whole(a[0]), whole(a[1])};
+              alone = alone == way ? std::nullopt : std::optional(way);
             },
             checkNumbers},
     Command{"move", "NUMBER", 1, 1, "go so many moves on in the chain of mlt, or back if it is negative",

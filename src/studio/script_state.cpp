@@ -31,7 +31,9 @@ std::string state(const Studio& studio) {
          << studio.rays.way << "\n";
   if (const ChainWalk* walk = studio.rays.chains.walk(); walk && studio.rays.chains.offered())
     text << "chain " << studio.rays.chains.index() << " of " << walk->moves.size() << "\n";
-  text << "pyramid " << studio.rays.pyramid.maker.pyramid().pictures.size() << "\n";
+  text << "pyramid " << studio.rays.pyramid.all.maker.pyramid().pictures.size() << "\n";
+  if (const InPlaceOfPicture alone = wayAlone(studio); !alone.caption.empty())
+    text << "alone " << alone.caption << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
   if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
   text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";

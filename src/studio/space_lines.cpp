@@ -151,25 +151,30 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
 }
 
 /// What was counted at the place where a ray ended: each photon as it arrived, and the rim of their disk.
-void addPhotons(const RayNode& node, const Color& colour, Pen& pen) {
-  constexpr int kRim = 48;  // corners
+/// From far away they are enlarged about that place; the rim is dashed then.
+void addPhotons(const RayNode& node, const Color& colour, const Vec3& eye, Pen& pen) {
+  constexpr int kRim = 48;       // corners
+  constexpr Real kLeast = 0.03;  // of the distance from which it is seen
   if (!node.hit) return;
   const Vec3 &middle = node.hit->surface.point, &normal = node.hit->surface.normal;
   for (const Term& term : node.terms) {
     if (!term.photons) continue;
-    const Real radius = term.photons->radius;
+    const Real least = kLeast * length(middle - eye);
+    const Real radius = std::max(term.photons->radius, least), larger = radius / term.photons->radius;
+    if (!std::isfinite(larger)) continue;
     Real brightest = 0;
     for (const Photon& p : term.photons->photons) brightest = std::max(brightest, maxComponent(p.power));
     for (const Photon& p : term.photons->photons) {
       const Color c = brightest > 0 ? p.power / brightest : Color(1);
-      pen.line(p.point - p.direction * (0.25 * radius), p.point, lerp(0.3, c, colour), 1, 1.5f);
+      const Vec3 at = middle + (p.point - middle) * larger;
+      pen.line(at - p.direction * (0.25 * radius), at, lerp(0.3, c, colour), 1, 1.5f);
     }
     const Basis basis = Frame{normal}.basis();
     Vec3 last;
     for (int i = 0; i <= kRim; ++i) {
       const Real angle = 2 * kPi * i / kRim;
       const Vec3 at = middle + basis.toWorld({std::cos(angle) * radius, std::sin(angle) * radius, 0});
-      if (i > 0) pen.line(last, at, colour, 1, 1.5f);
+      if (i > 0) pen.line(last, at, colour, 1, 1.5f, larger > 1 ? 3 : 0);
       last = at;
     }
   }
@@ -215,7 +220,8 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
   if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
   if (const TracedPixel* pixel = shownPixel(studio); pixel && view.selected >= 0)
     addPhotons(pixel->tree().nodes[static_cast<std::size_t>(view.selected)],
-               toColor(studio.palette().changed), pen);
+               toColor(studio.palette().changed), view.fromCamera ? frustum.eye : view.orbit.frame(1).eye,
+               pen);
   if (view.hierarchyShown && view.boxesOf >= 0)
     for (int i = 0; i < view.box; ++i) {
       const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];

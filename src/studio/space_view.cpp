@@ -207,37 +207,47 @@ void drawSwitches(Studio& studio) {
   ImGui::EndPopup();
 }
 
-/// The classes that occur, each a switch, over the lower left corner.
+/// The classes that occur, each a switch, over the lower left corner; without names where they do not fit.
 void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   RaysView& view = studio.rays;
   const TracedPixel* pixel = shownPixel(studio);
   if (!pixel) return;
   std::array<int, kRayLooks.size()> count{};
   for (const RaySegment& segment : pixel->segments) ++count[static_cast<std::size_t>(segment.looks)];
-  const auto rows = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
+  const auto classes = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
   const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y * 0.5f;
   const float pad = ImGui::GetStyle().FramePadding.x;
-  if (rows == 0) return;
+  const float fit = std::floor((size.y - 2 * pad) / line);
+  if (classes == 0 || fit < 1) return;
+  const auto columns = std::ceil(static_cast<float>(classes) / fit);
+  const auto rows = std::ceil(static_cast<float>(classes) / columns);
+  const auto textOf = [&](std::size_t i) {
+    return (columns > 1 ? "" : std::string(kRayLooks[i].name) + "  ") + std::to_string(count[i]);
+  };
+  const float side = ImGui::GetTextLineHeight() * 0.7f;
   float widest = 0;
-  for (const RayLook& each : kRayLooks) widest = std::max(widest, ImGui::CalcTextSize(each.name.data()).x);
-  const float top = low.y + size.y - static_cast<float>(rows) * line - 2 * pad;
+  for (std::size_t i = 0; i < count.size(); ++i)
+    if (count[i] > 0) widest = std::max(widest, ImGui::CalcTextSize(textOf(i).c_str()).x);
+  const float column = widest + side + 3 * pad;
+  const ImVec2 first{low.x + pad, low.y + size.y - rows * line - pad};
   const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
-  ImGui::GetWindowDrawList()->AddRectFilled({low.x + pad / 2, top},
-                                            {low.x + widest + 9 * pad, low.y + size.y - pad / 2},
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x + pad / 2, first.y - pad},
+                                            {first.x + columns * column + pad / 2, low.y + size.y - pad / 2},
                                             ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.8f)), pad);
-  ImVec2 at{low.x + pad, low.y + size.y - static_cast<float>(rows) * line - pad};
+  ImVec2 at = first;
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (count[i] == 0) continue;
-    const std::string text = std::string(kRayLooks[i].name) + "  " + std::to_string(count[i]);
+    const std::string text = textOf(i);
     const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
     const Color c = colourOf(static_cast<RayLooks>(i), studio.theme.light);
-    const float side = ImGui::GetTextLineHeight() * 0.7f;
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::InvisibleButton("class", {wide.x + side + 3 * pad, line}))
       view.lookHidden[i] = !view.lookHidden[i];
     ImGui::PopID();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s\nclick to show or hide", kRayLooks[i].help.data());
+    landmark("legend " + std::string(kRayLooks[i].name));
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s: %s\nclick to show or hide", kRayLooks[i].name.data(), kRayLooks[i].help.data());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool on = !view.lookHidden[i];
     const ImU32 tint = ImGui::GetColorU32(
@@ -248,6 +258,7 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
     list.AddText({square.x + side + pad, at.y + (line - wide.y) / 2},
                  ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled), text.c_str());
     at.y += line;
+    if (at.y > first.y + (rows - 0.5f) * line) at = {at.x + column, first.y};
   }
 }
 

@@ -72,6 +72,7 @@ void followScene(Studio& studio) {
   studio.selectedIndex = 0;
   studio.rays.sample = 0;
   studio.rays.step = -1;
+  studio.rays.pyramid.alone.reset();
 }
 
 void restore(Studio& studio) {

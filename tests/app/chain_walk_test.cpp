@@ -54,6 +54,15 @@ TEST(ChainWalk, TheRaysOfAMoveAreTheSampleThatWasOffered) {
   }
 }
 
+TEST(ChainWalk, TellsThatItDidNotComeByThePixel) {
+  const ChainWalker walker(chainSession(Chains::path), {});
+  const ChainWalk walk = walker.near(16, -5, {});  // a pixel to which none comes
+  const ChainMove& nearest = walk.moves[static_cast<std::size_t>(walk.nearest)];
+  EXPECT_EQ(walker.near(nearest.x, nearest.y, {}).missed(), "");
+  EXPECT_EQ(walk.missed(), "No chain followed here came to 16, -5; this one came to " +
+                               std::to_string(nearest.x) + ", " + std::to_string(nearest.y) + ". ");
+}
+
 TEST(ChainWalk, EachMoveStartsWhereTheLastOneThatWasMadeLed) {
   const ChainWalker walker(chainSession(Chains::path), {});
   const ChainWalk walk = walker.near(16, 16, {});

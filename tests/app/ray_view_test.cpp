@@ -9,6 +9,7 @@
 #include "app/orbit_camera.h"
 #include "app/scene_model.h"
 #include "app/session.h"
+#include "base/text.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
@@ -52,6 +53,30 @@ void trace(Traced& traced, const Scene& scene, int x, int y, int depth) {
   traced.session.open(scene, settings);
   traced.session.build();
   traced.tree = traced.session.explain(x, y, 0).tree;
+}
+
+TEST(RayView, TellsHowManyPhotonsWereCountedAndHowFarAway) {
+  Settings settings;
+  settings.width = 20;
+  settings.integrator = IntegratorKind::photon;
+  settings.photons = 2000;
+  Session session;
+  session.open(mirrorScene(), settings);
+  session.build();
+  const RayTree tree = session.explain(10, 16, 0).tree;
+  std::size_t told = 0;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+    for (const Term& term : tree.nodes[i].terms) {
+      if (!term.photons) continue;
+      const auto rows = numbersOf(tree, static_cast<int>(i), session.scene());
+      const auto row =
+          std::find_if(rows.begin(), rows.end(), [](const auto& each) { return each.first == "  photons"; });
+      ASSERT_NE(row, rows.end());
+      EXPECT_TRUE(row->second.starts_with(counted(term.photons->count, "photon") + " within "))
+          << row->second;
+      ++told;
+    }
+  EXPECT_GT(told, 0u);
 }
 
 TEST(RayView, EveryRayHasNumbersUnderHeadings) {

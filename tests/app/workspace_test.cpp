@@ -280,6 +280,25 @@ TEST_F(WorkspaceTest, WhatCannotBeRenderedIsInTheLog) {
   EXPECT_FALSE(workspace.reference());
 }
 
+TEST_F(WorkspaceTest, HowExactTheBrightnessOfChainsIsIsInTheLog) {
+  writeFile(path("speck.ray"),
+            "SBT-raytracer 1.0\nsettings { integrator = mlt; chain-starts = 1000; width = 12; spp = 2; }\n"
+            "camera { position = (0, 0, 6); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }\n"
+            "scale(0.8, sphere { material = { emissive = (4, 3, 2) } })\n");
+  const auto warnings = [&](const char* starts) {
+    Workspace workspace;
+    EXPECT_TRUE(opened(workspace, path("speck.ray"), {{"chain-starts", starts, {}}}));
+    waitFor(workspace.render);
+    workspace.update();
+    std::string text;
+    for (const Workspace::LogEntry& entry : workspace.log())
+      if (entry.level == Workspace::LogEntry::Level::warning) text += entry.text + "\n";
+    return text;
+  };
+  EXPECT_NE(warnings("500").find("how bright the whole picture is, is known to "), std::string::npos);
+  EXPECT_EQ(warnings("300000"), "");
+}
+
 TEST_F(WorkspaceTest, TheLogNamesFilesAsSeenFromTheCurrentFolder) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(std::filesystem::path(path("scene.ray")).parent_path());

@@ -61,7 +61,7 @@ TEST_F(Cli, ChainsWarnWhereTheirBrightnessIsVague) {
         .err;
   };
   const std::string few = warned(sourceFolder() + "/scenes/door.ray", "2000");
-  EXPECT_TRUE(contains(few, "how bright the whole picture is is known to ")) << few;
+  EXPECT_TRUE(contains(few, "how bright the whole picture is, is known to ")) << few;
   EXPECT_TRUE(contains(few, "% only (one standard error); --chain-starts ")) << few;
   writeFile(path("dark.ray"), "SBT-raytracer 1.0\nsphere {}\n");
   const std::string none = warned("dark.ray", "1000");

@@ -262,6 +262,16 @@ rays
 rays
 screenshot pyramid.png pyramid 1 2
 state pyramid
+alone 1 2
+rays
+state alone
+screenshot alone.png picture
+set depth 2
+wait
+rays
+state again
+alone 1 2
+state all-ways
 set integrator mlt
 wait
 rays
@@ -287,6 +297,11 @@ if command -v convert >/dev/null; then
   bright="$(convert pyramid.png -format '%[fx:mean]' info:)"
   awk "BEGIN { exit !($bright > 0.001) }" || fail "the pyramid's picture of s = 1, t = 2 is black"
 fi
+grep -q '^alone 1 + 2 alone: ' alone || fail "a way is not seen alone"
+[[ "$(grep '^undo ' alone)" == "$(grep '^undo ' pyramid)" ]] || fail "looking at a way alone is a step of undo"
+diff <(grep '^chosen ' pyramid) <(grep '^chosen ' alone) || fail "looking at a way alone changes options"
+grep -q '^alone 1 + 2 alone: ' again || fail "the way is not made anew"
+grep -q '^alone ' all-ways && fail "the way stays alone"
 grep -q '^chain [0-9]* of [1-9]' chain || fail "no chain is followed"
 at() { grep '^chain ' "$1" | cut -d' ' -f2; }
 (($(at moved) == $(at chain) + 1)) || fail "the chain does not go on"
@@ -294,6 +309,23 @@ if command -v convert >/dev/null; then
   red="$(convert blocked.png -fx 'r > 0.6 && r > 1.6 * g ? 1 : 0' -format '%[fx:mean * w * h]' info:)"
   awk "BEGIN { exit !($red > 8) }" || fail "a blocked shadow ray is not drawn: $red red points"
 fi
+
+# In a small window the legend of rays leaves the switches above it free, also beside the pyramid.
+cat >script <<'END'
+open lamp.ray
+wait
+pixel 12 20
+rays
+tab Pyramid
+rays
+rays
+state small
+END
+"$studio" --window 800x600 --script script >log 2>&1 || fail "the small window is not shown"
+side() { grep -- "^box .* $2\$" small | cut -d' ' -f"$1"; }
+grep -q '^box .* legend camera$' small || fail "the small window has no legend"
+(($(side 3 'legend camera') >= $(side 5 'from camera'))) || fail "the legend covers the switches of the view in space"
+grep -q ' pyramid 0 5$' small || fail "the last row of the pyramid is not to be seen in a small window"
 
 # What was changed is remembered, and `ray` alone opens the window that remembers it.
 if command -v xdotool >/dev/null; then
