@@ -226,6 +226,7 @@ void Workspace::refuse(const std::string& what, const std::string& why, const st
 void Workspace::edit(const std::string& what, Scene scene, bool continues) {
   if (const auto name = unsayableIn(scene); name && !unsayableIn(document.scene()))
     return refuse(what, name->why(), name->hint());
+  followNames(document.scene(), scene);
   if (const std::string name = sharedName(document.scene(), scene); !name.empty())
     log_.push_back({Level::warning,
                     "another one is called \"" + name + "\", too: links by that name mean both",

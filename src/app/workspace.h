@@ -43,7 +43,7 @@ class Workspace {
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
-  /// One step of the Document. Names that a .ray file cannot hold are not taken. Files that the scene names
+  /// One step of the Document. Links follow a thing that is renamed. Names that a .ray file cannot hold are not taken. Files that the scene names
   /// since are read first, in the background; where one cannot be, the step is not taken, and the log says
   /// why.
   void edit(const std::string& what, Scene scene, bool continues = false);

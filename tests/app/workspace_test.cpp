@@ -387,6 +387,32 @@ TEST_F(WorkspaceTest, NamesThatASceneFileCannotHoldAreNotTaken) {
   waitFor(workspace.render);
 }
 
+TEST_F(WorkspaceTest, LinksFollowWhatIsRenamedAlsoInTheFile) {
+  std::string text = R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { name = sun; direction=(0,0,-1); color=(1,1,1); lights = ("ball"); } // of the ball
+sphere { name = "ball"; lit_by = ("sun") }
+)";
+  write("linked.ray", text);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("linked.ray")));
+  Scene scene = renamed(workspace.document.scene(), "moon");
+  workspace.edit("name", scene);
+  scene = workspace.document.scene();
+  scene.lights[0].links.name = "lamp";
+  workspace.edit("name", scene);
+  EXPECT_EQ(workspace.document.scene().objects[0].links.litBy, std::vector<std::string>{"lamp"});
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  for (const auto& [old, now] : {std::pair{"(\"ball\")", "(\"moon\")"},
+                                 {"\"ball\"", "\"moon\""},
+                                 {"(\"sun\")", "(\"lamp\")"},
+                                 {"name = sun", "name = \"lamp\""}})
+    text.replace(text.find(old), std::string_view(old).size(), now);
+  EXPECT_EQ(readFile(path("linked.ray")), text);
+  waitFor(workspace.render);
+}
+
 TEST(BackgroundRender, CoarsePicturesAreEnlargedToTheEdges) {
   Picture small(2, 1);
   small.at(0, 0) = Color(1), small.at(1, 0) = Color(2);
