@@ -44,8 +44,8 @@ std::optional<std::string> bytesOf(const std::string& file) {
   return std::filesystem::is_regular_file(file, ignored) ? std::optional(readFile(file)) : std::nullopt;
 }
 
-/// Before `file` loses something that a person wrote into it: what it says goes into a file beside it, of which
-/// none is replaced that says something else.
+/// Before `file` loses something that a person wrote into it: what it says goes into a file beside it, of
+/// which none is replaced that says something else.
 void keepAside(const std::string& file, const std::string& says, Messages& messages) {
   std::string aside = file + ".bak";
   std::optional<std::string> there = bytesOf(aside);
@@ -243,9 +243,7 @@ bool Document::sceneEdited() const {
   return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_);
 }
 
-bool Document::edited() const {
-  return isOpen() && (sceneEdited() || choices_ != choicesOnDisk_);
-}
+bool Document::edited() const { return isOpen() && (sceneEdited() || choices_ != choicesOnDisk_); }
 
 bool Document::writtenSince(std::filesystem::file_time_type time) const {
   std::error_code error;
@@ -271,8 +269,12 @@ std::vector<Message> Document::save(const std::string& file) {
 }
 
 Document::Saving Document::saving(const std::string& file) const {
-  return {file, sharedScene(), editions_[current_].text, choices_,
-          sameFile(file, file_) ? std::optional(origin_) : std::nullopt, {}};
+  return {file,
+          sharedScene(),
+          editions_[current_].text,
+          choices_,
+          sameFile(file, file_) ? std::optional(origin_) : std::nullopt,
+          {}};
 }
 
 Document::Saved Document::write(Saving what) {

@@ -87,8 +87,9 @@ class Document {
   /// Writes the scene, with the options that were chosen here, as a .ray file, which is the document's file
   /// from now on: the text that was read, if that was a .ray file, with the edits (formats/ray/ray_patch.h).
   /// Where the document's file says something that would be lost then, of its text or of another one that was
-  /// read meanwhile and undone, it is kept in a file beside. Returns warnings of what was lost. Throws Error, also if the file could not
-  /// be read again as the same scene (app/read_back.h); nothing is written then, and the document stays.
+  /// read meanwhile and undone, it is kept in a file beside. Returns warnings of what was lost. Throws Error,
+  /// also if the file could not be read again as the same scene (app/read_back.h); nothing is written then,
+  /// and the document stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---
@@ -176,10 +177,10 @@ class Document {
   std::vector<Edition> editions_;
   std::size_t current_ = 0;
   std::shared_ptr<const Scene> onDisk_;
-  Origin origin_;  // of the file
+  Origin origin_;                                                    // of the file
   std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
-  std::vector<Choice> choicesOnDisk_;  // that the file makes
-  std::vector<Choice> choices_;        // that it makes if it is saved now: its own and those made here
+  std::vector<Choice> choicesOnDisk_;                                // that the file makes
+  std::vector<Choice> choices_;  // that it makes if it is saved now: its own and those made here
   std::string fingerprint_;
   bool changesWithTime_ = false;
   Settings settings_;

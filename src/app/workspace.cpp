@@ -431,4 +431,12 @@ std::string Workspace::defaultPictureFile() const {
   return document.isOpen() ? fs::path(document.file()).replace_extension(".png").string() : "picture.png";
 }
 
+std::string Workspace::defaultSceneFile() const {
+  if (!document.isOpen() || document.savesOverItsFile()) return document.file();
+  const std::string stem = fs::path(document.file()).replace_extension().string();
+  std::string file = stem + ".ray";
+  for (int i = 1; fs::exists(file); ++i) file = stem + "-trace" + (i > 1 ? std::to_string(i) : "") + ".ray";
+  return file;
+}
+
 }  // namespace trace

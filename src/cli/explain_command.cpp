@@ -103,18 +103,20 @@ int explainCommand(const Arguments& arguments, const Console& console) {
         "note: chains make this picture, in no order of pixels; shown are paths of --integrator path, "
         "to whose mean they tend, and a chain that comes by");
     choices.push_back({"integrator", "path", {}});
-    opened.emplace().open(arguments.files[0], choices, arguments.strict);
+    opened.emplace().open(arguments.files[0], choices);  // options of chains change nothing there
   }
   Session& session = *opened;
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
-  console.warnings(session.messages().all());
   std::optional<ChainWalk> chain;
-  if (byChains) {  // of the whole picture
+  if (byChains) {  // of the whole picture, with the options that were chosen for it
     const auto whole = std::make_shared<Session>();
     whole->open(arguments.files[0], arguments.choices, arguments.strict);
     whole->build();
+    console.warnings(whole->messages().all());
     chain = ChainWalker(whole, {}).near(x, y, {});
+  } else {
+    console.warnings(session.messages().all());
   }
   const Work work("explaining the pixel");
   const Explanation explanation = session.explain(x, y, sample);

@@ -328,6 +328,20 @@ TEST_F(WorkspaceTest, ASceneIsSavedOverItsFileUnlessThatWasChangedByOthers) {
   EXPECT_EQ(readFile(path("scene.ray")), theirs);
 }
 
+TEST_F(WorkspaceTest, ASceneOfAnotherFormatIsSavedUnderANameThatNoFileHas) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  EXPECT_EQ(workspace.defaultSceneFile(), path("scene.ray"));
+  write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_TRUE(opened(workspace, path("ball.obj")));
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball.ray"));
+  write("ball.ray", kScene);
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball-trace.ray"));
+  write("ball-trace.ray", kScene);
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball-trace2.ray"));
+  waitFor(workspace.render);
+}
+
 TEST_F(WorkspaceTest, ABrokenFileOfOthersIsNotSavedOverAndOneSavedOnPurposeIs) {
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray")));
