@@ -44,19 +44,23 @@ std::optional<std::string> bytesOf(const std::string& file) {
   return std::filesystem::is_regular_file(file, ignored) ? std::optional(readFile(file)) : std::nullopt;
 }
 
-/// Before `file` loses something that a person wrote into the text: what it says goes into a file beside it,
-/// as long as that is the text. One that has other bytes is left alone.
-void keepAside(const SceneText& read, const std::string& file, Messages& messages) {
-  if (!read.bytes || bytesOf(file) != *read.bytes) return;
+/// Before `file` loses something that a person wrote into it: what it says goes into a file beside it, of
+/// which none is replaced that says something else.
+void keepAside(const std::string& file, const std::string& says, Messages& messages) {
   std::string aside = file + ".bak";
   std::optional<std::string> there = bytesOf(aside);
-  for (int i = 2; there && *there != *read.bytes; ++i) {
+  for (int i = 2; there && *there != says; ++i) {
     aside = file + ".bak" + std::to_string(i);
     there = bytesOf(aside);
   }
-  if (!there) writeFile(aside, *read.bytes);
+  if (!there) writeFile(aside, says);
   messages.warn(Place{.file = file},
                 "the file as it was is kept as " + std::filesystem::path(aside).filename().string());
+}
+
+/// Is it one text, though perhaps read at two moments?
+bool sameText(const SceneText& a, const SceneText& b) {
+  return a.bytes == b.bytes || (a.bytes && b.bytes && *a.bytes == *b.bytes);
 }
 
 }  // namespace
@@ -91,11 +95,11 @@ Document::Reading Document::read(const Source& source) {
 void Document::take(const Reading& reading, bool anew) {
   if (anew) {
     moments_.clear();
-    choicesOnDisk_ =
-        ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices, reading.source.commandLine}));
+    choicesOnDisk_ = ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices}));
   }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene;
+  origin_ = {reading.text, true};
   written_ = noticed_ = reading.written;
   messages_ = reading.messages;
   fingerprint_ = reading.fingerprint;
@@ -117,6 +121,7 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
 void Document::settle() {
   const Edition& edition = editions_[current_];
   settings_ = settingsFor(edition.scene->camera, {edition.scene->choices, commandLine_, edition.choices});
+  choices_ = ofTheScene(settingsFor(edition.scene->camera, {edition.scene->choices, edition.choices}));
   ++revision_;
 }
 
@@ -238,9 +243,7 @@ bool Document::sceneEdited() const {
   return isOpen() && !moments_.contains(sharedScene()) && !(scene() == *onDisk_);
 }
 
-bool Document::edited() const {
-  return isOpen() && (sceneEdited() || ofTheScene(settings_) != choicesOnDisk_);
-}
+bool Document::edited() const { return isOpen() && (sceneEdited() || choices_ != choicesOnDisk_); }
 
 bool Document::writtenSince(std::filesystem::file_time_type time) const {
   std::error_code error;
@@ -266,7 +269,12 @@ std::vector<Message> Document::save(const std::string& file) {
 }
 
 Document::Saving Document::saving(const std::string& file) const {
-  return {file, sharedScene(), editions_[current_].text, ofTheScene(settings_), {}};
+  return {file,
+          sharedScene(),
+          editions_[current_].text,
+          choices_,
+          sameFile(file, file_) ? std::optional(origin_) : std::nullopt,
+          {}};
 }
 
 Document::Saved Document::write(Saving what) {
@@ -278,12 +286,16 @@ Document::Saved Document::write(Saving what) {
   for (const InputFile& input : scene.inputs.all())
     if (!sameFile(input.path, scene.file)) others.noteNamed(input.path);
   for (const NamedBytes& part : parts) checkIsNoInput(part.file, others);
-  Saved saved{std::move(what), {}, false, {}};
+  Saved saved{std::move(what), rewritten.keepsAll, {}, false, {}};
   const NamedBytes& own = parts.front();
   // A picture of the scene has to say what the file is made of. Other formats keep a part of it, and warn.
   if (keepsText(writableFormatFor(own.file).name))
     saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
-  if (!rewritten.keepsAll) keepAside(*saved.what.text, own.file, saved.what.messages);
+  if (const std::optional<Origin>& before = saved.what.before) {
+    const bool loses = !sameText(*before->text, *saved.what.text) || (before->whole && !rewritten.keepsAll);
+    const std::optional<std::string> says = bytesOf(own.file);
+    if (loses && says && *says != own.bytes) keepAside(own.file, *says, saved.what.messages);
+  }
   for (const NamedBytes& part : parts) writeFile(part.file, part.bytes);
   if (parts.size() > 1 && !saved.fingerprint.empty())  // what lies beside it can be read now
     saved.fingerprint = readBack(parts, scene, saved.what.text->time).inputs.fingerprint();
@@ -300,6 +312,7 @@ void Document::noteSaved(const Saved& saved) {
   ownFile_ = keepsText(writableFormatFor(file_).name) ? file_ : "";
   written_ = noticed_ = saved.written;
   onDisk_ = saved.what.scene;
+  origin_ = {saved.what.text, saved.keepsAll};
   moments_ = {onDisk_};
   choicesOnDisk_ = saved.what.choices;
   fingerprint_ = saved.fingerprint;

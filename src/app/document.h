@@ -63,7 +63,7 @@ class Document {
   std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
 
   /// Saving would write something else than what was read or saved last: of the scene, or of the options
-  /// that a scene has, with the command line's over them.
+  /// that a scene has. Those of the command line hold for the session and are not saved.
   bool edited() const;
   /// The file is a .ray file whose text is kept, or was written here, so that a scene may be saved over it.
   bool savesOverItsFile() const;
@@ -84,10 +84,12 @@ class Document {
   bool changesWithTime() const { return changesWithTime_; }
   /// Reads the scene as it is at another time, with its edits; null if it does not change.
   SceneAt sceneAt() const;
-  /// Writes the scene, with the options that differ from the file's, as a .ray file, which is the document's
-  /// file from now on: the text that was read, if that was a .ray file, with the edits
-  /// (formats/ray/ray_patch.h). Returns warnings of what was lost. Throws Error, also if the file could not
-  /// be read again as the same scene (app/read_back.h); nothing is written then, and the document stays.
+  /// Writes the scene, with the options that were chosen here, as a .ray file, which is the document's file
+  /// from now on: the text that was read, if that was a .ray file, with the edits (formats/ray/ray_patch.h).
+  /// Where the document's file says something that would be lost then, of its text or of another one that was
+  /// read meanwhile and undone, it is kept in a file beside. Returns warnings of what was lost. Throws Error,
+  /// also if the file could not be read again as the same scene (app/read_back.h); nothing is written then,
+  /// and the document stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---
@@ -121,15 +123,23 @@ class Document {
 
   // --- and the writing of a scene ---
 
+  /// What a file was made of: a text that was read, and edits. It is `whole` if they took nothing out of the
+  /// text that a person wrote: comments, nesting, keys of an animation.
+  struct Origin {
+    std::shared_ptr<const SceneText> text;
+    bool whole = true;
+  };
   struct Saving {
     std::string file;
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const SceneText> text;  ///< of which the scene was made
     std::vector<Choice> choices;            ///< that the file is to make
+    std::optional<Origin> before;           ///< of the file, if it is the document's own
     Messages messages;
   };
   struct Saved {
     Saving what;
+    bool keepsAll = true;  ///< of the text
     std::string fingerprint;
     bool changesWithTime = false;
     std::filesystem::file_time_type written{};
@@ -167,8 +177,10 @@ class Document {
   std::vector<Edition> editions_;
   std::size_t current_ = 0;
   std::shared_ptr<const Scene> onDisk_;
+  Origin origin_;                                                    // of the file
   std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
-  std::vector<Choice> choicesOnDisk_;  // that the file makes, and the command line when it was read
+  std::vector<Choice> choicesOnDisk_;                                // that the file makes
+  std::vector<Choice> choices_;  // that it makes if it is saved now: its own and those made here
   std::string fingerprint_;
   bool changesWithTime_ = false;
   Settings settings_;

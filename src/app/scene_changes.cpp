@@ -1,5 +1,8 @@
 #include "app/scene_changes.h"
 
+#include <map>
+#include <type_traits>
+
 #include "geometry/field_value.h"
 #include "geometry/shapes/csg_tree.h"
 
@@ -30,7 +33,40 @@ std::string newlyShared(const std::vector<Thing>& before, const std::vector<Thin
   return "";
 }
 
+/// The old names of what is called otherwise now, each with the new one.
+template <class Thing>
+std::map<std::string, std::string> newNames(const std::vector<Thing>& before,
+                                            const std::vector<Thing>& after) {
+  std::map<std::string, std::string> names;
+  if (before.size() != after.size()) return names;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (const std::string& old = nameOf(before[i]); !old.empty() && old != nameOf(after[i]))
+      names[old] = nameOf(after[i]);
+  for (const Thing& thing : after) names.erase(nameOf(thing));
+  return names;
+}
+
+template <class Links>
+void follow(Links& links, const std::map<std::string, std::string>& names) {
+  forEachField<Links>([&](const auto& field) {
+    auto& value = links.*field.member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::vector<std::string>>)
+      for (std::string& name : value)
+        if (const auto found = names.find(name); found != names.end() && !found->second.empty())
+          name = found->second;
+  });
+}
+
 }  // namespace
+
+void followNames(const Scene& before, Scene& after) {
+  const auto objects = newNames(before.objects, after.objects);
+  const auto lights = newNames(before.lights, after.lights);
+  if (!objects.empty())
+    for (LightSource& light : after.lights) follow(light.links, objects);
+  if (!lights.empty())
+    for (Object& object : after.objects) follow(object.links, lights);
+}
 
 std::string sharedName(const Scene& before, const Scene& after) {
   const std::string ofObjects = newlyShared(before.objects, after.objects);

@@ -227,6 +227,7 @@ void Workspace::refuse(const std::string& what, const std::string& why, const st
 void Workspace::edit(const std::string& what, Scene scene, bool continues) {
   if (const auto name = unsayableIn(scene); name && !unsayableIn(document.scene()))
     return refuse(what, name->why(), name->hint());
+  followNames(document.scene(), scene);
   if (const std::string name = sharedName(document.scene(), scene); !name.empty())
     log_.push_back({Level::warning,
                     "another one is called \"" + name + "\", too: links by that name mean both",
@@ -432,6 +433,14 @@ void Workspace::noteEnd() {
 
 std::string Workspace::defaultPictureFile() const {
   return document.isOpen() ? fs::path(document.file()).replace_extension(".png").string() : "picture.png";
+}
+
+std::string Workspace::defaultSceneFile() const {
+  if (!document.isOpen() || document.savesOverItsFile()) return document.file();
+  const std::string stem = fs::path(document.file()).replace_extension().string();
+  std::string file = stem + ".ray";
+  for (int i = 1; fs::exists(file); ++i) file = stem + "-trace" + (i > 1 ? std::to_string(i) : "") + ".ray";
+  return file;
 }
 
 }  // namespace trace

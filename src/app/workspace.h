@@ -43,9 +43,9 @@ class Workspace {
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 
-  /// One step of the Document. Names that a .ray file cannot hold are not taken. Files that the scene names
-  /// since are read first, in the background; where one cannot be, the step is not taken, and the log says
-  /// why.
+  /// One step of the Document. Links follow a thing that is renamed. Names that a .ray file cannot hold are
+  /// not taken. Files that the scene names since are read first, in the background; where one cannot be, the
+  /// step is not taken, and the log says why.
   void edit(const std::string& what, Scene scene, bool continues = false);
   /// As of the Document, but the file is read in the background if it has to be; before a scene is open it
   /// joins the command line. Throws Error(Fault::usage) if the option does not take the value.
@@ -84,6 +84,8 @@ class Workspace {
   void saveSceneOver();
   /// "scene.png" beside the scene.
   std::string defaultPictureFile() const;
+  /// The scene's own file; of a scene of another format, a name beside it that no file has.
+  std::string defaultSceneFile() const;
 
   /// Until update() has taken what came of it.
   bool reading() const {

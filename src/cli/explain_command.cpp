@@ -112,13 +112,15 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   Session& session = *opened;
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
-  console.warnings(session.messages().all());
   std::optional<ChainWalk> chain;
-  if (byChains) {  // of the whole picture
+  if (byChains) {  // of the whole picture, with the options that were chosen for it
     const auto whole = std::make_shared<Session>();
     whole->open(arguments.files[0], arguments.choices, arguments.strict);
     whole->build();
+    console.warnings(whole->messages().all());
     chain = ChainWalker(whole, {}).near(x, y, {});
+  } else {
+    console.warnings(session.messages().all());
   }
   const Work work("explaining the pixel");
   const Explanation explanation = session.explain(x, y, sample);

@@ -1,13 +1,11 @@
 #include "cli/render_steps.h"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "app/render_warnings.h"
 #include "base/file.h"
 #include "cli/commands.h"
-#include "cli/formatted.h"
 #include "cli/memory_limit.h"
 #include "cli/statistics_text.h"
 #include "image/codec.h"

@@ -110,8 +110,8 @@ bool modalIsOpen(const Studio& studio) {
 }
 
 void saveSceneAsAnd(Studio& studio, std::function<void()> then) {
-  studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.document.file(), {".ray"},
-                     [&studio, then = std::move(then)](const std::string& file) {
+  studio.dialog.open("Save the scene", FileDialog::Purpose::write, studio.workspace.defaultSceneFile(),
+                     {".ray"}, [&studio, then = std::move(then)](const std::string& file) {
                        studio.workspace.saveScene(file);
                        if (then) studio.leaving = then;
                      });

@@ -142,16 +142,30 @@ bool editValue(const FieldFacts& facts, PhotometryFile& value) {
 }
 
 bool editValue(const FieldFacts& facts, FormulaText& value) {
-  std::string text = value.text();
+  struct Refused {
+    std::string field, of, text, why;
+  };
+  static Refused refused;  // what was typed last and has a mistake: it stays in its field to be mended
+  const std::string name = saidName(facts.name);
+  const bool mending = refused.field == name && refused.of == value.text();
+  std::string text = mending ? refused.text : value.text();
   ImGui::SetNextItemWidth(-1);
+  if (mending) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
   const bool changed = editText("##value", text, "no formula");
+  if (mending) ImGui::PopStyleColor();
   landmark("text");
+  if (mending && ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\nthe formula is still: %s", refused.why.c_str(), value.text().c_str());
   if (!changed) return false;
   try {
-    value = FormulaText(text);
-    return true;
+    FormulaText now(text);
+    refused = {};
+    const bool another = now.text() != value.text();
+    value = std::move(now);
+    return another;
   } catch (const Error& error) {
-    remarkOn(saidName(facts.name) + ": " + error.messages().front().what + "; not taken");
+    refused = {name, value.text(), text, error.messages().front().what};
+    remarkOn(name + ": " + refused.why + "; not taken");
     return false;
   }
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/short_number.h"
 #include "app/typed_value.h"
 #include "base/field.h"
 #include "base/text.h"
@@ -107,24 +108,6 @@ Settled<std::string> typeNumber(const char* label, ImGuiID id) {
   return settle(id, now, changed, typing);
 }
 
-/// The format; without the unit, and with fewer digits, if the number would not fit into the field.
-std::string fitting(const std::string& format, double value, float width) {
-  const auto fits = [&](const std::string& with) {
-    char text[64];
-    std::snprintf(text, sizeof text, with.c_str(), value);
-    return ImGui::CalcTextSize(text).x <= width;
-  };
-  if (fits(format)) return format;
-  std::string shorter = format;
-  const std::size_t digits = format.find("%.");
-  if (digits == std::string::npos) return format;
-  if (const std::size_t unit = format.find(' ', digits); unit != std::string::npos) shorter.resize(unit);
-  if (format.substr(digits + 3, 1) != "g") return shorter;
-  for (char& count = shorter[digits + 2]; count > '1' && !fits(shorter); --count) {
-  }
-  return shorter;
-}
-
 bool editNumberField(const char* label, double& value, const NumberLook& look, bool whole) {
   const ImGuiID id = ImGui::GetID(label);
   const auto take = [&](const std::optional<double>& now) {
@@ -138,19 +121,32 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
   if (ImGui::TempInputIsActive(id)) return takeTyped(typeNumber(label, id));
   // Dear ImGui takes no infinite bounds.
   const double least = std::max(look.least, -1e300), most = std::min(look.most, 1e300);
-  const std::string format =
-      fitting(look.format, value, ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2);
+  char full[64];
+  std::snprintf(full, sizeof full, look.format.c_str(), value);
+  const float room = ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2;
+  const std::string text = shortNumber(value, look.format, [room](const std::string& spelt) {
+    return ImGui::CalcTextSize(spelt.c_str()).x <= room;
+  });
+  const bool shortened = text != full;  // then it stands over the widget's own text, with which typing begins
+  const std::string format = shortened ? "%.15g" : look.format;
   const ImGuiSliderFlags flags = (look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
-                                 (format == look.format ? 0 : ImGuiSliderFlags_NoRoundToFormat);
+                                 (shortened ? ImGuiSliderFlags_NoRoundToFormat : 0);
   double shown = value;
+  if (shortened) ImGui::PushStyleColor(ImGuiCol_Text, 0);
   const bool changed = look.speed > 0 ? ImGui::DragScalar(label, ImGuiDataType_Double, &shown, look.speed,
                                                           &least, &most, format.c_str(), flags)
                                       : ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least,
                                                             &most, format.c_str(), flags);
-  if (format != look.format && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-    const std::size_t unit = look.format.find(' ', look.format.find("%."));
-    ImGui::SetTooltip("%s%s", toText(value).c_str(),
-                      unit == std::string::npos ? "" : look.format.substr(unit).c_str());
+  if (shortened) {
+    ImGui::PopStyleColor();
+    if (!ImGui::TempInputIsActive(id))
+      ImGui::RenderTextClipped(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), text.c_str(), nullptr,
+                               nullptr, {0.5f, 0.5f});
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+      const std::size_t unit = look.format.find(' ', look.format.find("%."));
+      ImGui::SetTooltip("%s%s", toText(value).c_str(),
+                        unit == std::string::npos ? "" : look.format.substr(unit).c_str());
+    }
   }
   const Settled<std::string> typed = settle(id, std::string(), false, ImGui::TempInputIsActive(id));
   if (typed.typed) return takeTyped(typed);

@@ -331,11 +331,7 @@ void drawScene(Studio& studio) {
   studio.revealSelected = false;
 
   // Undo and deleting may leave the selection beyond the end.
-  const std::size_t count = studio.selected == Selected::object     ? scene.objects.size()
-                            : studio.selected == Selected::light    ? scene.lights.size()
-                            : studio.selected == Selected::material ? scene.materials.size()
-                                                                    : 1;
-  if (studio.selectedIndex >= count) {
+  if (studio.selectedIndex >= howMany(scene, studio.selected)) {
     studio.selected = Selected::camera;
     studio.selectedIndex = 0;
   }

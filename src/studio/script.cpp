@@ -12,10 +12,12 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "image/codec.h"
+#include "scene/picture_size.h"
 #include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/script_state.h"
+#include "studio/selection.h"
 
 namespace trace::studio {
 namespace {
@@ -29,12 +31,18 @@ int whole(const std::string& word) {
   return static_cast<int>(number->value);
 }
 
+std::vector<Message> errorsIn(const Workspace& workspace) {
+  std::vector<Message> errors;
+  for (const Workspace::LogEntry& entry : workspace.log())
+    if (entry.level == Workspace::LogEntry::Level::error)
+      errors.push_back({.place = entry.place, .what = entry.text, .hint = entry.hint});
+  return errors;
+}
+
 /// With the last error of the log.
 [[noreturn]] void fail(const Workspace& workspace) {
-  std::string what;
-  for (const Workspace::LogEntry& entry : workspace.log())
-    if (entry.level == Workspace::LogEntry::Level::error) what = entry.text;
-  throw Error(Fault::io, what);
+  const std::vector<Message> errors = errorsIn(workspace);
+  throw Error(Fault::io, errors.empty() ? "the picture cannot be rendered" : errors.back().what);
 }
 
 /// The words from this one on.
@@ -92,6 +100,30 @@ Studio::Selected kindOf(const std::string& word) {
   if (kind == std::end(names))
     throw Error(Fault::usage, "expected camera, background, object, light, material or none, found " + word);
   return static_cast<Studio::Selected>(kind - std::begin(names));
+}
+
+const Scene& sceneOf(const Studio& studio) {
+  if (!studio.workspace.document.isOpen()) throw Error(Fault::usage, "no scene is open");
+  return studio.workspace.document.scene();
+}
+
+void select(Studio& studio, const std::string& word, const std::string& number) {
+  const Studio::Selected kind = kindOf(word);
+  const std::size_t count = howMany(sceneOf(studio), kind);
+  const int index = whole(number);
+  if (index < 0 || static_cast<std::size_t>(index) >= count)
+    throw Error(Fault::usage, "the scene has no " + word + " " + number + ": it has " + counted(count, word) +
+                                  ", counted from 0");
+  studio.select(kind, static_cast<std::size_t>(index));
+}
+
+void clickPixel(Studio& studio, int x, int y) {
+  const Size size = pictureSize(studio.workspace.document.settings(), sceneOf(studio).camera);
+  if (x < 0 || y < 0 || x >= size.width || y >= size.height)
+    throw Error(Fault::usage, "expected a pixel of the picture of " + std::to_string(size.width) + " x " +
+                                  std::to_string(size.height) + ", found " + std::to_string(x) + " " +
+                                  std::to_string(y));
+  studio.picture.goTo(x, y);
 }
 
 void checkNumbers(const Words& words) {
@@ -162,7 +194,7 @@ constexpr std::array kCommands{
               return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
             }},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
-            [](Studio& s, const Words& a) { s.picture.goTo(whole(a[0]), whole(a[1])); }, checkNumbers},
+            [](Studio& s, const Words& a) { clickPixel(s, whole(a[0]), whole(a[1])); }, checkNumbers},
     Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
             [](Studio& s, const Words& a) {
               const std::vector<BadSample> bad = s.workspace.render.result().badSamples;
@@ -173,9 +205,7 @@ constexpr std::array kCommands{
             checkNumbers},
     Command{"select", "KIND NUMBER", 2, 2,
             "in the panel Scene: camera, background, object, light, material or none, from 0",
-            [](Studio& s, const Words& a) {
-              s.select(kindOf(a[0]), static_cast<std::size_t>(std::max(0, whole(a[1]))));
-            },
+            [](Studio& s, const Words& a) { select(s, a[0], a[1]); },
             [](const Words& a) {
               kindOf(a[0]);
               whole(a[1]);
@@ -290,9 +320,10 @@ bool Script::next(Studio& studio) {
   const Workspace& workspace = studio.workspace;
   waits_ = workspace.reading() || workspace.saving();
   if (waits_) return true;
-  const bool failed = workspace.failures() > 0;  // in what the last command began
+  const bool failed = workspace.failures() > 0;  // in what the last command began, or the command line
+  if (failed && next_ == 0) throw Error(Fault::io, errorsIn(workspace));
   if (next_ == lines_.size() && !failed) return false;
-  const Line& line = lines_[failed && next_ > 0 ? next_ - 1 : next_];
+  const Line& line = lines_[failed ? next_ - 1 : next_];
   try {
     if (failed) fail(workspace);
     const Command& command = commandOf(line.words);

@@ -46,6 +46,15 @@ void go(Studio& studio, void (Workspace::*way)()) {
 
 }  // namespace
 
+std::size_t howMany(const Scene& scene, Selected kind) {
+  switch (kind) {
+    case Selected::object: return scene.objects.size();
+    case Selected::light: return scene.lights.size();
+    case Selected::material: return scene.materials.size();
+    default: return 1;
+  }
+}
+
 void undo(Studio& studio) { go(studio, &Workspace::undo); }
 void redo(Studio& studio) { go(studio, &Workspace::redo); }
 

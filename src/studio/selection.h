@@ -11,6 +11,9 @@ namespace trace::studio {
 std::string entryName(const Object& object);
 std::string entryName(const LightSource& source);
 
+/// How many things of the kind a scene has.
+std::size_t howMany(const Scene& scene, Studio::Selected kind);
+
 /// An object or a light is selected.
 bool canDelete(const Studio& studio);
 /// As one step. Then nothing is selected, so that what is done twice deletes no second thing.

@@ -156,6 +156,55 @@ TEST_F(DocumentTest, WhatASaveLosesIsKeptInAFileBeside) {
   EXPECT_FALSE(fs::exists(path("animated.ray.bak3")));
 }
 
+TEST_F(DocumentTest, WhatWasSavedBeforeIsKeptTooIfASaveLosesSomethingOfIt) {
+  write("animated.ray", kAnimated);
+  Document document;
+  document.open(path("animated.ray"));
+  document.choose("depth", "9");
+  EXPECT_TRUE(document.save(path("animated.ray")).empty());
+  const std::string saved = readFile(path("animated.ray"));
+  ASSERT_NE(saved, kAnimated);
+  document.edit("move", withoutKeys(document.scene(), 3));
+  EXPECT_NE(document.save(path("animated.ray")).back().what.find("kept as animated.ray.bak"),
+            std::string::npos);
+  EXPECT_EQ(readFile(path("animated.ray.bak")), saved) << "as it was, with the depth";
+  document.edit("move", withoutKeys(document.scene(), 4));
+  document.save(path("animated.ray"));
+  EXPECT_FALSE(fs::exists(path("animated.ray.bak2"))) << "nothing more was lost";
+}
+
+TEST_F(DocumentTest, AnothersEditThatWasReadAndUndoneIsKeptInAFileBeside) {
+  Document document;
+  document.open(path("scene.ray"));
+  document.edit("name", renamed(document.scene(), "moon"));
+  const std::string others = std::string(kScene) + "// written elsewhere\n";
+  rewrite("scene.ray", others);
+  document.reload();
+  document.undo();
+  EXPECT_EQ(document.save(path("scene.ray")).size(), 1u);
+  EXPECT_EQ(readFile(path("scene.ray")).find("elsewhere"), std::string::npos);
+  EXPECT_EQ(readFile(path("scene.ray.bak")), others);
+  document.undo();
+  EXPECT_TRUE(document.save(path("scene.ray")).empty()) << "the text is the one before";
+  EXPECT_FALSE(fs::exists(path("scene.ray.bak2")));
+}
+
+TEST_F(DocumentTest, OptionsOfTheCommandLineAreNotSaved) {
+  Document document;
+  document.open(path("scene.ray"), {{"spp", "4", {}}, {"depth", "2", {}}});
+  EXPECT_TRUE(document.save(path("scene.ray")).empty());
+  EXPECT_EQ(readFile(path("scene.ray")), kScene);
+  document.choose("depth", "9");
+  document.choose("spp", "4");  // as the command line says, but chosen
+  EXPECT_TRUE(document.edited());
+  document.undo();
+  EXPECT_TRUE(document.save(path("scene.ray")).empty());
+  std::string expected = kScene;
+  EXPECT_EQ(readFile(path("scene.ray")), expected.replace(expected.find("depth = 3"), 9, "depth = 9"));
+  EXPECT_EQ(document.settings().spp, 4);
+  EXPECT_FALSE(document.edited());
+}
+
 TEST_F(DocumentTest, AFileThatASceneCannotNameIsNoReasonToWriteItAnew) {
   write("odd\".ppm", "P3\n1 1\n255\n0 255 0\n");
   Document document;

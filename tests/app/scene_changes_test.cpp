@@ -48,6 +48,32 @@ TEST(SceneChanges, ANameThatIsSharedFromNowOnIsTold) {
   EXPECT_EQ(shared([](Scene& s) { s.lights.push_back(s.lights[0]); }), "key");
 }
 
+TEST(SceneChanges, LinksFollowWhatIsRenamed) {
+  Scene before;
+  for (const char* name : {"ball", "wall", "wall", ""})
+    before.objects.push_back({name, Shape(Sphere{}), {}, 0, {}});
+  before.lights.resize(1);
+  before.lights[0].links = {"key", {"wall", "ball"}, {"ball", "gone"}};
+  before.objects[3].links = {{"key"}, {"ball"}};
+  const auto followed = [&](const std::function<void(Scene&)>& edit) {
+    Scene after = before;
+    edit(after);
+    followNames(before, after);
+    return after;
+  };
+  using Names = std::vector<std::string>;
+  const Scene moon = followed([](Scene& s) { s.objects[0].name = "moon"; });
+  EXPECT_EQ(moon.lights[0].links.lights, (Names{"wall", "moon"}));
+  EXPECT_EQ(moon.lights[0].links.excludes, (Names{"moon", "gone"}));
+  EXPECT_EQ(moon.objects[3].links.notLitBy, Names{"ball"}) << "a light would be meant";
+  const Scene lamp = followed([](Scene& s) { s.lights[0].links.name = "lamp"; });
+  EXPECT_EQ(lamp.objects[3].links.litBy, Names{"lamp"});
+  EXPECT_EQ(followed([](Scene& s) { s.objects[1].name = "roof"; }).lights, before.lights)
+      << "another one is called so still";
+  EXPECT_EQ(followed([](Scene& s) { s.objects[0].name = ""; }).lights, before.lights);
+  EXPECT_EQ(followed([](Scene& s) { s.objects.erase(s.objects.begin()); }).lights, before.lights);
+}
+
 TEST(SceneChanges, AnObjectUsesTheMaterialsOfItsParts) {
   Scene scene;
   scene.materials.resize(5);

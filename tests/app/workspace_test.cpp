@@ -347,6 +347,20 @@ TEST_F(WorkspaceTest, ASceneIsSavedOverItsFileUnlessThatWasChangedByOthers) {
   EXPECT_EQ(readFile(path("scene.ray")), theirs);
 }
 
+TEST_F(WorkspaceTest, ASceneOfAnotherFormatIsSavedUnderANameThatNoFileHas) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray")));
+  EXPECT_EQ(workspace.defaultSceneFile(), path("scene.ray"));
+  write("ball.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_TRUE(opened(workspace, path("ball.obj")));
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball.ray"));
+  write("ball.ray", kScene);
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball-trace.ray"));
+  write("ball-trace.ray", kScene);
+  EXPECT_EQ(workspace.defaultSceneFile(), path("ball-trace2.ray"));
+  waitFor(workspace.render);
+}
+
 TEST_F(WorkspaceTest, ABrokenFileOfOthersIsNotSavedOverAndOneSavedOnPurposeIs) {
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray")));
@@ -403,6 +417,32 @@ TEST_F(WorkspaceTest, NamesThatASceneFileCannotHoldAreNotTaken) {
   refused("picture",
           [](Scene& s) { setTexture(s.materials[0].textures, "diffuse", pictureTexture("odd\".ppm")); });
   refused("face", [](Scene& s) { s.background.front.file = "odd\".ppm"; });
+  waitFor(workspace.render);
+}
+
+TEST_F(WorkspaceTest, LinksFollowWhatIsRenamedAlsoInTheFile) {
+  std::string text = R"(SBT-raytracer 1.0
+camera { position=(0,0,4); viewdir=(0,0,-1); updir=(0,1,0); }
+directional_light { name = sun; direction=(0,0,-1); color=(1,1,1); lights = ("ball"); } // of the ball
+sphere { name = "ball"; lit_by = ("sun") }
+)";
+  write("linked.ray", text);
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("linked.ray")));
+  Scene scene = renamed(workspace.document.scene(), "moon");
+  workspace.edit("name", scene);
+  scene = workspace.document.scene();
+  scene.lights[0].links.name = "lamp";
+  workspace.edit("name", scene);
+  EXPECT_EQ(workspace.document.scene().objects[0].links.litBy, std::vector<std::string>{"lamp"});
+  workspace.saveSceneOver();
+  ASSERT_TRUE(settled(workspace));
+  for (const auto& [old, now] : {std::pair{"(\"ball\")", "(\"moon\")"},
+                                 {"\"ball\"", "\"moon\""},
+                                 {"(\"sun\")", "(\"lamp\")"},
+                                 {"name = sun", "name = \"lamp\""}})
+    text.replace(text.find(old), std::string_view(old).size(), now);
+  EXPECT_EQ(readFile(path("linked.ray")), text);
   waitFor(workspace.render);
 }
 

@@ -94,6 +94,8 @@ TEST_F(Explain, TellsOfWaysAndOfAChain) {
   EXPECT_EQ(chain["moves"][0]["number"], -1);
   const json& nearest = chain["moves"][chain["nearest"].get<std::size_t>()];
   EXPECT_TRUE(nearest["made"].get<bool>());
+  mlt.insert(mlt.end(), {"--chains", "veach", "--firefly-limit", "0", "--strict"});
+  EXPECT_EQ(error(mlt, 0).find("changes nothing"), std::string::npos) << "the picture's chains count";
 }
 
 TEST_F(Explain, FindsWhatTheLightImageBrings) {

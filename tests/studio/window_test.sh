@@ -97,6 +97,30 @@ for line in 'save none.png' 'save-scene none.ray' 'action Save scene' 'action Un
   grep -q 'script:1' log || fail "\"$line\" without a scene is not told with its line"
 done
 
+# What there is not is no place to click or to select; and what the command line names is told by itself.
+for line in 'select object 99' 'select light -1' 'pixel 400 3' 'pixel 0 -1'; do
+  printf '%s\n' wait "$line" >script
+  code=0
+  "$studio" scene.ray --script script >log 2>&1 || code=$?
+  [[ $code == 2 ]] || fail "\"$line\" ends with exit code $code, not 2"
+  grep -q 'script:2:1' log || fail "\"$line\" is not told with its line"
+done
+echo 'pixel 0 0' >script
+! "$studio" --script script >log 2>&1 || fail "a pixel is clicked without a scene"
+grep -q 'script:1:1.*no scene' log || fail "\"pixel\" without a scene is not told with its line"
+echo '@' >broken.ray
+for script in '' '# nothing' wait; do
+  echo "$script" >script
+  for start in 'scene.ray --reference none.png' none.ray broken.ray; do
+    code=0
+    # shellcheck disable=SC2086
+    "$studio" $start --script script >log 2>&1 || code=$?
+    [[ $code == 1 ]] || fail "\"$start\" with the script \"$script\" ends with exit code $code, not 1"
+    grep -q 'none\|broken.ray:1' log || fail "\"$start\" is refused without its name"
+    ! grep -q 'script' log || fail "\"$start\" is told as a mistake of the script"
+  done
+done
+
 # A script is looked at whole before it begins: all that is wrong in it is said, and nothing was done.
 cat >script <<'END'
 save early.png

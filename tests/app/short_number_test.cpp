@@ -1,0 +1,57 @@
+// Numbers where there is little room for them.
+#include "app/short_number.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace trace::test {
+namespace {
+
+std::string inRoom(std::size_t characters, double value, const std::string& format = "%.3g") {
+  return shortNumber(value, format, [&](const std::string& text) { return text.size() <= characters; });
+}
+
+TEST(ShortNumber, TheFormatStaysAsLongAsItFits) {
+  EXPECT_EQ(inRoom(8, 12345), "1.23e+04");
+  EXPECT_EQ(inRoom(8, 0.5, "%.2f m"), "0.50 m");
+  EXPECT_EQ(inRoom(5, 0.5, "%.2f m"), "0.50");
+  EXPECT_EQ(inRoom(3, 0.5, "%.2f m"), "0.5");
+  EXPECT_EQ(inRoom(5, 12, "%.0f rays"), "12");
+}
+
+TEST(ShortNumber, AsManyDigitsStandAsFitAndNoExponentIsCut) {
+  EXPECT_EQ(inRoom(5, 1500), "1500");
+  EXPECT_EQ(inRoom(4, 1500), "1500");
+  EXPECT_EQ(inRoom(5, 12345), "12345");
+  EXPECT_EQ(inRoom(5, 123456), "1.2e5");
+  EXPECT_EQ(inRoom(6, 123456), "123456");
+  EXPECT_EQ(inRoom(5, 0.0001), "1e-4");
+  EXPECT_EQ(inRoom(6, 0.0001), "0.0001");
+  EXPECT_EQ(inRoom(4, 0.1234), "0.12");
+  EXPECT_EQ(inRoom(5, -0.1234), "-0.12");
+  EXPECT_EQ(inRoom(3, 9.99), "10") << "rounded up";
+  EXPECT_EQ(inRoom(4, 100000, "%.0f rays"), "1e5");
+}
+
+TEST(ShortNumber, WhereNothingRightFitsThereAreDots) {
+  EXPECT_EQ(inRoom(3, 1500), "...");
+  EXPECT_EQ(inRoom(4, 12345), "...");
+  EXPECT_EQ(inRoom(3, 0.1234), "...") << "0.1 would be wrong by a fifth";
+  EXPECT_EQ(inRoom(3, 12345, "%.0f rays"), "...");
+  EXPECT_EQ(inRoom(1, 0), "0");
+}
+
+TEST(ShortNumber, WhatIsShownIsTheValueToATwentieth) {
+  for (std::size_t room = 3; room < 9; ++room)
+    for (double value = 1.2345e-9; value < 1e12; value *= 3.7)
+      for (const double signedValue : {value, -value})
+        if (const std::string text = inRoom(room, signedValue); text != "...") {
+          EXPECT_LE(text.size(), room);
+          EXPECT_LE(std::abs(std::strtod(text.c_str(), nullptr) - signedValue), 0.05 * value) << text;
+        }
+}
+
+}  // namespace
+}  // namespace trace::test
