@@ -15,7 +15,7 @@ struct ChainMove {
   MoveKind kind = MoveKind::nearby;
   int x = 0, y = 0;  ///< the pixel that the offered sample looks at
   Color brings{};    ///< what it brings there
-  Real light = 0;    ///< how bright it is to the chain (ChainTarget), with what it brings to other pixels
+  Real light = 0;    ///< how bright it is, with what it brings to other pixels
   Real before = 0;   ///< and the sample where the chain was
   Real chance = 1;   ///< with which the move is made
   bool made = true;

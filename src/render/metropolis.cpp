@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "base/budget.h"
 #include "image/srgb.h"
@@ -17,25 +20,21 @@ Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(lum
 struct Stop {
   std::vector<Splat> splats;
   Real light = 0;
-  Real target = 0;  ///< of that light
   Real visits = 0;
 };
 
 /// Takes the sample of the numbers: what it brings to its own pixel, and to others.
 class Sampling {
  public:
-  Sampling(PixelTracer& tracer, const Tile& area, const ChainTarget& target)
-      : tracer_(tracer),
-        area_(area),
-        target_(target),
-        pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
+  Sampling(PixelTracer& tracer, const Tile& area)
+      : tracer_(tracer), area_(area), pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
     tracer_.collect(&thrown_);
   }
   ~Sampling() { tracer_.collect(nullptr); }
   Sampling(const Sampling&) = delete;
   Sampling& operator=(const Sampling&) = delete;
 
-  Stop at(PrimarySample& numbers) {
+  Stop at(SampleNumbers& numbers) {
     thrown_.clear();
     Stop stop;
     stop.splats.push_back(tracer_.sample(numbers, area_));
@@ -44,20 +43,70 @@ class Sampling {
       if (splat.x >= area_.x0 && splat.x < area_.x1 && splat.y >= area_.y0 && splat.y < area_.y1)
         stop.splats.push_back({splat.x, splat.y, splat.value * (1 / pixels_)});
     for (const Splat& splat : stop.splats) stop.light += lightOf(splat);
-    stop.target = target_.of(stop.light);
     return stop;
   }
   Real pixels() const { return pixels_; }
+  PixelTracer& tracer() { return tracer_; }
 
  private:
   PixelTracer& tracer_;
   const Tile& area_;
-  const ChainTarget& target_;
   Real pixels_;
   std::vector<Splat> thrown_;
 };
 
+/// Numbers of a sample whose place in the picture, the pair that is drawn first, lies in one of side x side
+/// squares.
+class PlacedSample final : public SampleNumbers {
+ public:
+  PlacedSample(SampleNumbers& others, const Vec2& square, Real side)
+      : others_(others), square_(square), side_(side) {}
+  Vec2 pair(std::uint64_t branch) override {
+    if (!first_) first_ = branch;
+    const Vec2 u = others_.pair(branch);
+    return branch == *first_ ? Vec2{(square_.x + u.x) / side_, (square_.y + u.y) / side_} : u;
+  }
+
+ private:
+  SampleNumbers& others_;
+  Vec2 square_;
+  Real side_;
+  std::optional<std::uint64_t> first_;
+};
+
+/// The mean, and its standard error as a part of it.
+std::pair<Real, Real> meanOf(std::span<const Real> values) {
+  const Real count = static_cast<Real>(values.size());
+  Real mean = 0, squares = 0;
+  for (const Real value : values) {
+    mean += value / count;
+    squares += value * value / count;
+  }
+  return {mean, std::sqrt(std::max(0.0, squares - mean * mean) / std::max(1.0, count - 1)) / mean};
+}
+
 }  // namespace
+
+/// Takes so many samples, each once, side by side.
+template <class Take>
+void Metropolis::look(std::span<const Moment> moments, std::int64_t samples, Job& job,
+                      const std::function<void()>& interrupt, const Take& take) const {
+  constexpr std::int64_t kChunk = 1024;
+  const std::int64_t chunks = (samples + kChunk - 1) / kChunk;
+  Work work("looking for light", chunks);
+  std::atomic<std::int64_t> looked{0};
+  Job looking;  // the other one counts what is done of the picture
+  parallelChunks(chunks, settings_.threads, looking, [&](std::int64_t chunk, int) {
+    if (job.cancel) looking.cancel = true;
+    if (looking.cancel) return;
+    Budget budget(interrupt);
+    const BudgetScope scope(&budget);
+    PixelTracer tracer(moments, settings_, size_);
+    Sampling sampling(tracer, area_);
+    for (std::int64_t n = chunk * kChunk; n < std::min(samples, (chunk + 1) * kChunk); ++n) take(sampling, n);
+    work.reached(++looked);
+  });
+}
 
 Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings, const Size& size, Job& job,
                        const std::function<void()>& interrupt)
@@ -65,40 +114,63 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   settings_.sampling = SampleKind::random;  // no grid: a chain moves without steps
   settings_.noiseTarget = 0;
   settings_.denoise = false;
-  constexpr std::int64_t kChunk = 1024;
-  const std::int64_t starts = settings.chainStarts, chunks = (starts + kChunk - 1) / kChunk;
-  sums_.resize(static_cast<std::size_t>(starts));
-  Work work("looking for light", chunks);
   if (changesPaths(settings_))
     paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
-  std::atomic<std::int64_t> looked{0};
-  Job looking;  // the other one counts what is done of the picture
-  parallelChunks(chunks, settings.threads, looking, [&](std::int64_t chunk, int) {
-    if (job.cancel) looking.cancel = true;
-    if (looking.cancel) return;
-    Budget budget(interrupt);
-    const BudgetScope scope(&budget);
-    PixelTracer tracer = this->tracer();
-    Sampling samples(tracer, area_, target_);
-    for (std::int64_t n = chunk * kChunk; n < std::min(starts, (chunk + 1) * kChunk); ++n) {
-      PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
-      sums_[static_cast<std::size_t>(n)] =
-          paths_ ? paths_->light(tracer, seedOf(static_cast<std::uint64_t>(n))) : samples.at(numbers).light;
-    }
-    work.reached(++looked);
-  });
-  if (job.cancel) return;
-  target_ = ChainTarget(sums_);
-  Real squares = 0;
-  for (Real& one : sums_) {
-    one = target_.of(one);
-    squares += one * one;
+  sums_ = startLights(job, interrupt);
+  if (!paths_ && !job.cancel) {
+    std::tie(mean_, error_) = wholeLight(job, interrupt);
+  } else {
+    std::tie(mean_, error_) = meanOf(sums_);
   }
+  if (job.cancel) return;
   for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
-  const Real count = static_cast<Real>(starts);
-  mean_ = sums_.back() / count;
-  error_ = std::sqrt(std::max(0.0, squares / count - mean_ * mean_) / count) / mean_;
-  if (!(mean_ > 0)) error_ = kInfinity;
+  if (!(sums_.back() > 0 && mean_ > 0)) error_ = kInfinity;
+}
+
+/// How bright the samples are at which chains may start.
+std::vector<Real> Metropolis::startLights(Job& job, const std::function<void()>& interrupt) const {
+  std::vector<Real> found(static_cast<std::size_t>(settings_.chainStarts));
+  look(moments_, std::ssize(found), job, interrupt, [&](Sampling& sampling, std::int64_t n) {
+    const auto number = static_cast<std::uint64_t>(n);
+    PrimarySample numbers = startOf(number, 0);
+    found[static_cast<std::size_t>(n)] =
+        paths_ ? paths_->light(sampling.tracer(), seedOf(number)) : sampling.at(numbers).light;
+  });
+  return found;
+}
+
+/// How bright samples are, on the mean, that show all ways to put their paths together, two in each square of
+/// the picture; and the standard error as a part of that. Half as many as of the others tell more exactly how
+/// bright the picture is: among those a few count a thousand times as much as most, and chance decides how
+/// many see a small lamp.
+std::pair<Real, Real> Metropolis::wholeLight(Job& job, const std::function<void()>& interrupt) const {
+  Settings settings = settings_;
+  settings.integrator = settings.chains == Chains::bdpt ? IntegratorKind::bdpt : IntegratorKind::path;
+  settings.lightVertices = settings.cameraVertices = -1;
+  settings.unweighted = false;
+  std::vector<std::unique_ptr<const Integrator>> integrators;
+  std::vector<Moment> moments;
+  for (const Moment& moment : moments_) {
+    integrators.push_back(makeIntegrator(*moment.world, settings, job));
+    moments.push_back({moment.world, integrators.back().get()});
+  }
+  const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(settings.chainStarts / 4.0)));
+  std::vector<Real> found(static_cast<std::size_t>(2 * side * side));
+  look(moments, std::ssize(found), job, interrupt, [&](Sampling& sampling, std::int64_t n) {
+    PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
+    const std::int64_t square = n / 2;
+    PlacedSample placed(numbers, {static_cast<Real>(square % side), static_cast<Real>(square / side)},
+                        static_cast<Real>(side));
+    found[static_cast<std::size_t>(n)] = sampling.at(placed).light;
+  });
+  const Real count = static_cast<Real>(found.size());
+  Real mean = 0, squares = 0;
+  for (std::size_t n = 0; n < found.size(); n += 2) {
+    const Real apart = found[n] - found[n + 1];
+    mean += (found[n] + found[n + 1]) / count;
+    squares += apart * apart;
+  }
+  return {mean, std::sqrt(squares) / count / mean};
 }
 
 PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) const {
@@ -122,14 +194,14 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
   const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
   const auto start = static_cast<std::uint64_t>(from - sums_.begin());
-  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, target_, mean_, watch);
+  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, mean_, watch);
   PrimarySample numbers = startOf(start, mixBits(chances));
-  Sampling samples(tracer, area_, target_);
+  Sampling samples(tracer, area_);
   // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how
   // often both choose this one, for each move and on the average, is the density of the two.
   const auto leave = [&](const Stop& at) {
-    if (!(at.target > 0)) return;
-    const Real counts = samples.pixels() * at.visits / (at.target / mean_ + settings_.moveAnywhere);
+    if (!(at.light > 0)) return;
+    const Real counts = samples.pixels() * at.visits / (at.light / mean_ + settings_.moveAnywhere);
     for (const Splat& splat : at.splats) splats.push_back({splat.x, splat.y, splat.value * counts});
   };
 
@@ -137,7 +209,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
   if (watch)
-    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.target, 0, 1,
+    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1,
            true},
           again);
   for (std::int64_t n = 0; n < moves; ++n) {
@@ -145,12 +217,12 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
     Stop there = samples.at(numbers);
-    const Real accepts = here.target > 0 ? std::min(1.0, there.target / here.target) : 1;
+    const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
     there.visits = accepts + (anywhere ? 1 : 0);
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.target, here.target,
+      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
              accepts, goes},
             again);
     if (goes) std::swap(here, there);

@@ -13,11 +13,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "image/film.h"
 #include "render/chain_move.h"
-#include "render/chain_target.h"
 #include "render/primary_sample.h"
 #include "render/veach_chain.h"
 
@@ -43,12 +43,17 @@ class Metropolis {
   /// The part of the picture where chains go.
   const Tile& area() const { return area_; }
   /// The standard error of how bright the picture is, relative to that: all that chains leave is in
-  /// proportion to the mean target of the samples taken first. Infinite where none of them found light.
+  /// proportion to the mean light of the samples taken first. Infinite where none of them found light.
   Real brightnessError() const { return error_; }
   /// With which their samples are taken.
   const Settings& settings() const { return settings_; }
 
  private:
+  template <class Take>
+  void look(std::span<const Moment> moments, std::int64_t samples, Job& job,
+            const std::function<void()>& interrupt, const Take& take) const;
+  std::vector<Real> startLights(Job& job, const std::function<void()>& interrupt) const;
+  std::pair<Real, Real> wholeLight(Job& job, const std::function<void()>& interrupt) const;
   PrimarySample startOf(std::uint64_t number, std::uint64_t moves) const;
   /// From which the numbers of a sample that is taken first follow.
   std::uint64_t seedOf(std::uint64_t start) const;
@@ -56,10 +61,9 @@ class Metropolis {
   std::span<const Moment> moments_;
   Settings settings_;
   Size size_;
-  Tile area_;  ///< of the picture that is rendered
-  ChainTarget target_;
-  std::vector<Real> sums_;  ///< of the targets of the samples that were taken first, up to and with each
-  Real mean_ = 0;           ///< target of a sample
+  Tile area_;               ///< of the picture that is rendered
+  std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
+  Real mean_ = 0;           ///< light of a sample
   Real error_ = 0;
   std::unique_ptr<const veach::Chains> paths_;  ///< where paths are changed, not the numbers of samples
 };

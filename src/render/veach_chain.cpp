@@ -10,7 +10,6 @@ namespace trace::veach {
 /// A path where a chain is, and how often it has been there, on the average over what chance could do.
 struct Chains::Stop {
   Path path{};
-  Real part = 1;  ///< targetPart()
   Real visits = 0;
 };
 
@@ -41,23 +40,10 @@ Path Chains::start(PixelTracer& tracer, Numbers& numbers) const {
 Real Chains::light(PixelTracer& tracer, std::uint64_t seed) const {
   Numbers numbers(seed);
   Path path = start(tracer, numbers);
-  return thrownLight(tracer, path);
-}
-
-/// What the path would bring if it were made from nothing.
-Real Chains::thrownLight(PixelTracer& tracer, Path& path) const {
   if (!(path.brightness > 0)) return 0;
   const Paths paths = this->paths(tracer, path.moment);
-  Numbers none(0);
-  const Real density = Moves(paths, rules_, none, settings_.moveSize).anywhereDensity(path);
+  const Real density = Moves(paths, rules_, numbers, settings_.moveSize).anywhereDensity(path);
   return density > 0 ? path.brightness / density : 0;
-}
-
-/// The part of the path's brightness that counts to the chain, by what it would bring if it were thrown: its
-/// brightness by itself is in units that depend on how many places it has.
-Real Chains::targetPart(PixelTracer& tracer, Path& path, const ChainTarget& target) const {
-  const Real light = thrownLight(tracer, path);
-  return light > 0 ? target.of(light) / light : 1;
 }
 
 /// The mutations that can change the path: the same of both that a perturbation leads from and to.
@@ -121,7 +107,7 @@ Splat Chains::pixelOf(const Path& path) const {
 
 void Chains::leave(const Stop& at, Real mean, std::vector<Splat>& splats) const {
   if (!(at.visits > 0)) return;
-  const Color value = at.path.f * (mean * at.visits / (at.path.brightness * at.part));
+  const Color value = at.path.f * (mean * at.visits / at.path.brightness);
   rules_.spread(at.path.film, [&](int x, int y, Real share) {
     if (x >= area_.x0 && x < area_.x1 && y >= area_.y0 && y < area_.y1)
       splats.push_back({x, y, value * share});
@@ -129,41 +115,33 @@ void Chains::leave(const Stop& at, Real mean, std::vector<Splat>& splats) const 
 }
 
 std::vector<Splat> Chains::chain(PixelTracer& tracer, std::uint64_t start, std::uint64_t seed,
-                                 std::int64_t moves, const ChainTarget& target, Real mean,
-                                 const ChainWatch& watch) const {
+                                 std::int64_t moves, Real mean, const ChainWatch& watch) const {
   std::vector<Splat> splats;
   Numbers first(start), numbers(seed);
   Stop here{this->start(tracer, first)};
-  here.part = targetPart(tracer, here.path, target);
-  const auto tell = [&](ChainMove move, const Path& path, Real part) {
+  const auto tell = [&](ChainMove move, const Path& path) {
     const Path& shown = path.nodes.empty() ? here.path : path;
     const Splat pixel = pixelOf(shown);
     move.x = pixel.x;
     move.y = pixel.y;
-    if (path.brightness > 0 || move.number < 0)
-      move.brings =
-          shown.f / shown.nodes.front().factor.r;  // without the camera's part, as its rays bring it
-    move.light = path.brightness * part;
+    if (path.brightness > 0 || move.number < 0)  // without the camera's part, as its rays bring it
+      move.brings = shown.f / shown.nodes.front().factor.r;
+    move.light = path.brightness;
     watch(move, [&](PixelTracer& other) {
       record(shown, other.tracer(shown.moment));
       return pixel;
     });
   };
-  if (watch) tell({.number = -1, .kind = MoveKind::anywhere}, here.path, here.part);
+  if (watch) tell({.number = -1, .kind = MoveKind::anywhere}, here.path);
   for (std::int64_t n = 0; n < moves; ++n) {
     MoveKind kind;
     Offer offer = this->offer(tracer, here.path, numbers, kind);
-    const Real part = targetPart(tracer, offer.path, target);
-    const Real accepts = offer.path.brightness > 0 ? std::min(1.0, offer.ratio * part / here.part) : 0;
+    const Real accepts = offer.path.brightness > 0 ? std::min(1.0, offer.ratio) : 0;
     const bool goes = numbers.next() < accepts;
     if (watch)
-      tell({.number = n,
-            .kind = kind,
-            .before = here.path.brightness * here.part,
-            .chance = accepts,
-            .made = goes},
-           offer.path, part);
-    Stop there{std::move(offer.path), part, accepts};
+      tell({.number = n, .kind = kind, .before = here.path.brightness, .chance = accepts, .made = goes},
+           offer.path);
+    Stop there{std::move(offer.path), accepts};
     here.visits += 1 - accepts;
     if (goes) std::swap(here, there);
     leave(there, mean, splats);

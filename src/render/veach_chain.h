@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/chain_move.h"
-#include "render/chain_target.h"
 #include "render/veach_moves.h"
 
 namespace trace::veach {
@@ -19,9 +18,9 @@ class Chains {
   /// How bright the picture is by the path that is made from nothing with these numbers: over its density.
   Real light(PixelTracer& tracer, std::uint64_t seed) const;
   /// What a chain leaves in the picture that starts at that path, in so many moves; `mean` is that of
-  /// the target of light().
+  /// light().
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t start, std::uint64_t seed, std::int64_t moves,
-                           const ChainTarget& target, Real mean, const ChainWatch& watch) const;
+                           Real mean, const ChainWatch& watch) const;
 
  private:
   struct Stop;
@@ -32,8 +31,6 @@ class Chains {
   std::vector<MoveKind> mutationsOf(const Moves& moves, const Path& path) const;
   Real anywhereChance(const std::vector<MoveKind>& kinds) const;
   void leave(const Stop& at, Real mean, std::vector<Splat>& splats) const;
-  Real thrownLight(PixelTracer& tracer, Path& path) const;
-  Real targetPart(PixelTracer& tracer, Path& path, const ChainTarget& target) const;
   Splat pixelOf(const Path& path) const;
 
   const Settings& settings_;

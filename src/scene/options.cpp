@@ -28,7 +28,7 @@ template <>
 constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
     "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
 template <>
-constexpr std::array<std::string_view, 3> kNames<Chains>{"path", "bdpt", "veach"};
+constexpr std::array<std::string_view, 3> kNames<Chains>{"bdpt", "path", "veach"};
 template <>
 constexpr std::array<std::string_view, 4> kNames<Mutation>{"bidirectional", "lens", "caustic", "multi-chain"};
 template <>

@@ -19,7 +19,7 @@ namespace trace {
 enum class Accel { bvh, none };
 enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
 /// What the chains of mlt move among: an integrator's samples, or paths, which are changed place by place.
-enum class Chains { path, bdpt, veach };
+enum class Chains { bdpt, path, veach };
 /// How paths are changed place by place.
 enum class Mutation { bidirectional, lens, caustic, multiChain };
 /// How the samples of a pixel are spread: a row of render/sampler.cpp.

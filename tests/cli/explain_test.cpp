@@ -87,7 +87,7 @@ TEST_F(Explain, TellsOfWaysAndOfAChain) {
   std::vector<std::string> veach = mlt;
   veach.insert(veach.end(), {"--chains", "veach"});
   EXPECT_NE(out(veach).find("sum to the pixel as it was traced, bit for bit"), std::string::npos);
-  EXPECT_FALSE(contains(error(veach, 0), "changes nothing")) << "of the paths that are shown";
+  EXPECT_FALSE(contains(error(veach, 0), "--chains changes nothing")) << "for the paths that are shown";
   mlt.insert(mlt.end(), {"--format", "json"});
   const json chain = json::parse(out(mlt))["chain"];
   ASSERT_GT(chain["moves"].size(), 100u);
