@@ -26,6 +26,13 @@ std::string withoutLastZeros(std::string text) {
   return text;
 }
 
+/// .025 for 0.025; "" for what has no such zero.
+std::string withoutFirstZero(std::string text) {
+  const std::size_t zero = text.find("0.");
+  const bool first = zero == 0 || (zero == 1 && text[0] == '-');
+  return first ? text.erase(zero, 1) : "";
+}
+
 /// 1.5e3, where printf says 1.500e+03.
 std::string scientific(double value, int digits) {
   const std::string text = printed("%.*e", digits - 1, value);
@@ -46,8 +53,8 @@ std::string shortNumber(double value, const std::string& format,
   for (int digits = kMostDigits; digits > 0; --digits) {
     const std::string tens = printed("%.*e", digits - 1, value);  // with the exponent that rounding leads to
     const int decimals = digits - 1 - std::atoi(tens.c_str() + tens.find('e') + 1);
-    const std::string spellings[] = {decimals < 0 ? "" : withoutLastZeros(printed("%.*f", decimals, value)),
-                                     scientific(value, digits)};
+    const std::string plain = decimals < 0 ? "" : withoutLastZeros(printed("%.*f", decimals, value));
+    const std::string spellings[] = {plain, scientific(value, digits), withoutFirstZero(plain)};
     for (const std::string& text : spellings)
       if (!text.empty() && fits(text) && (digits > 1 || std::strtod(text.c_str(), nullptr) == value))
         return text;

@@ -173,6 +173,27 @@ TEST_F(DocumentTest, WhatWasSavedBeforeIsKeptTooIfASaveLosesSomethingOfIt) {
   EXPECT_FALSE(fs::exists(path("animated.ray.bak2"))) << "nothing more was lost";
 }
 
+TEST_F(DocumentTest, AGroupInASolidThatIsWrittenAnewIsKeptAsItWasSavedBefore) {
+  write("solid.ray", R"(SBT-raytracer 1.0
+camera { position=(0,0,8); viewdir=(0,0,-1); updir=(0,1,0); }
+difference { box { } rotate(0, 0, 1, 0.3, union { sphere { } translate(1, 0, 0, sphere { }) /* mine */ }) }
+)");
+  Document document;
+  document.open(path("solid.ray"));
+  document.choose("depth", "9");
+  EXPECT_TRUE(document.save(path("solid.ray")).empty());
+  const std::string saved = readFile(path("solid.ray"));
+  Scene scene = document.scene();
+  auto& whole = *scene.objects.at(0).shape.edit<Difference>();
+  std::vector<Operand> operands = whole.objects.list();
+  operands.at(1).shape = Torus{};
+  whole.objects = Operands(operands);
+  document.edit("solid", scene);
+  document.save(path("solid.ray"));
+  ASSERT_EQ(readFile(path("solid.ray")).find("mine"), std::string::npos);
+  EXPECT_EQ(readFile(path("solid.ray.bak")), saved);
+}
+
 TEST_F(DocumentTest, AnothersEditThatWasReadAndUndoneIsKeptInAFileBeside) {
   Document document;
   document.open(path("scene.ray"));

@@ -18,6 +18,7 @@ TEST(ShortNumber, TheFormatStaysAsLongAsItFits) {
   EXPECT_EQ(inRoom(8, 0.5, "%.2f m"), "0.50 m");
   EXPECT_EQ(inRoom(5, 0.5, "%.2f m"), "0.50");
   EXPECT_EQ(inRoom(3, 0.5, "%.2f m"), "0.5");
+  EXPECT_EQ(inRoom(2, 0.5, "%.2f m"), ".5");
   EXPECT_EQ(inRoom(5, 12, "%.0f rays"), "12");
 }
 
@@ -29,8 +30,10 @@ TEST(ShortNumber, AsManyDigitsStandAsFitAndNoExponentIsCut) {
   EXPECT_EQ(inRoom(6, 123456), "123456");
   EXPECT_EQ(inRoom(5, 0.0001), "1e-4");
   EXPECT_EQ(inRoom(6, 0.0001), "0.0001");
-  EXPECT_EQ(inRoom(4, 0.1234), "0.12");
-  EXPECT_EQ(inRoom(5, -0.1234), "-0.12");
+  EXPECT_EQ(inRoom(5, 0.1234), "0.123");
+  EXPECT_EQ(inRoom(4, 0.1234), ".123");
+  EXPECT_EQ(inRoom(4, 0.025), ".025");
+  EXPECT_EQ(inRoom(5, -0.1234), "-.123");
   EXPECT_EQ(inRoom(3, 9.99), "10") << "rounded up";
   EXPECT_EQ(inRoom(4, 100000, "%.0f rays"), "1e5");
 }
@@ -38,7 +41,7 @@ TEST(ShortNumber, AsManyDigitsStandAsFitAndNoExponentIsCut) {
 TEST(ShortNumber, WhereNothingRightFitsThereAreDots) {
   EXPECT_EQ(inRoom(3, 1500), "...");
   EXPECT_EQ(inRoom(4, 12345), "...");
-  EXPECT_EQ(inRoom(3, 0.1234), "...") << "0.1 would be wrong by a fifth";
+  EXPECT_EQ(inRoom(2, 0.1234), "...") << ".1 would be wrong by a fifth";
   EXPECT_EQ(inRoom(3, 12345, "%.0f rays"), "...");
   EXPECT_EQ(inRoom(1, 0), "0");
 }

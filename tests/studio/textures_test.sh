@@ -21,6 +21,8 @@ step 'save-scene saved.ray' # 61
 step 'action Undo' 'action Undo' 'action Undo' 'save-scene undone.ray' # 62
 for ((i = 0; i < 10; ++i)); do step; done
 step 'save-scene plain.ray' # 73
+for ((i = 0; i < 12; ++i)); do step; done
+step 'save-scene mended.ray' # 86
 start scene.ray
 
 double() { goTo "${@:2}"; slowly doubleClickAndType "$1"; xdotool key Return; next; }
@@ -106,3 +108,18 @@ click field diffuse kind plain
 is undo "${material}diffuse plain" "the texture went"
 skipTo 73
 grep -q 'diffuse = (1, 1, 1)' plain.ray || fail "the plain value was not saved: $(cat plain.ray)"
+# A formula with a mistake stays in its field to be mended.
+click field diffuse texture
+click field diffuse kind formula
+seek field diffuse value text
+goTo field diffuse value text
+typeName '0.5 * sin(x'
+line logged | grep -q 'not taken' || fail "the log does not say that the formula was not taken: $(line logged)"
+is undo "${material}diffuse formula" "a formula with a mistake was taken"
+goTo field diffuse value text
+xdotool click 1 key End type --delay 5 ')'
+xdotool key Return
+next
+is undo "${material}diffuse formula value" "the formula was not mended"
+skipTo 86
+grep -q '"0.5 \* sin(x)"' mended.ray || fail "the mended formula was not saved: $(cat mended.ray)"

@@ -108,7 +108,7 @@ done
 echo 'pixel 0 0' >script
 ! "$studio" --script script >log 2>&1 || fail "a pixel is clicked without a scene"
 grep -q 'script:1:1.*no scene' log || fail "\"pixel\" without a scene is not told with its line"
-echo '@' >broken.ray
+printf 'SBT-raytracer 1.0\n@\n' >broken.ray
 for script in '' '# nothing' wait; do
   echo "$script" >script
   for start in 'scene.ray --reference none.png' none.ray broken.ray; do
@@ -116,7 +116,7 @@ for script in '' '# nothing' wait; do
     # shellcheck disable=SC2086
     "$studio" $start --script script >log 2>&1 || code=$?
     [[ $code == 1 ]] || fail "\"$start\" with the script \"$script\" ends with exit code $code, not 1"
-    grep -q 'none\|broken.ray:1' log || fail "\"$start\" is refused without its name"
+    grep -q 'none\|broken.ray:2' log || fail "\"$start\" is refused without its name"
     ! grep -q 'script' log || fail "\"$start\" is told as a mistake of the script"
   done
 done
