@@ -21,7 +21,7 @@ std::string routeOf(const Session& session, const Landing& landing) {
   rays.erase(rays.begin());                    // to the camera
   std::string route;
   for (auto ray = rays.rbegin(); ray != rays.rend(); ++ray) {
-    const RayNode& node = tree.nodes[static_cast<std::size_t>(*ray)];
+    const RayNode& node = rayAt(tree, *ray);
     const bool last = ray + 1 == rays.rend();
     route += ray == rays.rbegin() ? "from a light by " : last ? " and " : ", ";
     route += node.hit ? objectName(session.scene(), node.hit->object) : "a medium";

@@ -8,8 +8,6 @@
 namespace trace {
 namespace {
 
-const RayNode& nodeOf(const RayTree& tree, int ray) { return tree.nodes[static_cast<std::size_t>(ray)]; }
-
 /// What shines, reflects or scatters there.
 std::string placeOf(const RayNode& node, const Scene& scene) {
   return node.hit ? objectName(scene, node.hit->object) : "air";
@@ -27,7 +25,7 @@ std::string sourceOf(const Term& term, const RayNode& node, const RayTree& tree,
     case TermKind::photons: return "photons on " + here;
     case TermKind::irradiance: return "the irradiance cache on " + here;
     case TermKind::lamp: {
-      const RayNode& asked = nodeOf(tree, term.ray);
+      const RayNode& asked = rayAt(tree, term.ray);
       return (asked.hit ? objectName(scene, asked.hit->object) : "the sky") + " on " + here;
     }
     case TermKind::joined: return "a path from a light that was joined with one on " + here;
@@ -43,14 +41,14 @@ std::string sourceOf(const Term& term, const RayNode& node, const RayTree& tree,
 /// How the ray comes from the camera: ", by reflection in ball and 3 more rays"; "" for the camera ray.
 std::string wayOf(int ray, const RayTree& tree, const Scene& scene) {
   int first = ray, more = 0;
-  for (int parent = nodeOf(tree, ray).parent; parent > 0; parent = nodeOf(tree, parent).parent) {
+  for (int parent = rayAt(tree, ray).parent; parent > 0; parent = rayAt(tree, parent).parent) {
     first = parent;
     ++more;
   }
-  const RayNode& node = nodeOf(tree, first);
+  const RayNode& node = rayAt(tree, first);
   if (node.parent < 0) return "";
   const std::string kind(name(node.kind));
-  return ", by " + kind + " in " + placeOf(nodeOf(tree, node.parent), scene) +
+  return ", by " + kind + " in " + placeOf(rayAt(tree, node.parent), scene) +
          (more == 0 ? "" : " and " + std::to_string(more) + (more == 1 ? " more ray" : " more rays"));
 }
 
@@ -60,7 +58,7 @@ std::vector<LightShare> lightShares(const RayTree& tree, const Scene& scene) {
   std::vector<LightShare> shares;
   double all = 0;
   for (int ray = 0; ray < static_cast<int>(tree.nodes.size()); ++ray) {
-    const RayNode& node = nodeOf(tree, ray);
+    const RayNode& node = rayAt(tree, ray);
     if (node.kind == RayKind::shadow || node.kind == RayKind::light || node.kind == RayKind::lamp) continue;
     for (const Term& term : node.terms) {
       const Color brings = node.weight * node.through * term.factor * term.value;

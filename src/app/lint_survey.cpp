@@ -103,7 +103,7 @@ class Surveyor {
     bool cutShort = false;
     for (const RayNode& node : tree.nodes) {
       if (!counts(node)) continue;
-      if (node.parent >= 0) sent(tree.nodes[static_cast<std::size_t>(node.parent)], node);
+      if (node.parent >= 0) sent(rayAt(tree, node.parent), node);
       if (!node.hit) continue;
       place(tree, node);
       if (node.kind == RayKind::camera) coplanar(node);
@@ -142,7 +142,7 @@ class Surveyor {
         ++seen.facesAway;
         continue;
       }
-      const RayNode& shadow = tree.nodes[static_cast<std::size_t>(term.ray)];
+      const RayNode& shadow = rayAt(tree, term.ray);
       if (!shadow.ends.empty())
         if (const auto* blocked = std::get_if<Blocked>(&shadow.ends.front())) {
           ++seen.blockedBy[blocked->object];

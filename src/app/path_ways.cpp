@@ -9,8 +9,6 @@
 namespace trace {
 namespace {
 
-const RayNode& rayAt(const RayTree& tree, int index) { return tree.nodes[static_cast<std::size_t>(index)]; }
-
 /// The rays of the path from a light, in order: the first reaches its second place.
 std::vector<int> lightPath(const RayTree& tree) {
   std::vector<int> rays;

@@ -9,8 +9,6 @@
 namespace trace {
 namespace {
 
-const RayNode& at(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
-
 std::string text(Real number) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.5g", number + 0.0);  // no -0
@@ -28,13 +26,13 @@ bool ends(const RayNode& node) {
 std::vector<std::vector<int>> childrenOf(const RayTree& tree) {
   std::vector<std::vector<int>> children(tree.nodes.size());
   for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i)
-    if (at(tree, i).parent >= 0) children[static_cast<std::size_t>(at(tree, i).parent)].push_back(i);
+    if (rayAt(tree, i).parent >= 0) children[static_cast<std::size_t>(rayAt(tree, i).parent)].push_back(i);
   return children;
 }
 
 /// What a ray is for, seen from its parent: rays of two trees with the same name correspond.
 std::pair<RayKind, std::uint32_t> rayIdentity(const RayTree& tree, int node) {
-  return {at(tree, node).kind, lightOf(tree, node).value_or(0)};
+  return {rayAt(tree, node).kind, lightOf(tree, node).value_or(0)};
 }
 
 class Differ {
@@ -54,7 +52,7 @@ class Differ {
 
  private:
   void both(int i, int j, int depth) {
-    const std::string what = compare(at(a_, i), at(b_, j));
+    const std::string what = compare(rayAt(a_, i), rayAt(b_, j));
     pairs_.push_back({i, j, depth, !what.empty(), what});
     const std::vector<int>& left = childrenA_[static_cast<std::size_t>(i)];
     std::vector<int> right = childrenB_[static_cast<std::size_t>(j)];
@@ -112,7 +110,7 @@ Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * nod
 
 std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, int index,
                                                            const Scene& scene) {
-  const RayNode& node = at(tree, index);
+  const RayNode& node = rayAt(tree, index);
   std::vector<std::pair<std::string, std::string>> rows;
   const auto row = [&](std::string name, std::string value) {
     rows.emplace_back(std::move(name), std::move(value));

@@ -65,7 +65,7 @@ class Writer {
   explicit Writer(const Scene& scene) : scene_(scene) {}
 
   Json ray(const RayTree& tree, int index) const {
-    const RayNode& node = tree.nodes[static_cast<std::size_t>(index)];
+    const RayNode& node = rayAt(tree, index);
     Json json;
     json["id"] = index;
     json["kind"] = name(node.kind);

@@ -10,8 +10,6 @@
 namespace trace {
 namespace {
 
-const RayNode& at(const RayTree& tree, int node) { return tree.nodes[static_cast<std::size_t>(node)]; }
-
 bool same(const Color& a, const Color& b) {
   const auto equal = [](double x, double y) {
     return std::isnan(x) ? std::isnan(y) : x == y && std::signbit(x) == std::signbit(y);
@@ -125,7 +123,7 @@ std::vector<MaterialShare> sharesOf(const MaterialMix& mix) {
 }
 
 Color recomputed(const RayTree& tree, int index) {
-  const RayNode& node = at(tree, index);
+  const RayNode& node = rayAt(tree, index);
   if (node.kind == RayKind::shadow) {
     if (!node.ends.empty() && std::holds_alternative<Blocked>(node.ends.front())) return Color(0);
     Color passed(1);
@@ -140,7 +138,7 @@ Color recomputed(const RayTree& tree, int index) {
 
 bool sumsUp(const RayTree& tree) {
   for (int i = 0; i < static_cast<int>(tree.nodes.size()); ++i)
-    if (!same(at(tree, i).radiance, recomputed(tree, i))) return false;
+    if (!same(rayAt(tree, i).radiance, recomputed(tree, i))) return false;
   return true;
 }
 
@@ -154,9 +152,9 @@ void weigh(RayTree& tree, Real cameraWeight) {
 }
 
 const Term* termOf(const RayTree& tree, int index) {
-  const int parent = at(tree, index).parent;
+  const int parent = rayAt(tree, index).parent;
   if (parent < 0) return nullptr;
-  for (const Term& term : at(tree, parent).terms)
+  for (const Term& term : rayAt(tree, parent).terms)
     if (term.ray == index) return &term;
   return nullptr;
 }

@@ -262,6 +262,9 @@ struct RayTree {
   int moment = -1;  ///< of those while the shutter is open; -1: there is but one
   std::vector<RayNode> nodes;
 };
+inline const RayNode& rayAt(const RayTree& tree, int ray) {
+  return tree.nodes[static_cast<std::size_t>(ray)];
+}
 
 /// What the node's radiance is by its recorded terms and those of the rays below it.
 Color recomputed(const RayTree& tree, int node = 0);

@@ -79,7 +79,7 @@ class Moves {
   bool goOn(Walk& walk, const Vertex& from, RayKind& leaves);
   bool join(Path& path, const Walk& walk, const Path& from, const Kept& kept);
 
-  bool joinAgain(Path& path, const Path& from, std::size_t joint);
+  Offer fromFilm(const Path& from, std::size_t joint);
   Real shortWay();
   Vec2 moved(const Vec2& film);
   Vec3 moved(const Vec3& direction);

@@ -39,41 +39,48 @@ bool Moves::hasLens(const Path& path) const {
   return joint + 1 >= end || isSpread(path, joint + 1);
 }
 
-/// The path goes up to the place `joint`: the rest is that of the other, or it has come to such an end.
-bool Moves::joinAgain(Path& path, const Path& from, std::size_t joint) {
-  if (joint < from.last())
-    return path.nodes.back().vertex->place.joins() &&
-           paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
-  return path.end == from.end ||
-         (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
-}
-
-/// The densities of the film's place are the same both ways, and what is left of T is 1 / G of the edge that
-/// joins the path again, and the camera's density, which stands in f, too.
-Offer Moves::lens(const Path& from) {
+/// The place of the film is moved, and so are the directions of all places before `joint` from where paths do
+/// not go on by mirrors and glass; from there on the rest is the same. T is the product of the densities of
+/// these directions, over G of the edge that joins the path again; that of the film's place is the same both
+/// ways, and the camera's density stands in f, too.
+Offer Moves::fromFilm(const Path& from, std::size_t joint) {
   Offer offer;
   Path& path = offer.path;
   path.moment = from.moment;
   if (!paths_.begin(path, moved(from.film), from.lens)) return offer;
   const std::size_t end = from.last();
-  std::size_t joint = 1;  // the first place that may be joined
-  while (joint < end && !isSpread(from, joint)) ++joint;
   const auto build = [&] {
-    for (std::size_t i = 0; i < joint; ++i)
-      if (!paths_.follow(path, from.nodes[i].leaves) || (path.end != Path::End::open && i + 1 < end))
+    for (std::size_t i = 0; i < joint; ++i) {
+      const Vec3 direction = isSpread(from, i) ? moved(from.toLight(i)) : Vec3{};
+      if (!paths_.follow(path, from.nodes[i].leaves, direction) ||
+          (path.end != Path::End::open && i + 1 < end))
         return false;
-    return joinAgain(path, from, joint);
+    }
+    if (joint < end)
+      return path.nodes.back().vertex->place.joins() &&
+             paths_.attach(path, RayKind::bounce, from, joint + 1, from.nodes[joint + 1].leaves);
+    return path.end == from.end ||
+           (from.end == Path::End::lamp && path.nodes.back().vertex && paths_.endAtLamp(path));
   };
   if (!build() || !paths_.weigh(path, 0, joint + 1)) {
     path.brightness = 0;
     return offer;
   }
   const auto perDensity = [&](const Path& p) {
-    const Real joins = joint < end ? p.joins(joint) : 1;
-    return p.brightness * joins / p.nodes[0].factor.r;
+    Real result = p.brightness * (joint < end ? p.joins(joint) : 1) / p.nodes[0].factor.r;
+    for (std::size_t i = 1; i < joint; ++i)
+      if (isSpread(p, i)) result *= p.vertex(i).place.cosine(p.toLight(i));
+    return result;
   };
   if (const Real now = perDensity(from); now > 0) offer.ratio = perDensity(path) / now;
   return offer;
+}
+
+/// Joined is the first place from where the path does not go on by mirrors and glass.
+Offer Moves::lens(const Path& from) {
+  std::size_t joint = 1;
+  while (joint < from.last() && !isSpread(from, joint)) ++joint;
+  return fromFilm(from, joint);
 }
 
 bool Moves::hasCaustic(const Path& path) const {
@@ -144,37 +151,13 @@ bool Moves::hasMultiChain(const Path& path) const {
   return first + 1 < end && !isSpread(path, first + 1);
 }
 
-/// T is the product of the densities of all directions, over G of the edge that joins the path again.
+/// Joined is the first place from where the path goes on by none, to a place from where it does not either.
 Offer Moves::multiChain(const Path& from) {
-  Offer offer;
-  Path& path = offer.path;
-  path.moment = from.moment;
-  if (!paths_.begin(path, moved(from.film), from.lens)) return offer;
   const std::size_t end = from.last();
   const auto leads = [&](std::size_t i) { return i + 1 < end && !isSpread(from, i + 1); };  // to a mirror
   std::size_t joint = 1;
   while (joint < end && (!isSpread(from, joint) || leads(joint))) ++joint;
-  const auto build = [&] {
-    for (std::size_t i = 0; i < joint; ++i) {
-      const Vec3 direction = isSpread(from, i) ? moved(from.toLight(i)) : Vec3{};
-      if (!paths_.follow(path, from.nodes[i].leaves, direction) ||
-          (path.end != Path::End::open && i + 1 < end))
-        return false;
-    }
-    return joinAgain(path, from, joint);
-  };
-  if (!build() || !paths_.weigh(path, 0, joint + 1)) {
-    path.brightness = 0;
-    return offer;
-  }
-  const auto perDensity = [&](const Path& p) {
-    Real result = p.brightness * (joint < end ? p.joins(joint) : 1) / p.nodes[0].factor.r;
-    for (std::size_t i = 1; i < joint; ++i)
-      if (isSpread(p, i)) result *= p.vertex(i).place.cosine(p.toLight(i));
-    return result;
-  };
-  if (const Real now = perDensity(from); now > 0) offer.ratio = perDensity(path) / now;
-  return offer;
+  return fromFilm(from, joint);
 }
 
 }  // namespace trace::veach

@@ -14,10 +14,6 @@ inline constexpr ImGuiTableFlags kRayTable = ImGuiTableFlags_RowBg | ImGuiTableF
                                              ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_Resizable |
                                              ImGuiTableFlags_PadOuterX;
 
-inline const RayNode& nodeAt(const RayTree& tree, int node) {
-  return tree.nodes[static_cast<std::size_t>(node)];
-}
-
 ImVec4 rayColour(const Studio& studio, const TracedPixel& pixel, int ray);
 const char* rayName(const TracedPixel& pixel, int ray);
 /// The object, light or medium that the ray came to; "" if none.

@@ -77,7 +77,7 @@ void drawBoxes(Studio& studio) {
 void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
   if (view.selected < 0) return ImGui::TextDisabled("select a ray, in space or in the table");
-  const RayNode& node = nodeAt(pixel.tree(), view.selected);
+  const RayNode& node = rayAt(pixel.tree(), view.selected);
   ImGui::PushTextWrapPos();
   ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s ray: %s", rayName(pixel, view.selected),
                      sentence(node, pixel.scene()).c_str());
@@ -123,7 +123,7 @@ void showBoxes(Studio& studio) {
   if (!pixel || view.selected < 0) return;
   const Session& session = *pixel->session;
   view.boxes =
-      visitedBoxes(session.worldOf(pixel->tree()), session.settings(), nodeAt(pixel->tree(), view.selected));
+      visitedBoxes(session.worldOf(pixel->tree()), session.settings(), rayAt(pixel->tree(), view.selected));
   view.boxesOf = view.selected;
   view.box = static_cast<int>(view.boxes.size());
 }

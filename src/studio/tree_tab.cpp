@@ -101,7 +101,7 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s",
-                     sentence(nodeAt(pixel.tree(), view.selected), pixel.scene()).c_str());
+                     sentence(rayAt(pixel.tree(), view.selected), pixel.scene()).c_str());
 }
 
 }  // namespace trace::studio

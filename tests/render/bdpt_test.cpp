@@ -11,6 +11,7 @@
 #include "image/srgb.h"
 #include "math/hypothesis.h"
 #include "render/explain.h"
+#include "support/lights.h"
 #include "support/random.h"
 #include "support/rooms.h"
 
@@ -101,30 +102,7 @@ TEST(Bidirectional, EveryWayShowsTheLightOfABallAndOfAMesh) {
 }
 
 TEST(Bidirectional, EveryWayShowsTheLightsOfTheScene) {
-  const std::vector<std::pair<const char*, Light>> lights{
-      {"point", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1)}},
-      {"another law of distance",
-       PointLight{
-           .position = {0.5, 1.5, 0.8}, .color = Color(1), .constant = 0.5, .linear = 0.3, .quadratic = 0}},
-      {"far point", PointLight{.position = {4, 15, 12}, .color = Color(300)}},
-      {"ball", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1), .radius = 0.3}},
-      {"spot", SpotLight{.position = {0.5, 1.8, 0.8},
-                         .direction = {-0.4, -1, -0.5},
-                         .color = Color(1),
-                         .angle = 40,
-                         .fullAngle = 20,
-                         .exponent = 3}},
-      {"sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1)}},
-      {"broad sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1), .size = 20}},
-      {"panel",
-       RectangleLight{.position = {0.2, 1.6, 0.3}, .u = {1, 0, 0}, .v = {0, 0, 1}, .color = Color(3)}},
-      {"round panel", RectangleLight{.position = {0.2, 1.2, 0.3},
-                                     .u = {1, 0, 0},
-                                     .v = {0, 0.6, 0.6},
-                                     .color = Color(3),
-                                     .round = true,
-                                     .twoSided = true}}};
-  for (const auto& [name, light] : lights) {
+  for (const auto& [name, light] : lightsOfEveryKind()) {
     SCOPED_TRACE(name);
     Scene scene = corner();
     scene.lights.push_back({light, {}});

@@ -6,6 +6,7 @@
 #include "geometry/shapes/square.h"
 #include "image/srgb.h"
 #include "support/quarters.h"
+#include "support/rooms.h"
 #include "support/scenes.h"
 
 namespace trace::test::metropolis_test {
@@ -146,24 +147,7 @@ TEST(Metropolis, TheSameBitsForAnyNumberOfThreadsAndAfterAStop) {
   Settings settings = chains(3, 40);
   settings.chainStarts = 3000;
   settings.passes = {Pass::depth};
-  const World world = build(gap(true), settings);
-  const Camera camera;
-  settings.threads = 1;
-  const Picture one = picture(world, settings, camera);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    EXPECT_EQ(picture(world, settings, camera), one);
-  }
-  Film part = makeFilm(settings, 40, 40);
-  Job job;
-  Settings fewer = settings;
-  fewer.spp = 1;
-  Film first = makeFilm(fewer, 40, 40);
-  render(world, fewer, first, job);
-  part.restore(first.saved());
-  render(world, settings, part, job);
-  EXPECT_TRUE(part.complete());
-  EXPECT_EQ(part.picture(), one);
+  EXPECT_EQ(afterAStop(gap(true), settings, 1), sameForAnyThreads(gap(true), settings));
 }
 
 TEST(Metropolis, LookingForLightIsNoPartOfThePictureThatIsDone) {

@@ -89,52 +89,52 @@ TEST(Sampler, ASingleNumberIsTheFirstOfTwo) {
   }
 }
 
+/// The mean and the mean square of the error of a share that is estimated in each of many pixels.
+template <class IsInside>
+std::pair<Real, Real> errorsOf(const GeneratorRow& row, int samples, Real share, const IsInside& isInside) {
+  constexpr int kPixels = 1000;
+  const SampleRules rules(with(row, samples), {kPixels, 1});
+  Real square = 0, mean = 0;
+  for (int x = 0; x < kPixels; ++x) {
+    Real inside = 0;
+    for (int k = 0; k < samples; ++k) inside += isInside(Sampler(rules, x, 0, k).branch(5));
+    const Real error = inside / samples - share;
+    mean += error / kPixels, square += error * error / kPixels;
+  }
+  return {mean, square};
+}
+
 TEST(Sampler, EvenPairsEstimateBetterThanChance) {
-  constexpr int kSamples = 16, kPixels = 1000;
+  constexpr int kSamples = 16;
+  constexpr Real kShare = kPi / 4, kByChance = kShare * (1 - kShare) / kSamples;
   for (const GeneratorRow& row : generators()) {
-    const SampleRules rules(with(row, kSamples), {1000, 1});
-    Real square = 0, mean = 0;
-    for (int x = 0; x < kPixels; ++x) {
-      Real inside = 0;
-      for (int k = 0; k < kSamples; ++k) {
-        const Vec2 u = Sampler(rules, x, 0, k).branch(5).next2();
-        inside += u.x * u.x + u.y * u.y < 1;
-      }
-      const Real error = inside / kSamples - kPi / 4;
-      mean += error / kPixels, square += error * error / kPixels;
-    }
-    const Real byChance = kPi / 4 * (1 - kPi / 4) / kSamples;
+    const auto [mean, square] = errorsOf(row, kSamples, kShare, [](Sampler sampler) {
+      const Vec2 u = sampler.next2();
+      return u.x * u.x + u.y * u.y < 1;
+    });
     EXPECT_NEAR(mean, 0, 0.006) << row.name;
     if (row.kind == SampleKind::random)
-      EXPECT_NEAR(square, byChance, 0.15 * byChance);
+      EXPECT_NEAR(square, kByChance, 0.15 * kByChance);
     else
-      EXPECT_LT(square, 0.5 * byChance) << row.name;
+      EXPECT_LT(square, 0.5 * kByChance) << row.name;
   }
 }
 
 // The share of the samples in a ball around a corner, which depends on all four numbers at once.
 TEST(Sampler, TwoPairsOfABranchEstimateWhatDependsOnBoth) {
-  constexpr int kSamples = 64, kPixels = 1000;
+  constexpr int kSamples = 64;
+  constexpr Real kShare = kPi * kPi / 32, kByChance = kShare * (1 - kShare) / kSamples;
   for (const GeneratorRow& row : generators()) {
-    const SampleRules rules(with(row, kSamples), {1000, 1});
-    Real square = 0, mean = 0;
-    for (int x = 0; x < kPixels; ++x) {
-      Real inside = 0;
-      for (int k = 0; k < kSamples; ++k) {
-        Sampler sampler = Sampler(rules, x, 0, k).branch(5);
-        const Vec2 u = sampler.next2(), v = sampler.second2();
-        inside += u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y < 1;
-      }
-      const Real error = inside / kSamples - kPi * kPi / 32;
-      mean += error / kPixels, square += error * error / kPixels;
-    }
-    const Real share = kPi * kPi / 32, byChance = share * (1 - share) / kSamples;
+    const auto [mean, square] = errorsOf(row, kSamples, kShare, [](Sampler sampler) {
+      const Vec2 u = sampler.next2(), v = sampler.second2();
+      return u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y < 1;
+    });
     EXPECT_NEAR(mean, 0, 0.006) << row.name;
     if (row.kind == SampleKind::random) {
-      EXPECT_NEAR(square, byChance, 0.15 * byChance);
+      EXPECT_NEAR(square, kByChance, 0.15 * kByChance);
     }
     if (row.second) {
-      EXPECT_LT(square, 0.4 * byChance) << row.name;
+      EXPECT_LT(square, 0.4 * kByChance) << row.name;
     }
   }
 }

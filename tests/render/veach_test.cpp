@@ -13,6 +13,7 @@
 #include "image/srgb.h"
 #include "render/agreement.h"
 #include "render/metropolis.h"
+#include "support/lights.h"
 #include "support/quarters.h"
 #include "support/random.h"
 #include "support/rooms.h"
@@ -112,25 +113,13 @@ TEST(Veach, LightComesThroughADoorAjar) {
 }
 
 TEST(Veach, LightsOfEveryKindAreShown) {
-  const std::vector<std::pair<const char*, Light>> lights{
-      {"point", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1)}},
-      {"ball", PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1), .radius = 0.3}},
-      {"spot", SpotLight{.position = {0.5, 1.8, 0.8},
-                         .direction = {-0.4, -1, -0.5},
-                         .color = Color(1),
-                         .angle = 40,
-                         .fullAngle = 20,
-                         .exponent = 3}},
-      {"sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1)}},
-      {"broad sun", DirectionalLight{.direction = {-0.3, -1, -0.6}, .color = Color(1), .size = 20}},
-      {"panel",
-       RectangleLight{.position = {0.2, 1.6, 0.3}, .u = {1, 0, 0}, .v = {0, 0, 1}, .color = Color(3)}},
-      {"panel that is seen", RectangleLight{.position = {0.2, 1.1, -0.8},
-                                            .u = {0.5, 0, 0},
-                                            .v = {0, 0.5, 0},
-                                            .color = Color(3),
-                                            .twoSided = true,
-                                            .visible = true}}};
+  std::vector<std::pair<const char*, Light>> lights = lightsOfEveryKind();
+  lights.emplace_back("panel that is seen", RectangleLight{.position = {0.2, 1.1, -0.8},
+                                                           .u = {0.5, 0, 0},
+                                                           .v = {0, 0.5, 0},
+                                                           .color = Color(3),
+                                                           .twoSided = true,
+                                                           .visible = true});
   for (const auto& [name, light] : lights)
     for (const bool withLamp : {false, true}) {
       SCOPED_TRACE(name);
@@ -380,22 +369,8 @@ TEST(Veach, DensitiesDoNotDependOnHowAPathCameAbout) {
 TEST(Veach, HasTheSameBitsForAnyNumberOfThreadsAndAfterAStop) {
   Settings settings = settingsOf(3);
   settings.width = settings.height = 40, settings.chainStarts = 3000;
-  const World world = build(lit(diffuse(0.7), glass()), settings);
-  const Camera camera;
-  settings.threads = 1;
-  const Picture one = picture(world, settings, camera);
-  for (const int threads : {2, 7}) {
-    settings.threads = threads;
-    EXPECT_EQ(picture(world, settings, camera), one);
-  }
-  Job job;
-  Settings fewer = settings;
-  fewer.spp = 1;
-  Film first = makeFilm(fewer, 40, 40), rest = makeFilm(settings, 40, 40);
-  render(world, fewer, first, job);
-  rest.restore(first.saved());
-  render(world, settings, rest, job);
-  EXPECT_EQ(rest.picture(), one);
+  const Scene scene = lit(diffuse(0.7), glass());
+  EXPECT_EQ(afterAStop(scene, settings, 1), sameForAnyThreads(scene, settings));
 }
 
 TEST(Veach, ShowsThingsThatMove) {

@@ -81,4 +81,19 @@ inline Picture sameForAnyThreads(const Scene& scene, Settings settings) {
   return one;
 }
 
+/// The picture, stopped after so many samples of each pixel and gone on with.
+inline Picture afterAStop(const Scene& scene, const Settings& settings, int samples) {
+  const World world = build(scene, settings);
+  const Size size = pictureSize(settings, scene.camera);
+  Settings fewer = settings;
+  fewer.spp = samples;
+  Film first = makeFilm(fewer, size.width, size.height), film = makeFilm(settings, size.width, size.height);
+  Job job;
+  render(world, fewer, first, job);
+  film.restore(first.saved());
+  render(world, settings, film, job);
+  EXPECT_TRUE(film.complete());
+  return film.picture();
+}
+
 }  // namespace trace::test
