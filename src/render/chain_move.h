@@ -13,7 +13,7 @@ namespace trace {
 struct ChainMove {
   std::int64_t number = 0;  ///< from 0; -1 is where the chain starts
   MoveKind kind = MoveKind::nearby;
-  int x = 0, y = 0;  ///< the pixel that the offered sample looks at
+  int x = 0, y = 0;  ///< the pixel to which the offered sample brings most of its light
   Color brings{};    ///< what it brings there
   Real light = 0;    ///< how bright it is, with what it brings to other pixels
   Real before = 0;   ///< and the sample where the chain was

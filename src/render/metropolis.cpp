@@ -117,14 +117,11 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
   if (changesPaths(settings_))
     paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
   sums_ = startLights(job, interrupt);
-  if (!paths_ && !job.cancel) {
-    std::tie(mean_, error_) = wholeLight(job, interrupt);
-  } else {
-    std::tie(mean_, error_) = meanOf(sums_);
-  }
   if (job.cancel) return;
+  std::tie(mean_, error_) = paths_ ? meanOf(sums_) : wholeLight(job, interrupt);
   for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
-  if (!(sums_.back() > 0 && mean_ > 0)) error_ = kInfinity;
+  if (!(sums_.back() > 0)) mean_ = 0;  // there is no place to start at
+  if (!(mean_ > 0)) error_ = kInfinity;
 }
 
 /// How bright the samples are at which chains may start.
@@ -206,12 +203,16 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   };
 
   Stop here = samples.at(numbers);
-  const auto pixelOf = [](const Stop& at) -> const Splat& { return at.splats.front(); };
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
-  if (watch)
-    watch({-1, MoveKind::anywhere, pixelOf(here).x, pixelOf(here).y, pixelOf(here).value, here.light, 0, 1,
-           true},
-          again);
+  const auto tell = [&](ChainMove move, const Stop& at) {
+    // Its own pixel, or one that a path from a light came to.
+    const Splat& to =
+        *std::max_element(at.splats.begin(), at.splats.end(),
+                          [](const Splat& a, const Splat& b) { return lightOf(a) < lightOf(b); });
+    move.x = to.x, move.y = to.y, move.brings = to.value, move.light = at.light;
+    watch(move, again);
+  };
+  if (watch) tell({.number = -1, .kind = MoveKind::anywhere}, here);
   for (std::int64_t n = 0; n < moves; ++n) {
     const bool anywhere = chance() < settings_.moveAnywhere;
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
@@ -222,9 +223,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     here.visits += 1 - accepts;
     const bool goes = chance() < accepts;
     if (watch)
-      watch({n, kind, pixelOf(there).x, pixelOf(there).y, pixelOf(there).value, there.light, here.light,
-             accepts, goes},
-            again);
+      tell({.number = n, .kind = kind, .before = here.light, .chance = accepts, .made = goes}, there);
     if (goes) std::swap(here, there);
     goes ? numbers.keep() : numbers.undo();
     leave(there);

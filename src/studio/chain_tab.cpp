@@ -55,7 +55,8 @@ void drawChain(Studio& studio, const TracedPixel&) {
   if (!ImGui::BeginTable("moves", 6, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("move", ImGuiTableColumnFlags_WidthFixed, characters(5));
-  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(13));
+  const bool named = changesPaths(studio.workspace.shownSettings());  // mutations have longer names
+  ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(named ? 13 : 8));
   ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(8));
   ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(18));
   ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(6));
@@ -64,7 +65,7 @@ void drawChain(Studio& studio, const TracedPixel&) {
       {"its number in the chain",
        "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
        "place by place",
-       "that the offered path goes through", "red, green and blue of what it brings there",
+       "to which the offered path brings most of its light", "red, green and blue of what it brings there",
        "how bright it is to the chain: the luminance of all that it brings, to other pixels too",
        "whether the move was made, and its chance: how bright the path is beside the one where the chain "
        "was"});
