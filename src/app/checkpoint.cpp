@@ -50,6 +50,7 @@ struct Head {
 
 /// Nothing of a file that is no checkpoint.
 std::optional<Head> headOf(const std::string& path) {
+  if (!isOrdinaryFile(path)) return {};  // a pipe might never answer
   std::ifstream file(path, std::ios::binary);
   Head head;
   std::string line;

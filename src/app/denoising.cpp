@@ -39,14 +39,19 @@ Picture pictureOfFilm(const Film& film, const Settings& settings) {
 
 Picture change(const Picture& before, const Picture& after) {
   Picture picture(after.width, after.height);
-  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    checkBudget();
     picture.pixels[i] = after.pixels[i] + before.pixels[i] * -1;
+  }
   return picture;
 }
 
 double meanChange(const Picture& change) {
   double sum = 0;
-  for (const Color& c : change.pixels) sum += std::abs(luminanceOf(c));
+  for (const Color& c : change.pixels) {
+    checkBudget();
+    sum += std::abs(luminanceOf(c));
+  }
   return change.pixels.empty() ? 0 : 255 * sum / static_cast<double>(change.pixels.size());
 }
 

@@ -58,7 +58,7 @@ using namespace lint_checks;
 /// A scene of another format, or one that has no file any more, tells nothing but its name.
 RayRemarks remarksOn(const Scene& scene) {
   const RayRemarks none{.degrees = {}, .camera = {.file = scene.file}};
-  if (scene.format != "ray") return none;
+  if (scene.format != "ray" || !isOrdinaryFile(scene.file)) return none;  // a pipe is empty by now
   try {
     return trace::remarksOn(scene.file, readFile(scene.file));
   } catch (const Error&) {
@@ -114,6 +114,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"brick-joint", "a box whose face lies in a joint of its bricks", brickJoint},
       LintCheck{"no-material", "objects without a material", noMaterial},
       LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},
+      LintCheck{"black-picture", "a picture of which nearly all is black, and no other check says why",
+                blackPicture},
       LintCheck{"degrees", "degrees where a rotation takes radians", degrees},
   };
   return kTable;

@@ -79,6 +79,7 @@ void lightLink(const LintScene& s, Findings& findings);
 // Light that is not there (lint_unlit.cpp).
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
+void blackPicture(const LintScene& s, Findings& findings);
 // The camera (lint_camera.cpp).
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);

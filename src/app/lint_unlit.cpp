@@ -1,74 +1,26 @@
 // The checks of light that is not there: things that nothing lights, and caustics.
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 
+#include "app/darkness.h"
 #include "app/lint_checks.h"
-#include "base/match.h"
+#include "app/missing_caustic.h"
 
 namespace trace::lint_checks {
-namespace {
 
-/// The object throws much of the light that it meets on others, gathered.
-bool gathersLight(const LintScene& s, std::uint32_t object, bool byGlassAlone = false) {
-  constexpr Real kMuch = 0.3;
-  const WhittedTerms& terms = s.world.termsOf(object);
-  const Real refracted = terms.passage == Passage::straight ? 0 : maxComponent(terms.transmissive);
-  return std::max(byGlassAlone ? 0 : maxComponent(terms.reflective), refracted) >= kMuch;
-}
-
-/// The render shows the light that such objects throw.
-bool showsCaustics(const Settings& settings) {
-  return isBidirectional(settings) || settings.integrator == IntegratorKind::photon ||
-         (settings.integrator == IntegratorKind::whitted && settings.caustics > 0);
-}
-
-/// Something of the light arrives at the middle of the object, were nothing in the way.
-bool shinesOn(const LintScene& s, std::size_t light, std::uint32_t object) {
-  const Vec3 middle = s.world.boundsOf(object).center();
-  const auto arriving = match(s.scene.lights[light].light,
-                              [&](const auto& l) { return l.illuminate(middle, s.world.rules()); });
-  return isFinite(middle) && arriving && !isBlack(arriving->intensity());
-}
-
-/// Paths may meet the light by chance: it has a size, and they see it.
-bool isMet(const Light& light) {
-  return match(light, [](const auto& l) {
-    if constexpr (requires { l.visible; }) return l.visible && l.hasSize();
-    return false;
-  });
-}
-
-}  // namespace
-
-/// Paths by chance never meet a light without a size, or one that they do not see, so they bring nothing of
-/// its light by mirrors and glass. What glass gathers is missing wherever shadow rays run straight through
-/// it.
 void causticsMissing(const LintScene& s, Findings& findings) {
-  const IntegratorKind kind = s.settings.integrator;
-  const bool direct = kind == IntegratorKind::direct;
-  if (showsCaustics(s.settings) || (kind != IntegratorKind::path && kind != IntegratorKind::mlt && !direct))
-    return;
-  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
-    const Light& light = s.scene.lights[i].light;
-    const bool hasSize = match(light, [](const auto& l) { return l.hasSize(); });
-    const bool met = isMet(light), straight = s.settings.glassShadows == GlassShadows::filtered;
-    if (met && !direct && !straight) continue;
-    for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
-      if (s.survey.objects[object].places == 0 || !gathersLight(s, object, met && !direct)) continue;
-      if (s.survey.lights[i].places == 0 && !shinesOn(s, i, object)) continue;
-      return warn(
-          findings, "caustics-missing", s.scene.lights[i].place,
-          "what " + quoted(s, object) + " throws of this light on other things is missing: " +
-              (direct    ? "--integrator direct follows no light that bounces"
-               : met     ? "shadow rays run straight through glass"
-               : hasSize ? "the light is not visible, so no path meets it by chance"
-                         : "the light has no size, so no path meets it by chance"),
-          "--integrator photon or bdpt shows such caustics, and so does whitted with --caustics "
-          "200000" +
-              std::string(met ? "; path finds them with many samples and --glass-shadows black" : ""));
-    }
-  }
+  const auto counts = [&](std::uint32_t light, std::uint32_t object) {
+    return s.survey.objects[object].places > 0 &&
+           (s.survey.lights[light].places > 0 || shinesOn(s.scene, s.world, light, object));
+  };
+  const auto missing = missingCaustic(s.scene, s.settings, s.world, false, counts);
+  if (!missing) return;
+  warn(findings, "caustics-missing", s.scene.lights[missing->light].place,
+       "what " + quoted(s, missing->object) +
+           " throws of this light on other things is missing: " + missing->why,
+       missing->hint);
 }
 
 /// Spot lights that no object is in the cone of. True if there is one.
@@ -91,7 +43,7 @@ void unlit(const LintScene& s, Findings& findings) {
   if (s.scene.lights.empty()) return;  // that is told otherwise
   const auto all = static_cast<std::uint32_t>(s.scene.objects.size());
   std::uint32_t gathers = 0;
-  while (gathers < all && !gathersLight(s, gathers)) ++gathers;
+  while (gathers < all && !gathersLight(s.world, gathers)) ++gathers;
   if (gathers < all && showsCaustics(s.settings)) return;  // light comes by ways that nobody has asked here
   // Ambient light is Whitted's.
   const std::string ambient = s.settings.integrator == IntegratorKind::whitted
@@ -137,6 +89,17 @@ void unlit(const LintScene& s, Findings& findings) {
          quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" + cause,
          hint + ambient + lamp + thrown);
   }
+}
+
+/// By the share of the picture, not by its brightest place: a highlight in a black picture is no light.
+void blackPicture(const LintScene& s, Findings& findings) {
+  constexpr std::string_view kCauses[] = {"light-inside", "light-too-weak",       "light-blocked",
+                                          "light-cut",    "camera-inside",        "camera-looks-away",
+                                          "unlit",        "light-reaches-nothing"};
+  for (const LintFinding& finding : findings)
+    if (std::find(std::begin(kCauses), std::end(kCauses), finding.check) != std::end(kCauses)) return;
+  if (const auto found = darkness(s.scene, s.settings, s.world, tracedCells(s.world, s.settings)))
+    findings.push_back({"black-picture", *found});
 }
 
 }  // namespace trace::lint_checks

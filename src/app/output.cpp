@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/denoising.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/anaglyph.h"
@@ -51,10 +52,19 @@ std::map<std::string, std::string> whatCounts(const Metadata& metadata, std::str
   return words;
 }
 
+/// The settings without the steps between film and file that may take long.
+Settings plainOf(Settings settings) {
+  settings.denoise = false;
+  settings.bloom = 0;
+  settings.passes = {};
+  return settings;
+}
+
 /// Calls use(picture) with what the file is to hold. `shown` is the film's picture, perhaps without noise.
 template <class Use>
 void withPictureOf(const Output& output, const Film& film, const Picture& shown, const Settings& settings,
                    Use use) {
+  const Work work(output.pass.empty() ? "developing the picture" : "making the passes");
   const PictureFormat& format = pictureFormatFor(output.path);
   if (output.pass.empty()) {
     const Picture picture = finished(shown, settings);
@@ -73,10 +83,10 @@ void withPictureOf(const Output& output, const Film& film, const Picture& shown,
     if (row->name == output.pass) use(row->shown(values, settings));
 }
 
+/// A device or a pipe holds nothing: it takes what comes.
 bool holdsSomething(const std::string& path) {
   std::error_code error;
-  const auto size = fs::file_size(path, error);
-  return error ? fs::exists(path, error) : size > 0;
+  return isOrdinaryFile(path) ? fs::file_size(path, error) > 0 : fs::is_directory(path, error);
 }
 
 /// The words of the picture or the pass.
@@ -96,8 +106,7 @@ std::string besidePicture(const fs::path& picture, int number) {
 /// Whether the words of the file say that it is a part of the picture, or pass, with these words, whatever
 /// passes either has beside it.
 bool isFragmentOf(const Output& output, const Metadata& metadata) {
-  std::error_code ignored;
-  if (!fs::exists(output.path, ignored)) return false;
+  if (!isOrdinaryFile(output.path)) return false;
   try {
     Metadata stored = readMetadata(output.path);
     const bool incomplete = std::erase_if(stored, [](const auto& word) { return word.first == kIncomplete; });
@@ -144,8 +153,7 @@ std::vector<Output> outputs(const std::string& path, const Settings& settings) {
 }
 
 bool isRendered(const Output& output, const Size& size, const Metadata& metadata) {
-  std::error_code ignored;
-  if (!fs::exists(output.path, ignored)) return false;
+  if (!isOrdinaryFile(output.path)) return false;
   try {
     const std::string bytes = readFile(output.path);
     const Metadata stored = pictureFormatOf(bytes, output.path).metadata(bytes);
@@ -229,8 +237,11 @@ void PictureFiles::removeFragments(const Settings& settings, const Metadata& met
   for (int i = 1; fs::exists(besidePicture(path_, i), ignored); ++i) removeParts(besidePicture(path_, i));
 }
 
-std::string PictureFiles::write(const Film& film, const Settings& settings, const Metadata& metadata) {
-  const bool whole = film.complete();
+std::string PictureFiles::write(const Film& film, const Settings& wanted, const Metadata& metadata,
+                                LastSteps finish) {
+  const bool whole = film.complete() && finish == LastSteps::all;
+  const Settings settings = finish == LastSteps::all ? wanted : plainOf(wanted);
+  written_.clear();
   const std::string place = whole ? path_ : placeOfFragment(settings);
   if (!whole) fragment_ = place;
   const Picture rendered = film.picture();
@@ -239,11 +250,16 @@ std::string PictureFiles::write(const Film& film, const Settings& settings, cons
   change_ = without ? std::optional(meanChange(change(rendered, shown))) : std::nullopt;
   for (const Output& output : outputs(place, settings)) {
     Metadata words = wordsOf(output, metadata);
-    if (!whole) words.emplace_back(kIncomplete, "the render was stopped");
+    if (!whole)
+      words.emplace_back(kIncomplete, finish == LastSteps::all ? "the render was stopped"
+                                                            : "the last steps of the render were stopped");
     withPictureOf(output, film, shown, settings, [&](const Picture& picture) {
+      const Work work("writing the picture");
       writePicture(output.path, picture, settings.rounding, words);
     });
+    written_.push_back(output.path);
   }
+  const BudgetScope unlimited(nullptr);  // all is there
   if (whole) removeFragments(settings, metadata);
   return place;
 }

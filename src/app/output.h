@@ -44,6 +44,12 @@ Size finished(const Size& rendered, const Settings& settings);
 /// over.
 void checkIsNoInput(const std::string& path, const InputFiles& inputs);
 
+/// What is made of a film before it is written.
+enum class LastSteps {
+  all,
+  plain,  ///< nothing that may take long: no noise taken out, no bloom, no passes; a fragment therefore
+};
+
 /// The files that one render writes, perhaps several times before it is done. A fragment, which is a film
 /// with tiles to come, takes no place but that of another fragment: where anything else lies under the name,
 /// it goes beside it, as NAME.partial.png. Its picture has the word Incomplete; a file of a format that keeps
@@ -59,9 +65,14 @@ class PictureFiles {
   /// Pass, of a pass, and Incomplete are added. A picture gets the tone of the settings unless its format
   /// keeps values above 1; passes are raw in OpenEXR only. Returns the picture's name: path(), or where a
   /// fragment went. The whole picture takes away the fragment that this wrote beside it, and those of earlier
-  /// runs whose words say that they are fragments of the very same picture, all with any passes. Throws
-  /// Error(Fault::io), Error(Fault::usage).
-  std::string write(const Film& film, const Settings& settings, const Metadata& metadata);
+  /// runs whose words say that they are fragments of the very same picture, all with any passes. Every step
+  /// looks at the budget of the thread. Throws Error(Fault::io), Error(Fault::usage), and what the budget
+  /// throws; written() then tells which of the files are there.
+  std::string write(const Film& film, const Settings& settings, const Metadata& metadata,
+                    LastSteps finish = LastSteps::all);
+
+  /// The files that the last write() put in their places.
+  const std::vector<std::string>& written() const { return written_; }
 
   /// By how much --denoise changed what was written last: levels of 255, on the average. Nothing if it did
   /// not.
@@ -79,7 +90,7 @@ class PictureFiles {
   std::string path_;
   InputFiles inputs_;
   std::string fragment_;  ///< where this has put one; "" before
-  std::vector<std::string> removed_;
+  std::vector<std::string> removed_, written_;
   std::optional<double> change_;
 };
 

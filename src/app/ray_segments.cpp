@@ -1,7 +1,6 @@
 #include "app/ray_segments.h"
 
 #include "base/match.h"
-#include "base/text.h"
 #include "math/box.h"
 
 namespace trace {
@@ -48,28 +47,6 @@ std::vector<RaySegment> raySegments(const RayTree& tree) {
     segments.push_back({static_cast<int>(i), looksOf(node), node.ray.origin, to, leaves});
   }
   return segments;
-}
-
-std::string raysAsObj(const RayTree& tree) {
-  const std::vector<RaySegment> segments = raySegments(tree);
-  const auto vertex = [](const Vec3& v) {
-    return "v " + toText(v.x) + " " + toText(v.y) + " " + toText(v.z) + "\n";
-  };
-  std::string text = "# rays of pixel " + std::to_string(tree.x) + "," + std::to_string(tree.y) +
-                     ", sample " + std::to_string(tree.sample) + "\n";
-  int vertices = 0;
-  for (std::size_t looks = 0; looks < kRayLooks.size(); ++looks) {
-    std::string group;
-    for (const RaySegment& segment : segments) {
-      if (segment.looks != static_cast<RayLooks>(looks)) continue;
-      group += "# ray " + std::to_string(segment.node) + (segment.leaves ? ", goes on without end\n" : "\n");
-      group += vertex(segment.from) + vertex(segment.to);
-      group += "l " + std::to_string(vertices + 1) + " " + std::to_string(vertices + 2) + "\n";
-      vertices += 2;
-    }
-    if (!group.empty()) text += "g " + std::string(kRayLooks[looks].name) + "\n" + group;
-  }
-  return text;
 }
 
 }  // namespace trace

@@ -1,7 +1,6 @@
 // A ray tree as coloured lines in space: what an OBJ file, a drawing and the studio show of it.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "render/ray_tree.h"
@@ -20,8 +19,5 @@ const MediumTerm* scatteredIn(const RayNode& node);
 
 /// One for each ray, in the tree's order. What leaves the scene is drawn for a third of the tree's size.
 std::vector<RaySegment> raySegments(const RayTree& tree);
-
-/// A Wavefront OBJ file of the segments as lines, a group for each look, `# ray N` before each.
-std::string raysAsObj(const RayTree& tree);
 
 }  // namespace trace

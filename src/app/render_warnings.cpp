@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "app/missing_caustic.h"
 #include "base/text.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
@@ -377,6 +378,19 @@ void warnOfWrongLinks(const Scene& scene, Messages& messages) {
   for (const LightSource& source : scene.lights) lights.know(source.links.name);
   for (const LightSource& source : scene.lights) objects.look(source.links, source.place, messages);
   for (const Object& object : scene.objects) lights.look(object.links, object.place, messages);
+}
+
+void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const World& world,
+                           Messages& messages) {
+  const auto missing =
+      missingCaustic(scene, settings, world, true, [&](std::uint32_t light, std::uint32_t object) {
+        return !world.shapeOf(object).empty() && shinesOn(scene, world, light, object);
+      });
+  if (!missing) return;
+  messages.warn(scene.lights[missing->light].place,
+                "of this light, what " + objectName(scene, missing->object) +
+                    " throws on other things is missing (its caustic): " + missing->why,
+                missing->hint);
 }
 
 std::string brightnessDoubt(const Settings& settings, Real error) {

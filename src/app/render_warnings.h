@@ -19,6 +19,11 @@ void warnOfEmptyMedia(const Scene& scene, Messages& messages);
 /// Of each name in the links of lights and objects that nothing has.
 void warnOfWrongLinks(const Scene& scene, Messages& messages);
 
+/// Of the first light whose light through a body of glass the integrator cannot find: the glass has no
+/// caustic.
+void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const World& world,
+                           Messages& messages);
+
 /// What a user should know of the brightness of a picture by chains, whose standard error is `error` of it;
 /// "" where that is exact enough.
 std::string brightnessDoubt(const Settings& settings, Real error);

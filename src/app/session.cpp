@@ -159,6 +159,7 @@ void Session::build(const Session* before) {
   warnOfSettings(scene_, settings_, *world_, messages_);
   warnOfEmptyMedia(scene_, messages_);
   warnOfWrongLinks(scene_, messages_);
+  warnOfMissingCaustics(scene_, settings_, *world_, messages_);
   messages_.throwIfFailed(strict_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
@@ -223,15 +224,15 @@ Metadata Session::metadata() const {
   return words;
 }
 
-std::string Session::save(PictureFiles& files) {
+std::string Session::save(PictureFiles& files, LastSteps finish) {
   const Stopwatch watch;
-  const BudgetScope unlimited(nullptr);  // what is done is kept, however late it is
-  std::string written = files.write(*film_, settings_, metadata());
+  std::string written = files.write(*film_, settings_, metadata(), finish);
   phases_.push_back(watch.stop("write"));
   return written;
 }
 
 std::string Session::save(const std::string& path) {
+  const BudgetScope unlimited(nullptr);
   PictureFiles files = filesFor(path);
   return save(files);
 }

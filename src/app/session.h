@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/darkness.h"
 #include "app/denoising.h"
 #include "app/output.h"
 #include "base/error.h"
@@ -82,9 +83,15 @@ class Session {
   /// The files of a picture of that name, for save().
   PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs}; }
   /// Writes them, and returns the picture's name; not while renderPicture() runs, since both note their time.
-  /// Throws Error(Fault::io), Error(Fault::usage).
-  std::string save(PictureFiles& files);
+  /// Throws Error(Fault::io), Error(Fault::usage), and what the budget of the thread throws.
+  std::string save(PictureFiles& files, LastSteps finish = LastSteps::all);
+  /// The same, however long it takes.
   std::string save(const std::string& path);
+
+  /// A warning if the finished picture is nearly black, with what makes it light (app/darkness.h).
+  std::optional<Message> darkness() const {
+    return trace::darkness(scene_, settings_, *world_, cellsOf(*film_));
+  }
 
   const std::vector<Phase>& phases() const { return phases_; }
 

@@ -1,13 +1,22 @@
 // Whole files in and out. A written file appears complete under its name or not at all.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace trace {
 
-/// The bytes of the file. Throws Error(Fault::io) with the reason when it cannot be read.
+/// The bytes of the file, or of a pipe until its end. Throws Error(Fault::io) with the reason when it cannot
+/// be read, as a folder, a device, a file that the kernel makes up (/proc), or a pipe that no program writes
+/// into for some seconds. Waits for a pipe's writer as long as the budget of the thread lets it.
 std::string readFile(const std::string& path);
+
+/// At most so many bytes from its start. Throws Error(Fault::io) also for a pipe.
+std::string readStart(const std::string& path, std::size_t most);
+
+/// Leads the name to a file that is there, and is no folder, device, pipe or socket?
+bool isOrdinaryFile(const std::string& path);
 
 /// The bytes of a file that the file `from` names: besideFile(from, name). Throws as readFile(), and for what
 /// is no regular file, which may have no end.

@@ -6,13 +6,13 @@
 // was left by a process that died, and the next run removes it. The place is the one behind all links.
 #include <dirent.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -20,6 +20,7 @@
 #include <random>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -238,15 +239,32 @@ class Temporary {
   std::string name_;  // "" while it has none
 };
 
-/// Into a device or a pipe.
+/// Into a device or a pipe, whose reader has to be there and may take its time.
 void writeInto(const Target& target, std::string_view bytes) {
-  std::FILE* const file = std::fopen(target.path.c_str(), "wb");
+  constexpr int kLook = 50, kPatience = 5000;  // milliseconds
+  const auto opened = [&] {
+    return ::open(target.path.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  };
+  Descriptor file(opened());
+  for (int waited = 0; !file && errno == ENXIO && S_ISFIFO(target.was.st_mode); waited += kLook) {
+    if (waited >= kPatience) failToWrite(target.name, "it is a pipe, and no program has opened it to read");
+    lookAtBudget();
+    ::poll(nullptr, 0, kLook);
+    file = Descriptor(opened());
+  }
   if (!file) failToWriteFor(target.name, errno);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int error = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written) failToWriteFor(target.name, error);
-  if (!closed) failToWriteFor(target.name, errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      pollfd ready{file.get(), POLLOUT, 0};
+      ::poll(&ready, 1, kLook);
+      lookAtBudget();
+    } else if (errno != EINTR) {
+      failToWriteFor(target.name, errno);
+    }
+  }
 }
 
 }  // namespace

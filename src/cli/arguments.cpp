@@ -74,7 +74,8 @@ class Parser {
     if (!takesOptions(command)) return;
     for (const ShortFlag& flag : shortFlags())
       if (!flag.value.empty())
-        addSwitch("-" + std::string(1, flag.letter), std::string(flag.option), std::string(flag.value));
+        addSwitch("-" + std::string(1, flag.letter), std::string(flag.option), std::string(flag.value),
+                  flag.letter == kPlainFlag);
   }
 
   void parse(std::vector<std::string> words, Arguments& arguments) {
@@ -135,10 +136,12 @@ class Parser {
     names_.push_back("--no-" + std::string(option.name));
   }
 
-  void addSwitch(const std::string& flag, const std::string& option, const std::string& value) {
+  void addSwitch(const std::string& flag, const std::string& option, const std::string& value,
+                 bool plain = false) {
     actions_[app_.add_flag(flag)] = [=](Arguments& arguments, const std::string& given) {
       if (given != "true") throw Error(Fault::usage, flag + ": takes no value, found \"" + given + "\"");
       arguments.choices.push_back({option, value, {}});
+      arguments.plain |= plain;
     };
   }
 
@@ -201,9 +204,12 @@ Arguments parse(const std::vector<std::string>& words, Verb command) {
   std::vector<std::string> prepared = withValues({words.begin(), end}, command);
   prepared.insert(prepared.end(), end, words.end());
   Parser(command).parse(std::move(prepared), arguments);
-  if (arguments.quick)
+  const auto before = [&](std::span<const Choice> choices) {
     arguments.choices.insert(arguments.choices.begin() + static_cast<std::ptrdiff_t>(fromEnvironment),
-                             quickChoices().begin(), quickChoices().end());
+                             choices.begin(), choices.end());
+  };
+  if (arguments.quick) before(quickChoices());
+  if (arguments.plain) before(plainChoices());
   Settings scratch;  // so that a wrong value is found before a large scene is read
   for (const Choice& choice : arguments.choices) findOption(choice.option).assign(scratch, choice.value);
   return arguments;

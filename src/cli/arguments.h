@@ -65,6 +65,7 @@ struct Arguments {
   Conversion conversion;
   bool strict = false;
   bool quick = false;
+  bool plain = false;  ///< -b: one ray a pixel, and no early stop that the scene asks for
   bool quiet = false;
   std::optional<std::string> format;  ///< --format
   std::string pixel;                  ///< explain: --pixel, as typed

@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 
+#include "app/explained_rays.h"
 #include "app/ray_drawing.h"
-#include "app/ray_segments.h"
 #include "app/session.h"
 #include "base/budget.h"
 #include "base/file.h"
@@ -135,8 +135,10 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     light = lightLandings(session, whole.settings().region, x, y, job);
   }
   const Size size = session.size();
+  const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, session.scene());
   const PixelFacts facts{session.scene(),
                          explanation,
+                         rays,
                          size.width,
                          size.height,
                          session.film().ofSamples(x, y),
@@ -154,7 +156,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     return code;
   }
   const std::string text = format == "json"  ? explainJson(facts)
-                           : format == "obj" ? raysAsObj(explanation.tree)
+                           : format == "obj" ? raysAsObj(explanation.tree, rays)
                            : format == "svg"
                                ? toSvg(drawing())
                                : explainText(facts, arguments.output.empty() && canColorResult());

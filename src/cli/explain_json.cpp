@@ -1,6 +1,5 @@
 #include "cli/explain_json.h"
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -60,12 +59,10 @@ Json material(const Bsdf& bsdf) {
                           [&](const auto& model) { return of(model.said.kKeyword, fieldsOf(model.said)); }});
 }
 
-class Writer {
+class RayWriter {
  public:
-  explicit Writer(const Scene& scene) : scene_(scene) {}
-
-  Json ray(const RayTree& tree, int index) const {
-    const RayNode& node = rayAt(tree, index);
+  static Json ray(const ExplainedRay& ray, int index) {
+    const RayNode& node = *ray.node;
     Json json;
     json["id"] = index;
     json["kind"] = name(node.kind);
@@ -77,7 +74,8 @@ class Writer {
     if (node.wavelength != 0) json["wavelength"] = node.wavelength;
     if (!node.ignored.empty()) {
       json["ignored"] = Json::list();
-      for (const Ignored& i : node.ignored)
+      for (std::size_t k = 0; k < node.ignored.size(); ++k) {
+        const Ignored& i = node.ignored[k];
         json["ignored"].add({{"object", i.object},
                              {"part", i.part},
                              {"distance", i.t},
@@ -86,21 +84,25 @@ class Writer {
                              {"priority", i.body.priority},
                              {"around", body(i.around.object)},
                              {"aroundPriority", i.around.priority},
-                             {"sentence", sentence(i, scene_)}});
+                             {"sentence", ray.ignored[k]}});
+      }
     }
-    json["hit"] = node.hit ? hit(node) : Json(nullptr);
+    json["hit"] = node.hit ? hit(ray) : Json(nullptr);
     json["terms"] = Json::list();
-    for (const Term& t : node.terms) json["terms"].add(term(t));
+    for (std::size_t k = 0; k < node.terms.size(); ++k) json["terms"].add(term(node.terms[k], ray.terms[k]));
     json["through"] = toJson(node.through);
     json["filters"] = Json::list();
-    for (const Filter& filter : node.filters)
-      json["filters"].add({{"object", object(filter.object, filter.materials)},
+    for (std::size_t k = 0; k < node.filters.size(); ++k) {
+      const Filter& filter = node.filters[k];
+      json["filters"].add({{"object", object(ray.filters[k])},
                            {"part", filter.part},
                            {"distance", filter.t},
                            {"factor", toJson(filter.factor)}});
+    }
     json["ends"] = Json::list();
-    for (const RayEnd& why : node.ends) json["ends"].add(end(why));
-    json["sentence"] = sentence(node, scene_);
+    for (std::size_t k = 0; k < node.ends.size(); ++k)
+      json["ends"].add(end(node.ends[k], ray.ends[k] ? object(*ray.ends[k]) : Json(nullptr)));
+    json["sentence"] = ray.sentence;
     if (node.outside) json["outside"] = outside(*node.outside);
     json["radiance"] = toJson(node.radiance);
     json["weight"] = toJson(node.weight);
@@ -110,40 +112,30 @@ class Writer {
   }
 
  private:
-  static bool isClear(const MaterialShare& share) { return share.material == MaterialMix::kClear; }
-
-  /// `materials`: of the place on it that was met. The one of the object as a whole may be another.
-  Json object(std::uint32_t index, const std::vector<MaterialShare>& materials) const {
-    const Object& o = scene_.objects[index];
-    const auto most =
-        std::max_element(materials.begin(), materials.end(),
-                         [](const MaterialShare& a, const MaterialShare& b) { return a.weight < b.weight; });
-    const auto name = [&](const MaterialShare& share) { return materialName(scene_, share.material); };
+  /// Null for air.
+  static Json object(const NamedBody& body) {
+    if (!body.object) return nullptr;
     Json shares = Json::list();
-    for (const MaterialShare& share : materials)
-      shares.add({{"index", isClear(share) ? Json() : Json(share.material)},
-                  {"name", name(share)},
+    for (const NamedBody::Share& share : body.materials)
+      shares.add({{"index", share.material ? Json(*share.material) : Json()},
+                  {"name", share.name},
                   {"weight", share.weight}});
-    return {{"index", index},           {"name", o.name},          {"shape", o.shape.keyword()},
-            {"place", toJson(o.place)}, {"material", name(*most)}, {"materials", shares}};
+    return {{"index", *body.object},       {"name", body.ownName},      {"shape", body.shape},
+            {"place", toJson(body.place)}, {"material", body.material}, {"materials", shares}};
   }
 
   /// The number of an object, null for air.
   static Json body(std::uint32_t object) { return object == Filling::kAir ? Json(nullptr) : Json(object); }
 
-  Json hit(const RayNode& node) const {
+  static Json hit(const ExplainedRay& ray) {
+    const RayNode& node = *ray.node;
     const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    Json json{{"object", object(h.object, node.materials)},
-              {"part", h.part},
-              {"point", toJson(h.surface.point)},
-              {"error", toJson(h.surface.error)},
-              {"normal", toJson(h.surface.normal)},
-              {"shading", toJson(h.surface.shading)},
-              {"uv", Json::list({uv.x, uv.y})},
-              {"leaving", h.leaving},
-              {"indexBefore", node.indices.before},
-              {"indexBehind", node.indices.behind},
+    Json json{{"object", object(*ray.hit)},         {"part", h.part},
+              {"point", toJson(h.surface.point)},   {"error", toJson(h.surface.error)},
+              {"normal", toJson(h.surface.normal)}, {"shading", toJson(h.surface.shading)},
+              {"uv", Json::list({uv.x, uv.y})},     {"leaving", h.leaving},
+              {"indexBefore", node.indices.before}, {"indexBehind", node.indices.behind},
               {"material", material(*node.bsdf)}};
     if (h.opacity < 1) json["opacity"] = h.opacity;
     if (node.raised) json["raised"] = toJson(*node.raised);
@@ -154,7 +146,7 @@ class Writer {
     return json;
   }
 
-  Json term(const Term& t) const {
+  static Json term(const Term& t, const ExplainedTerm& named) {
     Json json;
     json["kind"] = Term::kNames[static_cast<std::size_t>(t.kind)];
     json["factor"] = toJson(t.factor);
@@ -182,18 +174,15 @@ class Writer {
                         {"forward", t.medium->forward}};
     }
     if (t.dark)
-      json["dark"] = {{"index", t.dark->light},
-                      {"place", toJson(scene_.lights[t.dark->light].place)},
-                      {"why", sentence(*t.dark)}};
-    if (t.scattered)
-      json["scattered"] = {{"index", *t.scattered}, {"place", toJson(scene_.lights[*t.scattered].place)}};
+      json["dark"] = {
+          {"index", t.dark->light}, {"place", toJson(named.lightPlace)}, {"why", sentence(*t.dark)}};
+    if (t.scattered) json["scattered"] = {{"index", *t.scattered}, {"place", toJson(named.lightPlace)}};
     if (t.body) json["body"] = {{"distance", t.body->distance}, {"steps", t.body->steps}};
     if (t.light) {
       const LightTerm& l = *t.light;
-      const LightSource& source = scene_.lights[l.light];
       json["light"] = {{"index", l.light},
-                       {"type", match(source.light, [](const auto& s) { return s.kKeyword; })},
-                       {"place", toJson(source.place)},
+                       {"type", named.lightKind},
+                       {"place", toJson(named.lightPlace)},
                        {"toLight", toJson(l.arriving.toLight)},
                        {"distance", l.arriving.distance},
                        {"color", toJson(l.arriving.color)},
@@ -218,7 +207,8 @@ class Writer {
     return json;
   }
 
-  Json end(const RayEnd& why) const {
+  /// `object`: what it names, if it does.
+  static Json end(const RayEnd& why, const Json& object) {
     Json json;
     json["why"] = match(why, [](const auto& w) { return w.kName; });
     const auto kind = [](RayKind k) { return name(k); };
@@ -236,16 +226,16 @@ class Writer {
                             json["chance"] = w.chance;
                           },
                           [&](const CutOff& w) {
-                            json["object"] = object(w.object, w.materials);
+                            json["object"] = object;
                             json["distance"] = w.t;
                             json["limit"] = w.limit;
                           },
                           [&](const Culled& w) {
-                            json["object"] = object(w.object, w.materials);
+                            json["object"] = object;
                             json["distance"] = w.t;
                           },
                           [&](const Blocked& w) {
-                            json["object"] = object(w.object, w.materials);
+                            json["object"] = object;
                             json["part"] = w.part;
                             json["distance"] = w.t;
                           },
@@ -256,8 +246,6 @@ class Writer {
                           [](const auto&) {}});
     return json;
   }
-
-  const Scene& scene_;
 };
 
 }  // namespace
@@ -333,9 +321,8 @@ std::string explainJson(const PixelFacts& facts) {
   std::string all = json.text();
   all.pop_back();  // the closing brace
   all += ",\"rays\":[";
-  const Writer writer(facts.scene);
-  for (int i = 0; i < static_cast<int>(e.tree.nodes.size()); ++i)
-    all += (i > 0 ? ",\n" : "\n") + writer.ray(e.tree, i).text();
+  for (std::size_t i = 0; i < facts.rays.size(); ++i)
+    all += (i > 0 ? ",\n" : "\n") + RayWriter::ray(facts.rays[i], static_cast<int>(i)).text();
   return all + "\n]}\n";
 }
 

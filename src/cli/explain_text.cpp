@@ -12,7 +12,6 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/console.h"
-#include "geometry/mesh/mesh.h"
 #include "scene/options.h"
 
 namespace trace::cli {
@@ -47,47 +46,43 @@ constexpr int kMostIndented = 12;
 
 class TreeText {
  public:
-  TreeText(const PixelFacts& facts, bool color)
-      : scene_(facts.scene), tree_(facts.explanation.tree), color_(color), children_(tree_.nodes.size()) {
-    for (int i = 1; i < static_cast<int>(tree_.nodes.size()); ++i)
-      if (at(i).parent >= 0) children_[static_cast<std::size_t>(at(i).parent)].push_back(i);
-  }
+  TreeText(const PixelFacts& facts, bool color) : scene_(facts.scene), rays_(facts.rays), color_(color) {}
 
   std::string all() {
-    for (int i = 0; i < static_cast<int>(tree_.nodes.size()); ++i)
-      if (at(i).parent < 0) ray(i, i > 0 ? "\n" : "", "");
+    for (int i = 0; i < static_cast<int>(rays_.size()); ++i)
+      if (at(i).node->parent < 0) ray(i, i > 0 ? "\n" : "", "");
     return std::move(text_);
   }
 
  private:
-  const RayNode& at(int index) const { return tree_.nodes[static_cast<std::size_t>(index)]; }
+  const ExplainedRay& at(int index) const { return rays_[static_cast<std::size_t>(index)]; }
 
   /// `first` stands before the ray's first line, `rest` before the others.
   void ray(int index, const std::string& first, const std::string& rest) {
-    const RayNode& node = at(index);
-    const std::vector<int>& children = children_[static_cast<std::size_t>(index)];
+    const ExplainedRay& explained = at(index);
+    const RayNode& node = *explained.node;
+    const std::vector<int>& children = explained.children;
     margin_ = rest + (children.empty() ? "    " : "|   ");
 
     const std::string kind(trace::name(node.kind));
     const std::string name = "#" + std::to_string(index) + " " + kind + " ray";
     std::string title = name;
     if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
-    if (const auto light = lightOf(tree_, index)) title += " to " + printable(lightName(scene_, *light));
+    if (!explained.light.empty()) title += " to " + printable(explained.light);
     if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
     const std::size_t room = std::size_t{4} * kMostIndented;
     if (rest.size() >= room) title += " of #" + std::to_string(node.parent);
     text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
     line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
-    for (const Ignored& ignored : node.ignored)
-      line(printable("no surface for light: " + sentence(ignored, scene_)));
-    if (node.hit) hit(node);
+    for (const std::string& ignored : explained.ignored) line(printable("no surface for light: " + ignored));
+    if (node.hit) hit(explained);
     if (node.kind == RayKind::shadow)
-      shadow(node);
+      shadow(explained);
     else if (node.kind == RayKind::light)
       line("a place that paths from the camera are joined with");
     else
-      terms(node);
-    if (const std::string why = sentence(node, scene_); !why.empty()) line(printable("-> " + why));
+      terms(explained);
+    if (!explained.sentence.empty()) line(printable("-> " + explained.sentence));
     line("   cost " + counted(node.nodes, "node") + " visited, " + counted(node.tests, "shape") + " tested");
 
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -99,17 +94,16 @@ class TreeText {
 
   void line(const std::string& words) { text_ += margin_ + words + "\n"; }
 
-  void hit(const RayNode& node) {
+  void hit(const ExplainedRay& explained) {
+    const RayNode& node = *explained.node;
     const Hit& hit = *node.hit;
-    const Object& object = scene_.objects[hit.object];
-    const std::string shape(object.shape.keyword());
+    const NamedBody& object = *explained.hit;
     std::string what = "hits ";
-    if (!object.name.empty()) what += "\"" + object.name + "\", ";
-    what += shape;
+    if (!object.ownName.empty()) what += "\"" + object.ownName + "\", ";
+    what += object.shape;
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
-    const bool mesh = object.shape.is<Mesh>();
-    line(printable(what + (mesh ? " triangle " : " part ") + std::to_string(hit.part) + ", made of " +
-                   materialNames(scene_, node.materials) + ", at distance " + text(hit.t)));
+    line(printable(what + (object.isMesh ? " triangle " : " part ") + std::to_string(hit.part) +
+                   ", made of " + object.madeOf + ", at distance " + text(hit.t)));
     const SurfacePoint& s = hit.surface;
     const WhittedTerms& whittedTerms = whitted(*node.bsdf);
     const bool lets = whittedTerms.transmits() || whittedTerms.passage == Passage::straight;
@@ -135,16 +129,18 @@ class TreeText {
            " off the facet: on the smooth surface of the corners' normals");
   }
 
-  void terms(const RayNode& node) {
-    for (const Term& term : node.terms) {
+  void terms(const ExplainedRay& explained) {
+    const RayNode& node = *explained.node;
+    for (std::size_t i = 0; i < node.terms.size(); ++i) {
+      const Term& term = node.terms[i];
+      const ExplainedTerm& named = explained.terms[i];
       const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
       if (term.light) {
-        light(term, node);
+        light(term, named, node);
         continue;
       }
       if (term.dark) {
-        line("+ " + printable(lightName(scene_, term.dark->light)) + " 0; " +
-             std::string(sentence(*term.dark)));
+        line("+ " + printable(named.light) + " 0; " + std::string(sentence(*term.dark)));
         continue;
       }
       const Color value = term.factor * term.value;
@@ -172,9 +168,8 @@ class TreeText {
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
                  " from the light, t = " + std::to_string(term.connection->camera) +
                  " from the camera: counts " + text(term.connection->share);
-      if (term.scattered)
-        words += "\n" + margin_ + "    light of " + printable(lightName(scene_, *term.scattered));
-      if (term.medium) words += "\n" + margin_ + "    " + medium(term);
+      if (term.scattered) words += "\n" + margin_ + "    light of " + printable(named.light);
+      if (term.medium) words += "\n" + margin_ + "    " + medium(*term.medium, *named.medium);
       if (term.body)
         words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
                  (term.body->steps > 0
@@ -192,10 +187,8 @@ class TreeText {
     line("= " + text(node.radiance));
   }
 
-  std::string medium(const Term& term) const {
-    const MediumTerm& m = *term.medium;
-    const bool air = m.object == Filling::kAir;
-    const std::string by = air ? "fog" : printable(objectName(scene_, m.object));
+  static std::string medium(const MediumTerm& m, const NamedBody& body) {
+    const std::string by = body.object ? printable(body.name) : "fog";
     switch (m.what) {
       case MediumTerm::What::covers: return "what media on the way take of it";
       case MediumTerm::What::glows: return "given off on the way";
@@ -205,12 +198,12 @@ class TreeText {
     return "scattered by " + by + " at distance " + text(m.t) + ", where it comes from";
   }
 
-  void light(const Term& term, const RayNode& node) {
+  void light(const Term& term, const ExplainedTerm& named, const RayNode& node) {
     const LightTerm& light = *term.light;
     const bool none = isBlack(term.factor), always = term.ray < 0;
     const Vec3 normal = node.hit->surface.shading;
     const bool away = dot(light.arriving.toLight, normal) * dot(node.ray.direction, normal) >= 0;
-    line("+ " + printable(lightName(scene_, light.light)) + " " + text(term.factor * term.value) +
+    line("+ " + printable(named.light) + " " + text(term.factor * term.value) +
          (none     ? (away ? "; faces away, no shadow ray" : "; scatters none of it, no shadow ray")
           : always ? "; the part that no shadow takes away"
                    : ""));
@@ -233,18 +226,20 @@ class TreeText {
          "      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
   }
 
-  void shadow(const RayNode& node) {
+  void shadow(const ExplainedRay& explained) {
+    const RayNode& node = *explained.node;
     if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
-    for (const Filter& filter : node.filters)
-      line("* " + text(filter.factor) + " through " + printable(fillingName(scene_, filter.object)) +
+    for (std::size_t i = 0; i < node.filters.size(); ++i) {
+      const Filter& filter = node.filters[i];
+      line("* " + text(filter.factor) + " through " + printable(explained.filters[i].name) +
            (std::isfinite(filter.t) ? " at distance " + text(filter.t) : " on its way"));
+    }
     line("= " + text(node.radiance) + " passes");
   }
 
   const Scene& scene_;
-  const RayTree& tree_;
+  const std::vector<ExplainedRay>& rays_;
   bool color_;
-  std::vector<std::vector<int>> children_;
   std::string text_, margin_;
 };
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/chain_walk.h"
+#include "app/explained_rays.h"
 #include "app/light_landings.h"
 #include "render/explain.h"
 #include "scene/scene.h"
@@ -14,8 +16,9 @@ namespace trace::cli {
 struct PixelFacts {
   const Scene& scene;
   const Explanation& explanation;
-  int width = 0, height = 0;  ///< of the picture
-  Color rendered;             ///< the pixel, from a render
+  const std::vector<ExplainedRay>& rays;  ///< of its tree
+  int width = 0, height = 0;              ///< of the picture
+  Color rendered;                         ///< the pixel, from a render
   Settings settings{};
   /// Chains make the picture that was asked for: the one that comes nearest to the pixel. Then the settings
   /// are those of `path`. Else null.

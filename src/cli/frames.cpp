@@ -145,15 +145,19 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     const auto frameStart = elapsed();
     const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
     PictureFiles files = session.filesFor(picture);
-    const RenderResult result =
-        renderPictureWatched(session, arguments, signals, console, progress, files, part);
+    RenderResult result = renderPictureWatched(session, arguments, signals, console, progress, files, part);
     reportLosses(session, result, console);
     if (result.end != End::finished) {
       code = exitCode(result);
       stopped = whyStopped(result);
       break;
     }
-    const SavedPicture saved = save(session, files, console);
+    const SavedPicture saved = save(session, result, arguments, signals, files, progress, console);
+    if (result.end != End::finished) {  // of the steps behind the last ray
+      code = exitCode(result);
+      stopped = whyStopped(result);
+      break;
+    }
     settleCheckpoint(session, result, arguments, files);
     if (!reportStatistics(arguments, session, result, saved.path, elapsed() - frameStart, console))
       code = kFailed;

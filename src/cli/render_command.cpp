@@ -101,31 +101,31 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   signals.renderingBegins();
   Progress progress = makeProgress(arguments.progress, console);
   PictureFiles files = session.filesFor(output);
-  const RenderResult result =
-      renderPictureWatched(session, arguments, signals, console, progress, files, Part{});
+  RenderResult result = renderPictureWatched(session, arguments, signals, console, progress, files, Part{});
   reportLosses(session, result, console);
 
-  const std::string stopped = whyStopped(result);
-  int code = exitCode(result);
+  std::optional<Message> dark;
+  if (result.end == End::finished) dark = session.darkness();
   if (session.job().done == 0) {  // a black picture is worth less than what the file may hold now
-    console.line(LogLevel::error, stopped + "nothing written, for nothing was finished");
-    return code;
+    console.line(LogLevel::error, whyStopped(result) + "nothing written, for nothing was finished");
+    return exitCode(result);
   }
-  const SavedPicture saved = save(session, files, console);
-  if (saved.elsewhere) code = kFailed;
+  const SavedPicture saved = save(session, result, arguments, signals, files, progress, console);
+  const std::string stopped = whyStopped(result);
+  int code = saved.elsewhere ? kFailed : exitCode(result);
   const std::string goesOn = settleCheckpoint(session, result, arguments, files);
   if (result.end == End::finished) reportOldCheckpoints(session, files, console);
+  if (dark) console.warnings({&*dark, 1});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
   std::string cleaned;
   if (const auto change = files.denoiseChange())
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
-  const std::string where = saved.elsewhere        ? " instead of " + output
-                            : saved.path != output ? "; " + keptText(output)
-                                                   : "";
-  console.last(code == kDone, stopped + "wrote " + saved.path + andPasses(session.settings()) + " (" +
+  const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";
+  console.last(code == kDone, stopped + "wrote " + saved.path + passes + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + where + cleaned + removedText(files) + goesOn);
+                                  durationText(seconds) + whereText(saved, output) + cleaned +
+                                  removedText(files) + goesOn);
   return code;
 }
 

@@ -1,9 +1,11 @@
 #include "cli/render_steps.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "app/render_warnings.h"
+#include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/memory_limit.h"
@@ -124,6 +126,7 @@ void reportOldCheckpoints(const Session& session, const PictureFiles& files, con
 }
 
 void reportLosses(const Session& session, const RenderResult& result, const Console& console) {
+  const BudgetScope unlimited(nullptr);  // the time may be over
   if (const double removed = static_cast<double>(result.statistics.lightRemoved) / Statistics::kLightParts;
       removed > 0) {
     double kept = 0;  // by this run
@@ -147,22 +150,106 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
   console.line(LogLevel::warning, "warning: " + text);
 }
 
-SavedPicture save(Session& session, PictureFiles& files, const Console& console) {
-  liftMemoryLimit();  // what is done is kept
+namespace {
+
+/// The steps behind the last ray have so many seconds beyond the limit of the command.
+constexpr double kFinishing = 5;
+
+/// Gives them to the command's budget for as long as it lives.
+class FinishingTime {
+ public:
+  FinishingTime() : budget_(budgetOfThread.budget), limit_(budget_ ? budget_->timeLimit() : 0) {
+    if (limit_ > 0) budget_->limitTime(std::max(limit_, budget_->seconds()) + kFinishing);
+  }
+  ~FinishingTime() {
+    if (budget_) budget_->limitTime(limit_);
+  }
+  FinishingTime(const FinishingTime&) = delete;
+  FinishingTime& operator=(const FinishingTime&) = delete;
+
+  bool isOver() const { return budget_ && budget_->timeIsOver(); }
+  std::string brokenOff() const { return budget_ ? budget_->brokenOff() : ""; }
+
+ private:
+  Budget* const budget_;
+  const double limit_;
+};
+
+/// In its place, or, if that cannot be written, elsewhere. Throws what the budget throws.
+SavedPicture saveSomewhere(Session& session, PictureFiles& files, LastSteps finish, const Console& console) {
   try {
-    return {session.save(files), false};
+    return {session.save(files, finish), false, {}, finish};
   } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
     console.error(error);
   }
+  const std::vector<std::string> inPlace = files.written();
   namespace fs = std::filesystem;
   const fs::path folder = makeOwnFolder();
   try {
-    return {session.save((folder / fs::path(files.path()).filename()).string()), true};
+    PictureFiles others = session.filesFor((folder / fs::path(files.path()).filename()).string());
+    return {session.save(others, finish), true, inPlace, finish};
   } catch (...) {
     std::error_code ignored;
     fs::remove(folder, ignored);  // if it is empty
     throw;
   }
+}
+
+/// "--denoise, --bloom and the passes", those that the settings ask for.
+std::string longSteps(const Settings& settings) {
+  std::vector<std::string> steps;
+  if (settings.denoise) steps.emplace_back("--denoise");
+  if (settings.bloom > 0) steps.emplace_back("--bloom");
+  if (!passesOf(settings).empty()) steps.emplace_back("its passes");
+  std::string text;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < steps.size() ? ", " : " and ") + steps[i];
+  return text;
+}
+
+}  // namespace
+
+SavedPicture save(Session& session, RenderResult& result, const Arguments& arguments, Signals& signals,
+                  PictureFiles& files, Progress& progress, const Console& console) {
+  liftMemoryLimit();  // what is done is kept
+  signals.finishingBegins(result.end == End::cancelled);
+  const bool finished = result.end == End::finished;
+  std::string doing;
+  {
+    const FinishingTime time;
+    try {
+      return saveSomewhere(session, files, LastSteps::all, console);
+    } catch (const StoppedByUser&) {
+      result.end = End::cancelled;
+    } catch (const Error&) {
+      if (!time.isOver()) throw;
+      if (finished) result.end = End::timeLimit;
+    }
+    doing = time.brokenOff();
+  }
+  const BudgetScope unlimited(nullptr);
+  bool kept = !finished;  // then it has a checkpoint, if there are to be any
+  if (finished && session.settings().checkpointEvery > 0) {
+    Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+    kept = saveCheckpoint(checkpoint, session.film(), progress, console);
+  }
+  progress.clear();
+  const std::string steps = longSteps(session.settings());
+  console.line(LogLevel::warning,
+               "warning: stopped" + (doing.empty() ? "" : " while " + doing) + ": the picture is written" +
+                   (steps.empty() ? "" : " without " + steps) +
+                   (kept && arguments.resume != Resume::never ? "; its samples are kept" : ""));
+  return saveSomewhere(session, files, LastSteps::plain, console);
+}
+
+std::string whereText(const SavedPicture& saved, const std::string& wanted) {
+  if (!saved.elsewhere) return saved.path == wanted ? "" : "; " + keptText(wanted);
+  if (saved.inPlace.empty()) return " instead of " + wanted;
+  std::string names;
+  for (const std::string& name : saved.inPlace) names += (names.empty() ? "" : ", ") + name;
+  return ", since not all files could be written in their place; there " +
+         std::string(saved.inPlace.size() == 1 ? "is " : "are ") + names;
 }
 
 std::string removedText(const PictureFiles& files) {
@@ -174,6 +261,7 @@ std::string removedText(const PictureFiles& files) {
 bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
                       const std::string& written, double seconds, const Console& console) {
   if (arguments.stats == StatsStyle::none) return true;
+  const BudgetScope unlimited(nullptr);
   const Run run{session, result, written, session.job().fraction(), seconds, peakMemory()};
   if (arguments.stats == StatsStyle::table) {
     console.lines(LogLevel::error, statisticsTable(run));

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "app/session.h"
 #include "cli/arguments.h"
@@ -40,10 +41,19 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
 struct SavedPicture {
   std::string path;        ///< the picture's name
   bool elsewhere = false;  ///< not where it should be, nor beside it
+  /// Of one that is elsewhere: files that are in their places all the same, the picture first.
+  std::vector<std::string> inPlace{};
+  LastSteps finish = LastSteps::all;
 };
 /// Writes the picture and its passes; if their own place fails after all, to a new folder among the system's
-/// temporary files.
-SavedPicture save(Session& session, PictureFiles& files, const Console& console);
+/// temporary files. The steps from the last ray on are given some seconds beyond the time limit. If they take
+/// longer, or the user stops them, what was traced is kept in a checkpoint, if there are to be any, and the
+/// picture is written without the steps that take long; the end of `result` says so.
+SavedPicture save(Session& session, RenderResult& result, const Arguments& arguments, Signals& signals,
+                  PictureFiles& files, Progress& progress, const Console& console);
+
+/// Where the picture is, if it is not where it should be: "; old.png is kept as it is" and the like.
+std::string whereText(const SavedPicture& saved, const std::string& wanted);
 
 /// "; removed out.partial.png", of the fragments that the whole picture took away; "" for none.
 std::string removedText(const PictureFiles& files);

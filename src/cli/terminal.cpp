@@ -23,9 +23,9 @@ namespace {
 // What a signal handler may touch: lock-free atomics and write().
 std::atomic<int> gPipe[2]{-1, -1};
 std::atomic<int> gStops{0};
-enum class Phase { starting, preparing, rendering };
+enum class Phase { starting, preparing, rendering, finishing };
 std::atomic<Phase> gPhase{Phase::starting};
-std::atomic<bool> gAsked{false};  // to stop, while preparing
+std::atomic<bool> gAsked{false};  // to stop, while preparing or finishing
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Phase>::is_always_lock_free);
 
 constexpr int kCaught[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP};
@@ -49,7 +49,7 @@ void onSignal(int signal) {
   const int error = errno;
   if (signal == SIGINT || signal == SIGTERM) {
     if (gPhase == Phase::starting || gStops.fetch_add(1) > 0) stopAtOnce();
-    gAsked = gPhase == Phase::preparing;
+    gAsked = gPhase == Phase::preparing || gPhase == Phase::finishing;
     post('s');  // also for a render that begins right now
   } else {
     post('w');
@@ -143,6 +143,11 @@ void Signals::preparingBegins() { gPhase = Phase::preparing; }
 void Signals::renderingBegins() {
   gPhase = Phase::rendering;
   gAsked = false;
+}
+
+void Signals::finishingBegins(bool stopped) {
+  gPhase = Phase::finishing;
+  gAsked = !stopped && gStops > 0;
 }
 
 void Signals::look() {

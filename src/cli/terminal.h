@@ -30,8 +30,8 @@ struct StoppedByUser {};
 /// Turns signals into events for one thread that waits. Make one at a time.
 ///
 /// Ctrl-C and SIGTERM: at first the process ends at once, with code 130 and a last line. After
-/// preparingBegins() the first makes look() throw, after renderingBegins() it gives Event::stop; the second
-/// ends the process. SIGUSR1 and SIGHUP give Event::save.
+/// preparingBegins() and finishingBegins() the first makes look() throw, after renderingBegins() it gives
+/// Event::stop; the second ends the process. SIGUSR1 and SIGHUP give Event::save.
 class Signals {
  public:
   enum class Event { none, stop, save };
@@ -43,8 +43,10 @@ class Signals {
 
   void preparingBegins();
   void renderingBegins();
+  /// `stopped`: what was to be stopped so far has ended. If not, a stop that nobody took counts now.
+  void finishingBegins(bool stopped);
   /// For the budget of a command, whose work then ends by itself: throws StoppedByUser if that is asked for
-  /// while it prepares. From any thread.
+  /// while it prepares or finishes. From any thread.
   static void look();
   /// Whether signals may interrupt the calling thread and those it starts from now on. Threads that trace
   /// should not be, so that a signal is answered at once.

@@ -4,10 +4,15 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "base/budget.h"
+
 namespace trace::cli {
 namespace {
 
 constexpr int kLookForChanges = 100;  // milliseconds
+
+/// Thrown in the midst of a picture that is written while the render goes on.
+struct SaveEnded {};
 
 }  // namespace
 
@@ -41,6 +46,7 @@ std::string keptText(const std::string& path) {
 
 bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress, const Console& console) {
   std::string why;
+  const BudgetScope unlimited(nullptr);  // what is done is kept, whatever the time
   try {
     checkpoint.save(film);
     return true;
@@ -91,13 +97,7 @@ void Watch::run() {
   Clock::time_point last = Clock::now();
   while (!finished_) {
     switch (signals_.wait(kLookForChanges)) {
-      case Signals::Event::stop:
-        session_.job().cancel = true;
-        progress_.clear();
-        console_.line(LogLevel::info, "stopping when the tiles in work are finished, in " +
-                                          std::to_string(session_.job().patience.count()) +
-                                          " s at most; Ctrl-C again stops at once");
-        break;
+      case Signals::Event::stop: stop(); break;
       case Signals::Event::save: save(); break;
       case Signals::Event::none: break;
     }
@@ -109,14 +109,31 @@ void Watch::run() {
   report(&Progress::finish);
 }
 
+void Watch::stop() {
+  session_.job().cancel = true;
+  progress_.clear();
+  console_.line(LogLevel::info, "stopping when the tiles in work are finished, in " +
+                                    std::to_string(session_.job().patience.count()) +
+                                    " s at most; Ctrl-C again stops at once");
+}
+
+void Watch::lookWhileSaving() {
+  if (signals_.wait(0) == Signals::Event::stop) stop();
+  if (finished_ || session_.job().cancel) throw SaveEnded{};
+}
+
 void Watch::save() {
   progress_.clear();
+  Budget budget([this] { lookWhileSaving(); });
+  const BudgetScope scope(&budget);
   // Not Session::save(): that notes its duration, which belongs to the thread that renders.
   try {
     const std::string picture = pictureText(session_, session_.job().fraction());
     const std::string written = files_.write(session_.film(), session_.settings(), session_.metadata());
     console_.line(LogLevel::error, "wrote " + written + " (" + picture + "), going on" +
                                        (written == files_.path() ? "" : "; " + keptText(files_.path())));
+  } catch (const SaveEnded&) {
+    console_.line(LogLevel::info, "the picture so far is not written, for the render ends");
   } catch (const Error& error) {
     console_.error(error);
   } catch (const std::exception& error) {

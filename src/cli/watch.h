@@ -35,7 +35,8 @@ Progress makeProgress(ProgressStyle style, const Console& console);
 bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress, const Console& console);
 
 /// Lives while Session::renderPicture() runs. Event::stop cancels the job; Event::save writes the finished
-/// tiles to `files`, which are the thread's own meanwhile, as the checkpoint is.
+/// tiles to `files`, which are the thread's own meanwhile, as the checkpoint is; a stop, or the end of the
+/// render, ends that too.
 class Watch {
  public:
   Watch(Session& session, Signals& signals, const Console& console, Progress& progress, PictureFiles& files,
@@ -47,6 +48,8 @@ class Watch {
  private:
   void run();
   void save();
+  void stop();
+  void lookWhileSaving();
   using Tell = void (Progress::*)(std::int64_t done, std::int64_t total, double elapsed,
                                   std::optional<double> share);
   void report(Tell tell);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "base/file.h"
@@ -43,16 +42,14 @@ PictureKind kindOfJpeg(std::string_view bytes) {
   return {};
 }
 
-/// Its first bytes; none of what is no regular file, which may have no end.
+/// Its first bytes; none of what is no ordinary file, which may have no end.
 std::string headOf(const std::string& path) {
   constexpr std::size_t kHead = 1 << 16;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return {};
-  std::ifstream stream(path, std::ios::binary);
-  std::string head(kHead, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(stream.gcount()));
-  return head;
+  try {
+    return readStart(path, kHead);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 /// `otherwise` where the luminance of `amount`, times `share`, is 0, and `whole`, times the texture `own` if

@@ -1,5 +1,7 @@
 #include "image/anaglyph.h"
 
+#include "base/budget.h"
+
 namespace trace {
 namespace {
 
@@ -22,6 +24,7 @@ Picture anaglyph(const Picture& both, const Anaglyph& rules) {
   Picture picture(both.width / 2, both.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
+      checkBudget();
       const Color &left = both.at(x, y), &right = both.at(x + picture.width, y);
       const auto channel = [&](std::size_t i) {
         return along(rules.left[i], left) + along(rules.right[i], right);

@@ -68,7 +68,7 @@ bool isTga(std::string_view b) {
 // --- the rows ----------------------------------------------------------------------------------------
 
 std::string encodePng(const Picture& picture, Rounding rounding, const Metadata& metadata) {
-  return withPngText(encodePngByStb(toBytes(picture, rounding)), metadata);
+  return withPngText(encodePngRows(toBytes(picture, rounding)), metadata);
 }
 std::string encodeBmp(const Picture& picture, Rounding rounding, const Metadata&) {
   return encodeBmpByStb(toBytes(picture, rounding));
@@ -192,6 +192,8 @@ std::string encodePicture(const PictureFormat& format, const Picture& picture, R
     return format.encode(picture, rounding, metadata);
   } catch (const std::bad_alloc&) {
     throw Error(Fault::limit, "not enough memory to write this picture as " + std::string(format.name));
+  } catch (const Error&) {  // the time is over
+    throw;
   } catch (const std::exception& e) {
     throw Error(Fault::io, "cannot write a picture as " + std::string(format.name) + ": " + e.what());
   }
@@ -201,7 +203,7 @@ std::string encodePng(const Raster& raster) {
   if (raster.count() > 3 * kMostStbPixels)
     throw Error(Fault::limit, "a picture of " + std::to_string(raster.width) + "x" +
                                   std::to_string(raster.height) + " pixels does not fit into PNG");
-  return encodePngByStb(raster);
+  return encodePngRows(raster);
 }
 
 void writePicture(const std::string& path, const Picture& picture, Rounding rounding,

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/budget.h"
 #include "image/codec.h"
 #include "image/codec_parts.h"
 #include "image/exr_chunks.h"
@@ -140,8 +141,10 @@ ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata) {
   std::vector<float> values;
   values.reserve(3 * picture.pixels.size());
-  for (const Color& c : picture.pixels)
+  for (const Color& c : picture.pixels) {
+    checkBudget();
     for (double channel : {c.r, c.g, c.b}) values.push_back(static_cast<float>(channel));
+  }
 
   Imf::Header header(picture.width, picture.height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -160,7 +163,11 @@ std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata
     MemoryOutput stream(file);
     Imf::OutputFile output(stream, header, kNoThreads);
     output.setFrameBuffer(target);
-    output.writePixels(picture.height);
+    constexpr int kRows = 16;  // that ZIP packs together
+    for (int y = 0; y < picture.height; y += kRows) {
+      lookAtBudget();
+      output.writePixels(std::min(kRows, picture.height - y));
+    }
   }  // the end of `output` completes the file
   return file;
 }

@@ -33,9 +33,11 @@ inline constexpr double kPackedPixelsPerByte = 1100;
 void checkClaimedSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, double pixelsPerByte,
                       const PictureLimits& limits);
 
-std::string encodePngByStb(const Bytes& bytes);
+std::string encodePngRows(const Bytes& bytes);
 /// The samples of the raster must be bytes.
-std::string encodePngByStb(const Raster& raster);
+std::string encodePngRows(const Raster& raster);
+/// One part of a PNG file, with its length and checksum.
+std::string pngChunk(const std::string& type, const std::string& data);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);

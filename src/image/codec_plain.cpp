@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/budget.h"
 #include "image/codec.h"
 #include "image/codec_parts.h"
 
@@ -168,8 +169,10 @@ std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata
   const std::string size = "-Y " + std::to_string(picture.height) + " +X " + std::to_string(picture.width);
   std::string file = withCommentLines("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n", metadata);
   file.reserve(file.size() + 4 * picture.pixels.size());
-  for (const Color& c : picture.pixels)
+  for (const Color& c : picture.pixels) {
+    checkBudget();
     for (unsigned char value : toRgbe(c)) file += static_cast<char>(value);
+  }
   return file;
 }
 

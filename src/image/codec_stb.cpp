@@ -1,10 +1,8 @@
 // PNG, BMP, TGA and JPEG through stb_image and stb_image_write, the only file that sees them. PNG files are
-// packed by zlib, where stb lets us: in a third of the time and to three quarters of the size.
+// written elsewhere (codec_png.cpp).
 // One station of codec.cpp's table. Source: Sean Barrett's public-domain headers, stb_image 2.27 and
 // stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
 // source below notices, so that a truncated file is refused.
-#include <zlib.h>
-
 #include <algorithm>
 #include <climits>
 #include <cstdlib>
@@ -16,33 +14,10 @@
 #include <variant>
 #include <vector>
 
+#include "base/budget.h"
 #include "image/codec.h"
 #include "image/codec_parts.h"
 
-namespace {
-
-constexpr int kPngLevel = 4;  // zlib's: 6 takes twice as long for a tenth less
-
-/// For stb, which frees it; null if there is no memory.
-unsigned char* deflated(unsigned char* data, int size, int* length, int /*stb's own level*/) {
-  uLongf packed = compressBound(static_cast<uLong>(size));
-  auto* bytes = static_cast<unsigned char*>(std::malloc(packed));
-  if (bytes && compress2(bytes, &packed, data, static_cast<uLong>(size), kPngLevel) != Z_OK) {
-    std::free(bytes);
-    return nullptr;
-  }
-  *length = static_cast<int>(packed);
-  return bytes;
-}
-
-unsigned checksum(const unsigned char* data, int size) {
-  return static_cast<unsigned>(crc32(0, data, static_cast<uInt>(size)));
-}
-
-}  // namespace
-
-#define STBIW_ZLIB_COMPRESS deflated
-#define STBIW_CRC32 checksum
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -78,6 +53,7 @@ namespace {
 constexpr int kJpegQuality = 95;  // from 91 on stb keeps the colours of every pixel
 
 void append(void* file, void* bytes, int count) {
+  checkBudget();
   static_cast<std::string*>(file)->append(static_cast<const char*>(bytes), static_cast<size_t>(count));
 }
 
@@ -199,20 +175,6 @@ Raster withoutAlpha(const Raster& given) {
 }
 
 }  // namespace
-
-std::string encodePngByStb(const Bytes& b) {
-  return written([&](auto to, void* file) {
-    return stbi_write_png_to_func(to, file, b.width, b.height, 3, b.rgb.data(), 3 * b.width);
-  });
-}
-
-std::string encodePngByStb(const Raster& r) {
-  const auto& samples = std::get<std::vector<std::uint8_t>>(r.samples);
-  return written([&](auto to, void* file) {
-    return stbi_write_png_to_func(to, file, r.width, r.height, r.channels, samples.data(),
-                                  r.channels * r.width);
-  });
-}
 
 std::string encodeBmpByStb(const Bytes& b) {
   return written([&](auto to, void* file) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/budget.h"
+
 namespace trace {
 namespace {
 
@@ -31,6 +33,7 @@ Channels channelsOf(const Picture& picture) {
   Channels channels{Plane(picture.width, picture.height), Plane(picture.width, picture.height),
                     Plane(picture.width, picture.height)};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    checkBudget();
     const Color& c = picture.pixels[i];
     channels[0].values[i] = static_cast<float>(c.r);
     channels[1].values[i] = static_cast<float>(c.g);
@@ -44,12 +47,14 @@ Plane blurred(const Plane& plane) {
   Plane across(plane.width, plane.height), both(plane.width, plane.height);
   for (int y = 0; y < plane.height; ++y)
     for (int x = 0; x < plane.width; ++x) {
+      checkBudget();
       const int first = std::max(0, x - kNoiseReach), last = std::min(plane.width - 1, x + kNoiseReach);
       float sum = 0;
       for (int i = first; i <= last; ++i) sum += plane.row(y)[i];
       across.row(y)[x] = sum / static_cast<float>(last - first + 1);
     }
   for (int y = 0; y < plane.height; ++y) {
+    lookAtBudget();
     const int first = std::max(0, y - kNoiseReach), last = std::min(plane.height - 1, y + kNoiseReach);
     for (int i = first; i <= last; ++i)
       for (int x = 0; x < plane.width; ++x) both.row(y)[x] += across.row(i)[x];
@@ -64,6 +69,7 @@ Plane varianceOf(const Halves& halves, double Color::*channel) {
   const int width = halves.first.width, height = halves.first.height;
   Plane told(width, height), found(width, height);
   for (std::size_t i = 0; i < told.values.size(); ++i) {
+    checkBudget();
     const double share = halves.share[i];
     if (share == 0) continue;
     const double apart = halves.first.pixels[i].*channel - halves.second.pixels[i].*channel;
@@ -86,6 +92,7 @@ struct Feature {
       : values(channelsOf(picture)), tolerance(picture.width, picture.height), channels(count) {
     for (int y = 0; y < picture.height; ++y)
       for (int x = 0; x < picture.width; ++x) {
+        checkBudget();
         float slope = 0;
         for (int c = 0; c < channels; ++c) {
           const Plane& v = values[static_cast<std::size_t>(c)];
@@ -173,6 +180,7 @@ void Filter::take(int y0, int y1, Picture& result) const {
   for (int dy = -kReach; dy <= kReach; ++dy)
     for (int dx = -kReach; dx <= kReach; ++dx)
       for (int which = 0; which < 2; ++which) {
+        lookAtBudget();
         for (int y = 0; y < apartHere.height; ++y)
           for (int x = 0; x < apartHere.width; ++x)
             apartHere.row(y)[x] = apart(which, x - kPatch, y0 + y - kPatch, dx, dy);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/budget.h"
+#include "image/bloom.h"
 #include "image/srgb.h"
 #include "math/noise.h"
 
@@ -105,47 +106,10 @@ Color transferred(const Color& c, Transfer transfer) {
   return transfer == Transfer::linear ? c : Color{srgbOfLinear(c.r), srgbOfLinear(c.g), srgbOfLinear(c.b)};
 }
 
-/// One direction of a Gaussian blur; beyond the border the picture is left out of the mean.
-Picture bloomBlurred(const Picture& picture, double sigma, bool across) {
-  const int reach = std::max(1, static_cast<int>(std::ceil(3 * sigma)));
-  std::vector<double> weights;
-  for (int i = 0; i <= reach; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigma * sigma)));
-  Picture result(picture.width, picture.height);
-  const int length = across ? picture.width : picture.height;
-  for (int y = 0; y < picture.height; ++y) {
-    checkBudget();
-    for (int x = 0; x < picture.width; ++x) {
-      Color sum(0);
-      double whole = 0;
-      const int at = across ? x : y;
-      for (int i = std::max(-reach, -at); i <= std::min(reach, length - 1 - at); ++i) {
-        const double weight = weights[static_cast<std::size_t>(std::abs(i))];
-        const Color& c = across ? picture.at(x + i, y) : picture.at(x, y + i);
-        if (!std::isfinite(c.r + c.g + c.b)) continue;
-        sum += c * weight;
-        whole += weight;
-      }
-      result.at(x, y) = whole > 0 ? sum / whole : Color(0);
-    }
-  }
-  return result;
-}
-
-/// A share of each pixel's light, around it in three sizes of disks with soft edges.
-Picture bloomed(const Picture& picture, double share) {
-  Picture result = picture;
-  for (Color& c : result.pixels) c = c * (1 - share);
-  for (const double size : {0.005, 0.02, 0.06}) {
-    const Picture around =
-        bloomBlurred(bloomBlurred(picture, size * picture.height, true), size * picture.height, false);
-    for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] += around.pixels[i] * (share / 3);
-  }
-  return result;
-}
-
 /// Noise of one level, a triangle from -1 to 1: the mean of many pixels is the value itself.
 void dither(Picture& picture) {
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    checkBudget();
     std::uint64_t bits = mixBits(i);
     const auto uniform = [&] {
       bits = mixBits(bits);
@@ -180,18 +144,22 @@ Color developed(Color color, const Development& d) {
 }
 
 Picture developed(Picture picture, const Development& d) {
-  if (d.bloom > 0) picture = bloomed(picture, d.bloom);
-  const double scale = std::exp2(d.exposure);
-  if (d.exposure != 0)
-    for (Color& c : picture.pixels) c = c * scale;
-  if (d.whiteBalance > 0) {
-    const WhiteBalance balance = whiteBalance(d.whiteBalance);
-    for (Color& c : picture.pixels) c = balance(c);
+  const auto each = [&](auto change) {
+    for (Color& c : picture.pixels) {
+      checkBudget();
+      c = change(c);
+    }
+  };
+  if (d.bloom > 0) {
+    const Work work("adding bloom");
+    picture = bloomed(picture, d.bloom);
   }
-  for (Color& c : picture.pixels) c = curved(c, d.tone);
+  const double scale = std::exp2(d.exposure);
+  if (d.exposure != 0) each([&](const Color& c) { return c * scale; });
+  if (d.whiteBalance > 0) each(whiteBalance(d.whiteBalance));
+  each([&](const Color& c) { return curved(c, d.tone); });
   picture = toned(std::move(picture), d.tone);
-  if (d.transfer != Transfer::linear)
-    for (Color& c : picture.pixels) c = transferred(c, d.transfer);
+  if (d.transfer != Transfer::linear) each([&](const Color& c) { return transferred(c, d.transfer); });
   if (d.dither) dither(picture);
   return picture;
 }

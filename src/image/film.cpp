@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/budget.h"
+
 namespace trace {
 
 double PixelSum::variance() const {
@@ -168,8 +170,10 @@ void Film::forEachDone(const Use& use) const {
     const std::lock_guard lock(state.mutex);
     if (state.waves == 0) continue;
     const Tile area = tile(i);
-    for (int y = area.y0; y < area.y1; ++y)
+    for (int y = area.y0; y < area.y1; ++y) {
+      checkBudget();
       for (int x = area.x0; x < area.x1; ++x) use(pixels_[index(x, y)], x, y);
+    }
   }
 }
 
@@ -213,7 +217,7 @@ void Film::forEachDivided(const Use& use) const {
     const std::size_t levels = levelsOf(area, [&](std::size_t tile) { return there[tile]; });
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
-        if (corners_->level(i, 0).has(x, y)) use(x, y, static_cast<int>(levels));
+        if (checkBudget(), corners_->level(i, 0).has(x, y)) use(x, y, static_cast<int>(levels));
   }
 }
 
@@ -254,8 +258,10 @@ void Film::copyDone(Picture& onto) const {
   if (anywhere) std::fill(onto.pixels.begin(), onto.pixels.end(), Color(0));
   forEachDone([&](const PixelSum& pixel, int x, int y) { onto.at(x, y) = pixel.mean(); });
   if (!anywhere) return;
-  for (int y = 0; y < height_; ++y)
+  for (int y = 0; y < height_; ++y) {
+    checkBudget();
     for (int x = 0; x < width_; ++x) onto.at(x, y) += splats_->mean(x, y);
+  }
 }
 
 Picture Film::layer(std::size_t number) const {

@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "image/codec_parts.h"
+
 namespace trace {
 namespace {
 
@@ -59,11 +61,6 @@ std::optional<PngChunk> nextPngChunk(std::string_view png, size_t& offset) {
   const bool sound = crc32(typeAndData) == bigEndianAt(png, offset + 8 + length);
   offset += kAround + length;
   return PngChunk{typeAndData.substr(0, 4), typeAndData.substr(4), sound};
-}
-
-std::string pngChunk(const std::string& type, const std::string& data) {
-  const std::string typeAndData = type + data;
-  return bigEndian(static_cast<std::uint32_t>(data.size())) + typeAndData + bigEndian(crc32(typeAndData));
 }
 
 /// The text in Latin-1, or nothing if it has other letters or is not UTF-8.
@@ -122,6 +119,11 @@ std::string cleanKey(std::string_view key) {
   while (!clean.empty() && clean.back() == ' ') clean.pop_back();
   clean.erase(0, std::min(clean.find_first_not_of(' '), clean.size()));
   return clean.empty() ? "Comment" : clean;
+}
+
+std::string pngChunk(const std::string& type, const std::string& data) {
+  const std::string typeAndData = type + data;
+  return bigEndian(static_cast<std::uint32_t>(data.size())) + typeAndData + bigEndian(crc32(typeAndData));
 }
 
 std::string withPngText(std::string png, const Metadata& metadata) {

@@ -8,17 +8,21 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/budget.h"
+
 namespace trace {
 
 ValueRange finiteRange(const Picture& picture) {
   constexpr double kBeyond = std::numeric_limits<double>::infinity();
   ValueRange range{kBeyond, -kBeyond};
-  for (const Color& c : picture.pixels)
+  for (const Color& c : picture.pixels) {
+    checkBudget();
     for (double channel : {c.r, c.g, c.b}) {
       if (!std::isfinite(channel)) continue;
       range.low = std::min(range.low, channel);
       range.high = std::max(range.high, channel);
     }
+  }
   return range.low <= range.high ? range : ValueRange{};
 }
 
@@ -26,7 +30,10 @@ Picture stretched(Picture picture, const ValueRange& range) {
   const double extent = range.high - range.low;
   if (!(extent > 0)) return picture;
   const auto stretch = [&](double c) { return (c - range.low) / extent; };
-  for (Color& c : picture.pixels) c = {stretch(c.r), stretch(c.g), stretch(c.b)};
+  for (Color& c : picture.pixels) {
+    checkBudget();
+    c = {stretch(c.r), stretch(c.g), stretch(c.b)};
+  }
   return picture;
 }
 
@@ -46,8 +53,10 @@ Bytes toBytes(const Picture& picture, Rounding rounding) {
   Bytes bytes{picture.width, picture.height, {}};
   bytes.rgb.resize(3 * picture.pixels.size());
   std::uint8_t* level = bytes.rgb.data();
-  for (const Color& c : picture.pixels)
+  for (const Color& c : picture.pixels) {
+    checkBudget();
     for (double channel : {c.r, c.g, c.b}) *level++ = toLevel(channel, rounding);
+  }
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/budget.h"
 #include "image/false_color.h"
 #include "math/box.h"
 #include "render/interaction.h"
@@ -20,7 +21,10 @@ Color colorOf(const Vec3& v) { return {v.x, v.y, v.z}; }
 /// Applies `show` to every pixel.
 template <class Show>
 Picture mapped(Picture picture, Show show) {
-  for (Color& c : picture.pixels) c = show(c);
+  for (Color& c : picture.pixels) {
+    checkBudget();
+    c = show(c);
+  }
   return picture;
 }
 

@@ -98,7 +98,7 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         const bool none = isBlack(node.radiance);
                         std::string names;
                         for (const Filter& filter : node.filters)
-                          names += (names.empty() ? "" : ", ") + objectName(scene, filter.object);
+                          names += (names.empty() ? "" : ", ") + fillingName(scene, filter.object);
                         return (none ? "absorbed by " : "reached the light, filtered by ") + names;
                       },
                       [&](const MetLight& e) {

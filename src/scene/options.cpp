@@ -1210,7 +1210,10 @@ const std::array kOptions{
                              .most = 1024}),
     row<&Settings::accel>({.name = "accel",
                            .group = "Resources",
-                           .help = "bounding volume hierarchy, or none: every object is tested for every ray",
+                           .help =
+                               "bounding volume hierarchy, or none: every object is tested for every ray; "
+                               "-b also takes one ray a pixel and no other stop than those on the line, "
+                               "whatever the scene asks for",
                            .source = "courses: -b and -B",
                            .repeats = Repeats::world}),
     row<&Settings::timeLimit>(

@@ -11,12 +11,21 @@ std::span<const ShortFlag> shortFlags() {
       ShortFlag{'r', "depth", "", ""},
       ShortFlag{'t', "threads", "", ""},
       ShortFlag{'c', "environment", "", ""},
-      ShortFlag{'b', "accel", "bvh", "acceleration on"},
+      ShortFlag{kPlainFlag, "accel", "bvh", "acceleration on"},
       ShortFlag{'B', "accel", "none", "acceleration off"},
       ShortFlag{'a', "spp", "9", "anti-aliasing on"},
       ShortFlag{'A', "spp", "1", "anti-aliasing off"},
   };
   return kTable;
+}
+
+std::span<const Choice> plainChoices() {
+  static const std::array<Choice, 5> kChoices{{{"spp", "1", {}},
+                                               {"threshold", "0", {}},
+                                               {"noise-target", "0", {}},
+                                               {"subdivide", "0", {}},
+                                               {"denoise", "off", {}}}};
+  return kChoices;
 }
 
 bool isSwitch(std::string_view word) {

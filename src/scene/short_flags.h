@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "scene/options.h"
+
 namespace trace {
 
 /// The courses' short flags that stand for options: `-w 400` is `--width 400`, `-b` is `--accel bvh`.
@@ -14,6 +16,11 @@ struct ShortFlag {
   std::string_view help;
 };
 std::span<const ShortFlag> shortFlags();
+
+/// What the flag -b of the courses' line means beside its option: one ray a pixel, and no early stop that the
+/// scene asks for. These come before the flags of the line, which therefore win wherever they stand.
+inline constexpr char kPlainFlag = 'b';
+std::span<const Choice> plainChoices();
 
 /// A word that may stand after the flag of an option that is on or off, and may be left out there.
 bool isSwitch(std::string_view word);

@@ -104,6 +104,8 @@ class Parser {
         return choose(flag.option, rest.empty() ? valueAfter(std::string("-") + word[i]) : rest);
       }
       choose(flag.option, std::string(flag.value));
+      if (flag.letter == kPlainFlag)
+        arguments_.choices.insert(arguments_.choices.begin(), plainChoices().begin(), plainChoices().end());
     }
   }
 

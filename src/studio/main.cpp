@@ -99,7 +99,7 @@ void sizeWindow(Studio& studio, const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
   std::optional<Script> script;
-  if (!arguments.script.empty()) script.emplace(arguments.script);
+  if (!arguments.script.empty()) script.emplace(arguments.script, resolve({arguments.choices}).timeLimit);
   if (script) keepLandmarks();
   const std::string folder = script ? "" : configFolder(variable);
   const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes

@@ -287,7 +287,8 @@ Words argumentsOf(const Words& words) { return {words.begin() + 1, words.end()};
 
 }  // namespace
 
-Script::Script(const std::string& file) {
+Script::Script(const std::string& file, double timeLimit) {
+  budget_.limitTime(timeLimit);
   std::vector<Message> wrong;
   std::istringstream text(readFile(file));
   std::string line;
@@ -310,6 +311,10 @@ Script::Script(const std::string& file) {
 
 bool Script::step(Studio& studio) {
   waits_ = false;
+  if (budget_.timeIsOver() && next_ < lines_.size())
+    throw Error(Fault::limit, lines_[next_].place,
+                "the time limit of " + toText(budget_.timeLimit()) + " s is over while the script is here",
+                "a larger --time-limit gives it longer; 0 never stops");
   if (framesToWait_ > 0) return --framesToWait_, true;
   bool goesOn = true;  // commands that need no frame follow each other at once
   while (goesOn && !waits_ && framesToWait_ == 0) goesOn = next(studio);

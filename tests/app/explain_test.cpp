@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "app/drawing.h"
+#include "app/explained_rays.h"
 #include "app/ray_drawing.h"
 #include "app/ray_segments.h"
 #include "app/session.h"
@@ -152,7 +153,7 @@ TEST(Explain, SegmentsRunFromRayToHitAndObjHoldsThemAll) {
     }
     EXPECT_EQ(segment.leaves, !node.hit && node.kind != RayKind::shadow);
   }
-  const std::string obj = raysAsObj(tree);
+  const std::string obj = raysAsObj(tree, explainedRays(tree, session.scene()));
   const auto count = [&](const std::string& what) {
     std::size_t n = 0;
     for (std::size_t at = obj.find(what); at != std::string::npos; at = obj.find(what, at + 1)) ++n;

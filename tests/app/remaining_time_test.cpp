@@ -36,6 +36,32 @@ TEST(RemainingTime, WorkThatSlowsDownIsNotSaidToBeDone) {
   }
 }
 
+TEST(RemainingTime, AMachineThatGetsBusyIsNoticed) {
+  // 1 % a second for 20 s, then other programs take three quarters of the machine.
+  RemainingTime estimate;
+  const auto fraction = [](double t) { return t < 20 ? 0.01 * t : 0.2 + 0.0025 * (t - 20); };
+  for (int i = 1; i <= 400; ++i) {
+    const double elapsed = 0.1 * i;
+    const auto left = estimate.update(elapsed, fraction(elapsed));
+    if (i < 400) continue;
+    ASSERT_TRUE(left);  // 25 % are done, 300 s are left; the mean rate says 120
+    EXPECT_GT(*left, 240);
+    EXPECT_LT(*left, 330);
+  }
+}
+
+TEST(RemainingTime, WorkThatComesInLargePiecesIsNotPromisedTooSoon) {
+  // On a busy machine a wave of tiles is finished every 5 s; 200 s in all.
+  RemainingTime estimate;
+  for (int i = 1; i < 1900; ++i) {
+    const double elapsed = 0.1 * i, fraction = std::floor(elapsed / 5) * 5 / 200;
+    const auto left = estimate.update(elapsed, fraction);
+    if (elapsed > 20) {
+      EXPECT_GT(*left, 0.8 * (200 - elapsed) - 5) << elapsed;
+    }
+  }
+}
+
 TEST(RemainingTime, NeverNegative) {
   RemainingTime estimate;
   estimate.update(1, 0.5);

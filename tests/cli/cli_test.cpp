@@ -398,6 +398,28 @@ TEST_F(Cli, SceneFileBelowCommandLine) {
   EXPECT_EQ(width({"-w", "22", "--quick"}), "22");
 }
 
+TEST_F(Cli, TheCoursesLineIsOneRayAPixelAndNoOtherStop) {
+  write("set.ray",
+        std::string(kWhite) +
+            "settings { threshold = 0.3; spp = 9; noise-target = 0.1; subdivide = 2; denoise = on; }\n");
+  const auto stats = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"set.ray", "-w", "20", "-r", "5", "-t", "1", "--stats=json"});
+    const Run r = run(words);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return json::parse(r.out);
+  };
+  const json line = stats({"-b"});
+  EXPECT_EQ(line["rays"]["camera"], 20 * 16);
+  for (const char* option : {"threshold", "spp", "noise-target", "subdivide", "denoise", "accel"})
+    EXPECT_FALSE(line["settings"].contains(option)) << option;
+  EXPECT_EQ(line["settings"]["depth"], "5");
+  // What the line says itself holds, wherever it stands.
+  for (const auto& words : {std::vector<std::string>{"-b", "-a"}, {"-a", "-b"}, {"--spp", "9", "-b"}})
+    EXPECT_EQ(stats(words)["rays"]["camera"], 9 * 20 * 16) << words[0];
+  EXPECT_EQ(stats({"--threshold", "0.25", "-b"})["settings"]["threshold"], "0.25");
+  EXPECT_NE(stats({"-B"})["rays"]["camera"], 20 * 16) << "the scene's own";
+}
+
 TEST_F(Cli, QuickOverridesTheScene) {
   write("set.ray", std::string(kWhite) + "settings { width = 300; height = 300; depth = 9; spp = 16; }\n");
   const json stats = json::parse(run({"set.ray", "--quick", "--stats=json"}).out);

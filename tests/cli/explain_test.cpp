@@ -1,10 +1,17 @@
 // ray explain and ray lint, as users meet them.
 #include <gtest/gtest.h>
 
+#include <list>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
+#include "app/drawing.h"
+#include "app/explained_rays.h"
+#include "app/ray_drawing.h"
+#include "app/session.h"
+#include "cli/explain_json.h"
+#include "cli/explain_text.h"
 #include "cli/program.h"
 #include "image/codec.h"
 #include "support/folder.h"
@@ -165,6 +172,125 @@ TEST_F(Explain, JsonFollowsItsSchemaToTheLastBit) {
   EXPECT_EQ(object["shape"], "sphere");
   EXPECT_EQ(object["place"]["line"], 46);
   EXPECT_EQ(rays[0]["hit"]["material"]["index"], 1.5);
+}
+
+/// How often `part` stands in the text.
+std::size_t timesIn(const std::string& text, const std::string& part) {
+  std::size_t times = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++times;
+  return times;
+}
+
+/// Text, JSON, OBJ and drawing of some pixels: all are there, tell of the same rays, and sum to the picture.
+void expectFormsAgree(Session& session, bool draws) {
+  const Size size = session.size();
+  const std::pair<int, int> pixels[] = {
+      {size.width / 2, size.height / 2}, {1, size.height - 2}, {size.width - 2, 1}};
+  for (const auto& [x, y] : pixels) {
+    const Explanation explanation = session.explain(x, y, 0);
+    const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, session.scene());
+    const cli::PixelFacts facts{session.scene(),   explanation, rays,
+                                size.width,        size.height, session.film().ofSamples(x, y),
+                                session.settings()};
+    EXPECT_TRUE(facts.agrees());
+    const json all = json::parse(cli::explainJson(facts));
+    ASSERT_EQ(all["rays"].size(), rays.size());
+    for (const json& ray : all["rays"]) {
+      if (ray["kind"] == "light") continue;  // brings nothing back
+      const auto expected = sum(all["rays"], ray);
+      for (std::size_t c = 0; c < 3; ++c)
+        if (ray["radiance"][c].is_number()) {
+          EXPECT_EQ(ray["radiance"][c].get<double>(), expected[c]) << ray["id"];
+        }
+    }
+    const Color rendered = session.film().ofSamples(x, y);
+    EXPECT_EQ(all["rays"][0]["radiance"], all["samples"][0]);
+    if (all["samples"].size() == 1 && isFinite(rendered)) {
+      EXPECT_EQ(all["rendered"], json({rendered.r, rendered.g, rendered.b}));
+      EXPECT_EQ(all["rays"][0]["radiance"], all["rendered"]);
+    }
+    const std::string text = cli::explainText(facts, false), obj = raysAsObj(explanation.tree, rays);
+    EXPECT_EQ(timesIn(text, ": depth "), rays.size());
+    EXPECT_EQ(timesIn(obj, "\nl "), rays.size());
+    EXPECT_FALSE(contains(text, "do NOT sum"));
+    std::size_t filters = 0, told = 0;
+    for (const json& ray : all["rays"]) filters += ray["kind"] == "shadow" ? ray["filters"].size() : 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      told += line.find("* ") != line.npos && line.find(" through ") != line.npos;
+    EXPECT_EQ(told, filters) << text;
+    if (!draws) continue;
+    EXPECT_GT(toSvg(drawRays(session.scene(), session.settings(), session.worldOf(explanation.tree),
+                             explanation.tree))
+                  .size(),
+              1000u);
+  }
+}
+
+TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
+  int shown = 0;
+  for (const std::string& file : filesUnder(kScenes, ".ray")) {
+    if (file.find("/meshes/") != std::string::npos) continue;
+    std::list<Session> sessions;  // the first is kept: what is the same is shared with it
+    for (const IntegratorRow& row : integrators()) {
+      if (row.byChains) continue;  // whose pixels have no samples: the command explains those of path
+      SCOPED_TRACE(file + " " + std::string(row.name));
+      std::vector<Choice> choices;
+      for (const auto& [option, value] : {std::pair{"integrator", row.name},
+                                          {"width", "8"},
+                                          {"depth", "3"},
+                                          {"spp", "1"},
+                                          {"photons", "500"},
+                                          {"photon-passes", "1"},
+                                          {"denoise", "off"},
+                                          {"subdivide", "0"},
+                                          {"region", "0,0,0,0"},
+                                          {"moments", "2"},
+                                          {"medium-depth", "3"}})
+        choices.push_back({std::string(option), std::string(value), {}});
+      Session& session = sessions.emplace_back();
+      session.open(file, choices);
+      if (session.settings().caustics > 0) {
+        choices.push_back({"caustics", "500", {}});
+        session.open(file, choices);
+      }
+      session.build(sessions.size() > 1 ? &sessions.front() : nullptr);
+      session.renderPicture();
+      const std::string name = std::filesystem::path(file).stem().string();
+      expectFormsAgree(session,
+                       row.name == "whitted" && (name == "cloud" || name == "mist" || name == "underwater"));
+      ++shown;
+      if (sessions.size() > 1) sessions.pop_back();
+    }
+  }
+  EXPECT_GT(shown, 300);
+}
+
+TEST_F(Explain, AShadowRayThroughAMediumIsToldInJson) {
+  const std::string scene = folder / "medium.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+camera { position = (0,0,5); viewdir=(0,0,-1); updir=(0,1,0); }
+point_light { position=(1,3,2); color=(2,2,2); }
+sphere { name = puff; material={ opacity=0; medium_density=3; } }
+)");
+  const json all = json::parse(out({"explain", scene, "-w", "9", "--pixel", "4,4", "--format", "json"}));
+  bool crosses = false;
+  for (const json& ray : all["rays"])
+    for (const json& filter : ray["filters"])
+      crosses |= filter["object"]["name"] == "puff" && filter["object"]["shape"] == "sphere";
+  EXPECT_TRUE(crosses) << all;
+  // In fog no object is named.
+  writeFile(scene, R"(SBT-raytracer 1.0
+settings { fog = 0.2; fog-color = (1,1,1); integrator = path; }
+camera { position = (0,0,5); viewdir=(0,0,-1); updir=(0,1,0); }
+point_light { position=(1,3,2); color=(2,2,2); }
+sphere { }
+)");
+  for (const char* integrator : {"path", "whitted", "bdpt", "photon", "direct"})
+    EXPECT_EQ(json::parse(out({"explain", scene, "-w", "9", "--pixel", "4,4", "--format", "json",
+                               "--integrator", integrator, "--photons", "1000"}))["agrees"],
+              true)
+        << integrator;
 }
 
 TEST_F(Explain, NamesTheMaterialThatIsThere) {

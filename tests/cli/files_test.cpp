@@ -1,6 +1,8 @@
 // Nothing a user has is lost: inputs that stay, pictures that stay whole, streams that are closed, names that
 // would command a terminal.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -248,6 +250,39 @@ TEST_F(FilesTest, NamesDoNotCommandTheTerminal) {
   const Run r = run({"bad.ray", "-w", "8"});
   expectSafe(r);
   EXPECT_EQ(r.code, 3);
+}
+
+TEST_F(FilesTest, WhatIsNoFileNeverKeepsTheProgramWaiting) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo(path("pipe.png").c_str(), 0600), 0);
+  const Run silent = run({"pipe", "out.png"});
+  EXPECT_EQ(silent.code, 1);
+  EXPECT_TRUE(contains(silent.err, "it is a pipe, and no program has opened it to write"));
+  const Run limited = run({"pipe", "out.png", "--time-limit", "0.5"});
+  EXPECT_EQ(limited.code, 5) << limited.err;
+  for (const char* name : {"/dev/zero", "/dev/tty", "/dev/random"})
+    EXPECT_TRUE(contains(run({name, "out.png"}).err, "it is a device")) << name;
+  for (const char* name : {"/proc/cpuinfo", "/proc/kmsg", "/proc/self/mem", "/proc/self/pagemap"}) {
+    if (::access(name, R_OK) != 0) continue;
+    EXPECT_TRUE(contains(run({name, "out.png"}).err, "it is no ordinary file")) << name;
+    write("names.ray", std::string(kWhite) + "mesh { file = \"" + name + "\"; }\n");
+    const Run r = run({"names.ray", "out.png", "-w", "8"});
+    EXPECT_TRUE(contains(r.err, "it is no ordinary file")) << name;
+    EXPECT_TRUE(contains(run({"diff", name, name}).err, "it is no ordinary file")) << name;
+  }
+  // As the picture: nobody reads it.
+  const Run written = run({"white.ray", "pipe.png", "-w", "8"});
+  EXPECT_TRUE(contains(written.err, "it is a pipe, and no program has opened it to read"));
+  EXPECT_FALSE(exists("out.png"));
+}
+
+TEST_F(FilesTest, APipeThatSomebodyFillsIsRead) {
+  EXPECT_EQ(shell("ray <(sleep 0.3; cat white.ray) out.png -w 8 2> err"), 0) << bytesOf("err");
+  EXPECT_EQ(readPicture(path("out.png")).width, 8);
+  EXPECT_EQ(shell("mkfifo picture.png; cat picture.png > copy.png & sleep 0.2; ray white.ray picture.png -w "
+                  "8 && wait"),
+            0);
+  EXPECT_EQ(readPicture(path("copy.png")).width, 8);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ class Program {
     if (child_ != 0) return;
     for (int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
       ::signal(signal, SIG_DFL);  // even in a background job
-    for (const char* name : {"RAY_THREADS", "RAY_LOG", "COLUMNS", "NO_COLOR"}) ::unsetenv(name);
+    for (const char* name : {"RAY_THREADS", "RAY_LOG", "NO_COLOR"}) ::unsetenv(name);
+    ::setenv("COLUMNS", "200", 1);  // on a busy machine durations are long words: no line is cut for them
     for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
     const bool ready = ::chdir(folder.c_str()) == 0 && redirect("/dev/null", O_RDONLY, 0) &&
                        redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, 1) &&

@@ -162,6 +162,76 @@ TEST_F(Stop, PictureIsSavedElsewhereIfItsPlaceIsGone) {
   EXPECT_EQ(readPicture((folder / "out.png").string()).width, 1000);
 }
 
+TEST_F(Stop, TheLastLineSaysWhichFilesAreInTheirPlaceAllTheSame) {
+  std::filesystem::create_directory(path("temporary"));
+  write("out.png", "old");
+  std::vector<std::string> words = longRender({"--passes", "depth,id"});
+  words[5] = "1";  // --spp 1: it finishes
+  words[3] = "1400";
+  Program program(folder(), words, {{"TMPDIR", path("temporary")}});
+  ASSERT_TRUE(hasBegun(program)) << program.err();
+  std::filesystem::create_directories(path("out.depth.exr/full"));
+  EXPECT_EQ(program.wait(), 1) << program.err();
+  EXPECT_TRUE(contains(program.lastLine(), "wrote " + path("temporary") + "/trace-"));
+  EXPECT_FALSE(contains(program.lastLine(), "instead of out.png")) << "it was replaced";
+  EXPECT_TRUE(
+      contains(program.lastLine(), "since not all files could be written in their place; there is out.png"));
+  EXPECT_EQ(readPicture(path("out.png")).width, 1400);
+  const auto there = std::filesystem::directory_iterator(path("temporary"))->path();
+  for (const char* name : {"out.png", "out.depth.exr", "out.id.exr"})
+    EXPECT_EQ(readPicture((there / name).string()).width, 1400) << name;
+}
+
+/// A picture that is traced in a moment; to take its noise out takes long.
+constexpr const char* kDenoised[] = {"white.ray", "out.png", "-w", "1000",     "--spp", "8",
+                                     "--denoise", "-t",      "1",  "--passes", "depth", "--progress=bar"};
+
+TEST_F(Stop, CtrlCAfterTheLastRayKeepsWhatWasTraced) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Program program(folder(), {std::begin(kDenoised), std::end(kDenoised)});
+    ASSERT_TRUE(program.says("taking noise out")) << program.err();
+    program.kill(signal);
+    EXPECT_EQ(program.wait(), 4) << program.err();
+    EXPECT_TRUE(contains(program.err(),
+                         "stopped while taking noise out: the picture is written without "
+                         "--denoise and its passes; its samples are kept"));
+    EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote out.png (1000x800) in "));
+    EXPECT_TRUE(contains(program.lastLine(), "the same command goes on from there"));
+    EXPECT_EQ(readPicture(path("out.png")).at(500, 400), Color(1));
+    EXPECT_FALSE(exists("out.depth.exr"));
+    std::filesystem::remove(path("out.png"));
+    ASSERT_TRUE(exists("out.png.checkpoint"));
+    if (signal == SIGINT) std::filesystem::remove(path("out.png.checkpoint"));
+  }
+  // The same command finishes it, without a ray, and takes the checkpoint away; here with less to do.
+  const Run r = run({"white.ray", "out.png", "-w", "1000", "--spp", "8", "--denoise", "-t", "1", "--passes",
+                     "depth", "--time-limit", "1"});
+  EXPECT_TRUE(contains(r.err, "going on from out.png.checkpoint, 100 % done"));
+  EXPECT_TRUE(exists("out.png"));
+}
+
+TEST_F(Stop, TheTimeLimitHoldsAfterTheLastRayToo) {
+  std::vector<std::string> words{std::begin(kDenoised), std::end(kDenoised)};
+  words[3] = "2000";
+  words.insert(words.end(), {"--time-limit", "1"});
+  const Run r = run(words);
+  EXPECT_EQ(r.code, 5) << r.err;
+  EXPECT_TRUE(contains(r.last, "stopped by the time limit: wrote out.png (2000x1600"));
+  EXPECT_TRUE(exists("out.png.checkpoint"));
+}
+
+TEST_F(Stop, ASnapshotDoesNotKeepAStopWaiting) {
+  std::vector<std::string> words{std::begin(kDenoised), std::end(kDenoised)};
+  words[5] = "4096";
+  Program program(folder(), words);
+  ASSERT_TRUE(program.says("elapsed")) << program.err();
+  program.kill(SIGUSR1);  // takes its noise out, if there are samples enough
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  program.kill(SIGINT);
+  ASSERT_TRUE(program.says("Ctrl-C again")) << program.err();
+  EXPECT_EQ(program.wait(), 4);
+}
+
 TEST_F(Stop, AFragmentGoesBesideAWholePicture) {
   for (const char* suffix : {"png", "bmp"}) {
     const std::string name = std::string("out.") + suffix, part = std::string("out.partial.") + suffix;

@@ -101,6 +101,29 @@ TEST(RayTexture, SaysWhereAFormulaIsWrong) {
             "2:49: red: formula: expected x, y, z, u, v, pi or a function at character 5, found \"w\"");
 }
 
+TEST(RayTexture, APictureStandsInATextureWithItsConstantToo) {
+  const auto read = [](const std::string& value, const std::string& field) {
+    const Scene scene = load("sphere { material = { " + field + " = " + value + "; } }").scene;
+    return scene.materials.at(scene.objects.at(0).material);
+  };
+  const std::pair<const char*, const char*> kFields[] = {
+      {"shininess", "60"}, {"diffuse", "(0.5, 0.25, 1)"}, {"specular", "0.5"},     {"ambient", "0.5"},
+      {"emissive", "0.5"}, {"reflective", "0.5"},         {"transmissive", "0.5"}, {"bump", "0.1"},
+      {"opacity", "0.5"}};
+  for (const auto& [field, constant] : kFields) {
+    const std::string with = std::string(", ") + constant + ")";
+    EXPECT_EQ(read("texture(map(\"f.png\")" + with, field), read("map(\"f.png\"" + with, field)) << field;
+    EXPECT_EQ(read("texture(map(\"f.png\"))", field), read("map(\"f.png\")", field)) << field;
+    EXPECT_FALSE(read("texture(map(\"f.png\"))", field).textures.empty()) << field;
+  }
+  for (const char* field : {"normal", "normal_map"})
+    EXPECT_EQ(read("texture(map(\"f.png\"))", field), read("map(\"f.png\")", field)) << field;
+  const Scene nested =
+      load("sphere { material = { diffuse = checker { a = texture(map(\"f.png\"), 0.5); } } }").scene;
+  EXPECT_EQ(nested, load("sphere { material = { diffuse = checker { a = map(\"f.png\", 0.5); } } }").scene);
+  EXPECT_NE(errorsOf("sphere { material = { shininess = texture(map(3), 60); } }"), "");
+}
+
 TEST(RayTexture, BendsNormalsByHeights) {
   const Scene scene = load(
                           "sphere { material = { bump = texture(checker { a = (1, 0, 0); }, 0.1); } }\n"

@@ -81,3 +81,10 @@ next
 skipTo 60
 grep -q 'file = "lamp.ies"' files.ray || fail "the photometry was not saved: $(cat files.ray)"
 grep -q 'backdrop = "leaf.ppm"' files.ray || fail "the backdrop was not saved: $(cat files.ray)"
+
+# The time limit of the command holds for a script that waits for ever.
+printf 'await never-made\n' >waits
+code=0
+"$studio" --script waits --time-limit 1 2>late || code=$?
+[[ "$code" == 5 ]] || fail "a script that is late ends with $code, not 5: $(cat late)"
+grep -q 'waits:1:1: error: the time limit of 1 s is over' late || fail "a late script says: $(cat late)"

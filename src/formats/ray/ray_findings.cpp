@@ -31,6 +31,19 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kInstead{
     {"skybox", "Trace has settings { environment = \"folder\"; }, six pictures all around"},
 }};
 
+/// Words of other languages by which a file says that more of the scene stands elsewhere, or is to be
+/// computed. Nobody knows how much of the picture is lost without them, so they are errors.
+constexpr std::array<std::string_view, 7> kBringsFiles{"include", "import", "load",  "require",
+                                                       "source",  "use",    "insert"};
+constexpr std::array<std::string_view, 12> kComputes{"for",    "foreach", "while", "repeat",
+                                                     "loop",   "if",      "let",   "var",
+                                                     "define", "declare", "macro", "function"};
+
+template <std::size_t N>
+bool isOneOf(const std::array<std::string_view, N>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 std::string_view insteadOf(std::string_view kind) {
   for (const auto& [word, hint] : kInstead)
     if (word == kind) return hint;
@@ -98,8 +111,22 @@ void Findings::notRendered(std::string_view kind, const Item& node, std::span<co
   notRendered(kind, node, std::string(node.source()), known);
 }
 
+bool Findings::refuse(std::string_view kind, const Item& at) {
+  if (isOneOf(kBringsFiles, kind))
+    error(at, quotedStart(kind) + ": a scene is one file, and reads no other scenes",
+          "put the text of the other file in this place; mesh { file = \"name.obj\"; } reads a mesh");
+  else if (isOneOf(kComputes, kind))
+    error(at, quotedStart(kind) + ": the scene language has no loops, conditions or variables",
+          "write each object out, or let a program write the file; rows { } repeats an object "
+          "(docs/shapes.md)");
+  else
+    return false;
+  return true;
+}
+
 void Findings::notRendered(std::string_view kind, const Item& node, std::string text,
                            std::span<const std::string_view> known) {
+  if (refuse(kind, node)) return;
   scene_.unrendered.push_back({std::string(kind), syntax_.shortPlace(node.offset()), std::move(text)});
   const std::string key = "not rendered: " + std::string(kind);
   if (again(key)) return;

@@ -38,7 +38,11 @@ class Findings {
   /// A warning that ends in the sum of `count` over the file.
   void warnOfNumber(const Item& at, std::string what, std::size_t count);
 
-  /// Keeps the text of a node as Unrendered, and warns. `known` are the words it may be a misspelling of.
+  /// Reports an error if the word of other languages asks for another file, or for something to be computed:
+  /// what is lost without it nobody knows. False for any other word.
+  bool refuse(std::string_view word, const Item& at);
+  /// Keeps the text of a node as Unrendered, and warns; an error for what is refused. `known` are the words
+  /// it may be a misspelling of.
   void notRendered(std::string_view kind, const Item& node, std::span<const std::string_view> known);
   void notRendered(std::string_view kind, const Item& node, std::string text,
                    std::span<const std::string_view> known);

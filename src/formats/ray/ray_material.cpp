@@ -52,10 +52,17 @@ std::string list(const std::vector<std::string_view>& names, std::string_view la
   return text;
 }
 
+/// `map("file")` inside `texture(map("file"))`; any other value as it is.
+Item insideTexture(const Item& value) {
+  const bool wraps = value.is(Kind::call) && value.key() == kTexture && value.value().is(Kind::tuple) &&
+                     value.value().count() == 1 && (*value.value().begin()).is(Kind::call);
+  return wraps ? *value.value().begin() : value;
+}
+
 /// `normal = "file"` or `normal_map = map("file")`, of students at Hong Kong: a picture of normals.
 bool isNormalMap(const Item& field) {
   if (field.key() != "normal" && field.key() != "normal_map") return false;
-  const Item value = field.value();
+  const Item value = insideTexture(field.value());
   if (value.is(Kind::word)) return true;
   if (!value.is(Kind::call) || value.key() != "map" || !value.value().is(Kind::tuple)) return false;
   return value.value().count() == 1 && (*value.value().begin()).is(Kind::word);
@@ -283,6 +290,7 @@ bool Materials::studentBump(Block& block, const Item& field) {
   constexpr Real kHeight = 0.02;
   const Item value = field.value();
   if (isNormalMap(field)) {
+    const Item value = insideTexture(field.value());
     std::string file(value.is(Kind::word) ? value.text() : (*value.value().begin()).text());
     Texture picture = mappedPicture(std::move(file), findings_.syntax().shortPlace(value.offset()));
     TextureNode normals = *picture;

@@ -81,6 +81,7 @@ void ObjectReader::tooDeep(const Item& item) {
 }
 
 void ObjectReader::noObject(const Item& item) {
+  if (item.is(Kind::word) && findings_.refuse(item.text(), item)) return;
   std::string hint;
   if (item.is(Kind::word)) {
     const std::string near = nearest(item.text(), knownWords());

@@ -26,6 +26,12 @@ bool withModel(std::string_view keyword, Visit&& visit) {
   return found;
 }
 
+/// `map("file")`, without a constant: inside `texture( )` it stands for the picture.
+bool isPlainMap(const Item& value) {
+  if (!value.is(Kind::call) || value.key() != kMap || !value.value().is(Kind::tuple)) return false;
+  return value.value().count() == 1 && (*value.value().begin()).is(Kind::word);
+}
+
 /// A bare string where a constant is expected.
 bool isPictureFile(const Item& value) { return value.is(Kind::word) && value.source().starts_with('"'); }
 
@@ -69,12 +75,14 @@ std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
   if (count < 1 || count > 2 || (isMap && !(*tuple.begin()).is(Kind::word))) {
     findings_.expected(value, value.key(),
                        isMap ? "map(\"file\") or map(\"file\", constant)"
-                             : "texture(\"name\") or texture(\"name\", constant)");
+                             : "texture(\"name\"), texture(map(\"file\")), or one of them with a constant "
+                               "after it");
     return {};
   }
   const Item first = *tuple.begin();
   const std::optional<Item> by = count == 2 ? std::optional(*++tuple.begin()) : std::nullopt;
   if (isMap) return Scaled{picture(first), by, true};
+  if (isPlainMap(first)) return Scaled{picture(*first.value().begin()), by, true};
   std::optional<Texture> texture = first.is(Kind::word) ? named(first) : block(first);
   return texture ? std::optional(Scaled{*std::move(texture), by}) : std::nullopt;
 }

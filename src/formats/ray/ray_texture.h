@@ -1,8 +1,10 @@
 // Textures of .ray files, in place of a constant:
 //   diffuse = map("file.png");                              the picture, as the courses' programs have it
 //   diffuse = checker { a = (1, 1, 1); scale = (2, 2, 2); };
-//   diffuse = texture("floor");                             one that has a name: texture = checker { name =
-//   floor; ... } diffuse = texture(checker { }, (0.5, 0.5, 0.5));        the constant that scales it
+//   diffuse = texture("floor");                             one that has a name:
+//                                                           texture = checker { name = floor; ... }
+//   diffuse = texture(checker { }, (0.5, 0.5, 0.5));        with the constant that scales it
+//   diffuse = texture(map("file.png"), (0.5, 0.5, 0.5));    the same as map("file.png", (0.5, 0.5, 0.5))
 #pragma once
 
 #include <map>

@@ -1,0 +1,125 @@
+// Pictures that are not what was meant, and the words that the program has for them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "image/codec.h"
+#include "image/tone.h"
+#include "program.h"
+
+namespace trace::test {
+namespace {
+
+class Silence : public ProgramTest {
+ protected:
+  /// The mean of the brightest channel's levels.
+  double meanLevel(const std::string& name) const {
+    const Bytes bytes = toBytes(readPicture(path(name)), Rounding::nearest);
+    double sum = 0;
+    for (std::size_t i = 0; i < bytes.rgb.size(); i += 3)
+      sum += std::max({bytes.rgb[i], bytes.rgb[i + 1], bytes.rgb[i + 2]});
+    return 3 * sum / static_cast<double>(bytes.rgb.size());
+  }
+
+  static std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return at == std::string::npos ? text : text.replace(at, what.size(), by);
+  }
+
+  static constexpr const char* kFirst = R"(SBT-raytracer 1.1
+camera { position = (0, 2.4, 7); look_at = (0, 0.8, 0); fov = 35; aspectratio = 1.3333; }
+point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }
+rotate(1, 0, 0, -1.5708, scale(10, square { material = { library = oak; } }))
+translate(-1, 0.8, 0, scale(0.8, sphere { material = { library = "red plastic"; } }))
+)";
+};
+
+TEST_F(Silence, AFirstSceneThatIsBlackIsToldWithAColourThatHelps) {
+  write("first.ray", kFirst);
+  const Run r = run({"first.ray", "black.png", "-w", "80"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_LT(meanLevel("black.png"), 2);
+  EXPECT_TRUE(contains(r.err, "first.ray:3:1: warning: "));
+  EXPECT_TRUE(contains(r.err, "of the picture is darker than level 2 of 255"));
+  EXPECT_TRUE(contains(r.err, "fades with the square of the distance"));
+  const Run lint = run({"lint", "first.ray"});
+  EXPECT_EQ(lint.code, 6);
+  EXPECT_TRUE(contains(lint.out, "[black-picture]"));
+  for (const std::string& told : {r.err, lint.out}) {
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(told, match, std::regex("hint: (color = \\([^)]*\\);)")));
+    write("cured.ray", replaced(kFirst, "color = (1, 1, 1);", match[1]));
+    const Run cured = run({"cured.ray", "light.png", "-w", "80"});
+    EXPECT_FALSE(contains(cured.err, "darker than"));
+    EXPECT_GT(meanLevel("light.png"), 50);
+    EXPECT_LT(meanLevel("light.png"), 140);
+  }
+}
+
+TEST_F(Silence, ASceneWithoutLightIsToldALight) {
+  const std::string dark =
+      replaced(kFirst, "point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }", "");
+  write("dark.ray", dark);
+  const Run r = run({"dark.ray", "dark.png", "-w", "40"});
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(r.err, match, std::regex("hint: (point_light \\{[^}]*constant[^}]*\\})")))
+      << r.err;
+  write("lit.ray", dark + std::string(match[1]) + "\n");
+  EXPECT_FALSE(contains(run({"lit.ray", "lit.png", "-w", "40"}).err, "warning"));
+  EXPECT_GT(meanLevel("lit.png"), 50);
+}
+
+TEST_F(Silence, ACameraThatLooksAwayIsToldWhereToLook) {
+  const std::string away = replaced(kFirst, "look_at = (0, 0.8, 0)", "look_at = (0, 20, 14)");
+  write("away.ray", away);
+  const Run r = run({"away.ray", "away.png", "-w", "40"});
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(r.err, match, std::regex("hint: (look_at = \\([^)]*\\);)"))) << r.err;
+  write("there.ray", replaced(away, "look_at = (0, 20, 14);", match[1]));
+  EXPECT_FALSE(contains(run({"there.ray", "there.png", "-w", "40"}).err, "no object is in the picture"));
+}
+
+TEST_F(Silence, WhatIsMeantToBeDarkIsNot) {
+  write("small.ray", R"(SBT-raytracer 1.0
+camera { position = (0, 0, 40); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+directional_light { direction = (0, 0, -1); color = (1, 1, 1); }
+sphere { material = { diffuse = (1, 1, 1); } }
+)");  // on black: less than 1 % of the picture
+  const Run r = run({"small.ray", "-w", "100"});
+  EXPECT_FALSE(contains(r.err, "darker")) << r.err;
+  EXPECT_EQ(run({"lint", "small.ray"}).code, 0);
+}
+
+TEST_F(Silence, GlassWithoutACausticIsToldWithAnIntegratorThatFindsIt) {
+  write("glass.ray", R"(SBT-raytracer 1.1
+camera { position = (0, 1.5, 6); look_at = (0, 0.9, 0); fov = 30; aspectratio = 1.5; }
+directional_light { direction = (-3, -5, -4); color = (1,1,1); size = 2; }
+background { gradient = ((0.1,0.1,0.1), (0.6,0.6,0.6), (0.3,0.5,0.9)); }
+settings { integrator = path; spp = 16; transfer = srgb; width = 60; }
+rotate(1,0,0,-1.5708, scale(12, square { material = { library = oak; } }))
+translate(0,1,0, sphere { material = { library = glass; } })
+)");
+  const Run r = run({"glass.ray", "path.png"});
+  EXPECT_TRUE(contains(r.err, "glass.ray:3:1: warning: of this light, what sphere"));
+  EXPECT_TRUE(contains(r.err, "rays do not see a light of this kind"));
+  EXPECT_TRUE(contains(r.err, "hint: --integrator bdpt or photon"));
+  EXPECT_FALSE(contains(r.err, "visible = true")) << "which this light refuses";
+  const Run lint = run({"lint", "glass.ray"});
+  EXPECT_TRUE(contains(lint.out, "[caustics-missing]"));
+  EXPECT_FALSE(contains(lint.out, "visible = true"));
+  // The hint works: beside the ball, away from the light, there is a shadow, and nothing is told.
+  const Run found = run({"glass.ray", "bdpt.png", "--integrator", "bdpt"});
+  EXPECT_FALSE(contains(found.err, "warning")) << found.err;
+  const auto shadowOf = [&](const std::string& name) {
+    const Picture picture = readPicture(path(name));
+    double sum = 0;
+    for (int x = 12; x < 22; ++x) sum += picture.at(x, 29).g;
+    return sum / 10;
+  };
+  EXPECT_LT(shadowOf("bdpt.png"), 0.9 * shadowOf("path.png"));
+}
+
+}  // namespace
+}  // namespace trace::test
