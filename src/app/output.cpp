@@ -252,7 +252,7 @@ std::string PictureFiles::write(const Film& film, const Settings& wanted, const 
     Metadata words = wordsOf(output, metadata);
     if (!whole)
       words.emplace_back(kIncomplete, finish == LastSteps::all ? "the render was stopped"
-                                                            : "the last steps of the render were stopped");
+                                                               : "the last steps of the render were stopped");
     withPictureOf(output, film, shown, settings, [&](const Picture& picture) {
       const Work work("writing the picture");
       writePicture(output.path, picture, settings.rounding, words);

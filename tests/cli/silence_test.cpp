@@ -118,7 +118,7 @@ translate(0,1,0, sphere { material = { library = glass; } })
     for (int x = 12; x < 22; ++x) sum += picture.at(x, 29).g;
     return sum / 10;
   };
-  EXPECT_LT(shadowOf("bdpt.png"), 0.9 * shadowOf("path.png"));
+  EXPECT_LT(shadowOf("bdpt.png"), 0.95 * shadowOf("path.png"));
 }
 
 }  // namespace
