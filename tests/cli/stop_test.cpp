@@ -331,7 +331,7 @@ TEST_F(Stop, PlainProgressInALog) {
 
 TEST_F(Stop, HowLongPhotonsOfMomentsWillFlyIsTold) {
   write("moves.ray", R"(SBT-raytracer 1.0
-settings { integrator = photon; fog = 0.05; fog-color = (1, 1, 1); shutter = 0.5; moments = 64; photons = 100000; }
+settings { integrator = photon; fog = 0.05; fog-color = (1, 1, 1); shutter = 0.5; moments = 64; photons = 5000; }
 camera { position = (0, 1, 6); look_at = (0, 1, 0); fov = 50; }
 point_light { position = (0, 3, 3); color = (1, 1, 1); }
 scale(6, 0.1, 6, box { material = { diffuse = (1, 1, 1); }; })
