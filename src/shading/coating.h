@@ -9,7 +9,7 @@
 namespace trace {
 
 struct Coating {
-  bool smooth = false;  ///< no lobe, one mirrored ray
+  bool smooth = false;   ///< no lobe, one mirrored ray
   LayerFresnel fresnel;  ///< what one facet mirrors
   MicrofacetLobe lobe;
   Color meanAlbedo;

@@ -2,8 +2,9 @@
 // on it oil on wet asphalt, the shells of beetles, pearl (shading/thin_film.h).
 // Reciprocal. Energy: gives back at most what arrives, all of it if the base is white.
 //
-// Under Whitted's equation a smooth layer sends one mirrored ray; of a rough one the ray stands for the facets
-// that lean less than 5 degrees. Both follow Schlick's approximation, or Fresnel's formula where the rules say so.
+// Under Whitted's equation a smooth layer sends one mirrored ray; of a rough one the ray stands for the
+// facets that lean less than 5 degrees. Both follow Schlick's approximation, or Fresnel's formula where the
+// rules say so.
 #pragma once
 
 #include <string_view>

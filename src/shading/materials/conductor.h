@@ -57,7 +57,8 @@ struct Conductor : SurfaceFields {
       return film > 0 ? clamp01(bare + oxide.changeOn(color, cosine)) : bare;
     }
     const ComplexIndex index = indexOf(metal);
-    return color * (film > 0 ? oxide.mirroredOn(index, cosine) : fresnelConductor(cosine, index.eta, index.k));
+    return color *
+           (film > 0 ? oxide.mirroredOn(index, cosine) : fresnelConductor(cosine, index.eta, index.k));
   }
 
   Phong asPhong() const {
