@@ -11,7 +11,7 @@ namespace trace {
 namespace {
 
 constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
-constexpr int kSamples = 32;  // along each side of the square of numbers for a facet
+constexpr int kSamples = 48;  // of the first number for a facet; half as many of the second
 constexpr Real kMostIndex = 4;
 
 /// A stretch between two entries by the root t of the cosine, over which a value is taken to change evenly.
@@ -44,21 +44,22 @@ struct WidthRow {
     const Vec3 eye{std::sqrt(1 - cosine * cosine), 0, cosine};
     // Facets are symmetric to the plane of the eye and the normal: half of them do. The numbers that choose
     // them lie the closer the nearer they are to 0 and 1, where facets lean most.
-    const auto number = [](int i) {
-      const Real x = (i + 0.5) / kSamples;
-      return x * x * (3 - 2 * x);
+    struct Cell {
+      Real number, weight;
     };
-    const auto weight = [](int i) {
-      const Real x = (i + 0.5) / kSamples;
-      return 6 * x * (1 - x) / kSamples;
+    const auto smooth = [](Real x) { return x * x * (3 - 2 * x); };
+    const auto cell = [&](int i, int count) {
+      const Real width = 1.0 / count;
+      return Cell{smooth((i + 0.5) * width), smooth((i + 1) * width) - smooth(i * width)};
     };
     const bool around = facets.kind == Distribution::ggx;  // the second number is an angle
     Real sum = 0;
     for (int i = 0; i < kSamples; ++i)
-      for (int j = 0; j < kSamples; ++j) {
-        const Real second = around ? (number(j) - 0.5) / 2 : number(j) / 2;
-        const Vec3 half = facets.chosen(eye, {number(i), second});
-        const Real counts = weight(i) * weight(j);
+      for (int j = 0; j < kSamples / 2; ++j) {
+        const Cell first = cell(i, kSamples), other = cell(j, kSamples / 2);
+        const Real second = (around ? other.number - 0.5 : other.number) / 2;
+        const Vec3 half = facets.chosen(eye, {first.number, second});
+        const Real counts = first.weight * other.weight;
         const Real mirrors = fresnelDielectric(dot(eye, half), 1, eta);
         const Vec3 up = mirroredAt(half, eye);
         if (up.z > 0) sum += counts * mirrors * facets.seenAndLit(eye, up);

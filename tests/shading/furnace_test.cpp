@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@ namespace {
 
 const Frame kFurnaceFrame{{0, 0, 1}};
 const std::vector<Real> kFurnaceAngles{0, 40, 65, 80, 85, 88, 89};
-const std::vector<Real> kFurnaceRoughnesses{0.1, 0.2, 0.5, 0.7, 1};
+const std::vector<Real> kFurnaceRoughnesses{0.1, 0.2, 0.5, 1};
 
 Real cosineOf(Real degrees) { return std::cos(degrees * kPi / 180); }
 
@@ -54,7 +55,7 @@ Real furnace(const Bsdf& bsdf, Real cosine, int samples = 1'500) {
 struct White {
   std::string name;
   MaterialModel model;
-  Real off = 0.01;
+  Real off = 0.015;
 };
 
 template <class Model, class Set>
@@ -72,7 +73,6 @@ std::vector<White> whites(Real roughness) {
     all.push_back(white<Conductor>("conductor" + facets, [&](Conductor& m) {
       m.color = Color(1), m.roughness = roughness, m.distribution = kind;
     }));
-    all.back().off = 0.015;
     for (const Real film : {0.0, 400.0})
       for (const Real index : {1.5, 2.4})
         all.push_back(white<Coated>(
@@ -81,12 +81,14 @@ std::vector<White> whites(Real roughness) {
               m.diffuse = Color(1), m.roughness = roughness, m.distribution = kind;
               m.film = film, m.index = index;
             }));
-    for (const Real index : {1.5, 2.4})
+    for (const Real index : {1.5, 2.4}) {
       all.push_back(
           white<RoughGlass>("rough_glass" + facets + " index " + std::to_string(index), [&](RoughGlass& m) {
             m.roughness = roughness, m.distribution = kind, m.index = index;
             m.compensated = true;
           }));
+      all.back().off = 0.01;
+    }
   }
   for (const Real iridescence : {0.0, 0.7})
     for (const Real strength : {0.5, 1.0})
@@ -99,7 +101,6 @@ std::vector<White> whites(Real roughness) {
   all.push_back(white<Principled>("principled metal", [&](Principled& m) {
     m.color = Color(1), m.roughness = roughness, m.metallic = 1;
   }));
-  all.back().off = 0.015;
   all.push_back(
       white<Subsurface>("subsurface", [&](Subsurface& m) { m.absorbs = Color(0), m.roughness = roughness; }));
   return all;
@@ -236,16 +237,18 @@ TEST(ThinFilm, ThatVanishesChangesNoModel) {
   EXPECT_GE(found, 2 * 8) << "coated, conductor and principled";
 }
 
-TEST(SchlickModel, GivesBackTwoFifthsMoreAtMost) {
-  Real most = 0;
-  for (const Real roughness : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0})
-    for (const Real angle : {0.0, 40.0, 60.0, 70.0, 75.0, 80.0, 83.0, 85.0, 87.0, 89.0}) {
-      SchlickModel model;
-      model.color = Color(1), model.roughness = roughness;
-      most = std::max(most, furnace(bsdfOf(model, {}), cosineOf(angle), 6'000));
-    }
-  EXPECT_LT(most, 1.4);
-  EXPECT_GT(most, 1.36) << "docs/materials.md says how much";
+/// docs/materials.md says these; a sum over directions in another program gives them too.
+TEST(SchlickModel, GivesBackMoreTheFlatterItIsLookedAt) {
+  for (const auto& [angle, roughness, share] :
+       {std::tuple{45., 0.3, 0.97}, {80., 0.2, 1.262}, {85., 0.1, 1.518}, {89., 0.05, 2.42}}) {
+    SchlickModel model;
+    model.color = Color(1), model.roughness = roughness;
+    const Real found = furnace(bsdfOf(model, {}), cosineOf(angle), 6'000);
+    if (angle < 60)
+      EXPECT_LT(found, 1.01);
+    else
+      EXPECT_NEAR(found, share, 0.04 * share) << angle;
+  }
 }
 
 }  // namespace
