@@ -1,6 +1,7 @@
 // A list that takes no memory from the heap while it is short.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -24,6 +25,12 @@ class SmallList {
     const T last = all()[--count_];
     if (count_ >= kFew) many_.pop_back();
     return last;
+  }
+  /// Keeps the first. Precondition: there are as many.
+  void shrink(std::size_t count) {
+    if (count_ > kFew && count <= kFew) std::copy_n(many_.begin(), count, few_.begin());
+    count_ = count;
+    many_.resize(count > kFew ? count : 0);
   }
   std::size_t size() const { return count_; }
   std::span<T> all() { return {count_ > kFew ? many_.data() : few_.data(), count_}; }

@@ -1062,8 +1062,9 @@ const std::array kOptions{
     row<&Settings::fresnel>(
         {.name = "fresnel",
          .group = "Conventions",
-         .help = "glass mirrors what its material says, or the more the flatter it is looked at, by "
-                 "Schlick's approximation or by Fresnel's formula (exact)",
+         .help =
+             "glass mirrors what its material says, or the more the flatter it is looked at, by "
+             "Schlick's approximation or by Fresnel's formula (exact), as then do clear layers of an index",
          .source = "Schlick 1994, University of Southern California; Fresnel 1823"}),
     row<&Settings::glassShadows>({.name = "glass-shadows",
                                   .group = "Conventions",

@@ -240,7 +240,8 @@ inline Development developmentOf(const Settings& s) {
 }
 
 inline Rules rulesOf(const Settings& s) {
-  return {s.highlight, s.shininessScale, s.mirrorDefault, s.diffuseSides, s.limitAttenuation};
+  return {s.highlight,    s.shininessScale,   s.mirrorDefault,
+          s.diffuseSides, s.limitAttenuation, s.fresnel == Fresnel::exact};
 }
 
 }  // namespace trace

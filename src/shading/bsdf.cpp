@@ -111,7 +111,11 @@ WhittedTerms weighedTerms(const MixedParts& parts) {
 template <class Model>
 requires requires { typename Model::Said; }
 Bsdf mixOf(const Model& a, const Model& b, const Model& c, const Real (&weight)[3]) {
-  return Model(mixFields(a.said, b.said, c.said, weight));
+  const auto said = mixFields(a.said, b.said, c.said, weight);
+  if constexpr (requires { a.exactFresnel; })
+    return Model(said, a.exactFresnel);
+  else
+    return Model(said);
 }
 Bsdf mixOf(const PhongBsdf& a, const PhongBsdf& b, const PhongBsdf& c, const Real (&weight)[3]) {
   return mix(a, b, c, weight);

@@ -1,63 +1,47 @@
 // A matt base below a layer of microfacets of a dielectric: what plastic, varnish and glazed pots are. The
 // base gets what the layer lets through on the way in and on the way out (Kelemen and Szirmay-Kalos, A
 // Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001), so that with a white base all light
-// comes back. Fresnel's formula is Schlick's, for which albedos are tabulated; a thin film on the layer takes
-// its place, where there is one. In the space of a Basis.
+// comes back. What facets mirror is a LayerFresnel. In the space of a Basis.
 #pragma once
 
-#include "shading/fresnel.h"
-#include "shading/microfacet.h"
-#include "shading/thin_film.h"
+#include "shading/layer_fresnel.h"
 
 namespace trace {
 
 struct Coating {
-  bool smooth = false;  ///< no lobe, one mirrored ray
-  Color alongNormal;    ///< what is mirrored of light along the normal
+  bool smooth = false;   ///< no lobe, one mirrored ray
+  LayerFresnel fresnel;  ///< what one facet mirrors
   MicrofacetLobe lobe;
   Color meanAlbedo;
-  ThinFilm film;    ///< of thickness 0 there is none
-  Real filmed = 1;  ///< share of the layer on which it lies
 
   Coating() = default;
-  /// With a film on `share` of it.
-  Coating(Distribution kind, Real roughness, Real anisotropy, const ThinFilm& onTop, Real share)
-      : Coating(kind, roughness, anisotropy,
-                lerp(share, Color(mirroredAlongNormal(onTop.behind)), onTop.mirrored(1))) {
-    film = onTop;
-    filmed = share;
-    // Gauss's formula with three points, over the square of the cosine.
-    constexpr Real kAway = 0.3872983346207417;  // half the root of 0.6
-    meanAlbedo =
-        (albedo({0, 0, std::sqrt(0.5 - kAway)}) + albedo({0, 0, std::sqrt(0.5 + kAway)})) * (5. / 18) +
-        albedo({0, 0, std::sqrt(0.5)}) * (8. / 18);
-  }
-  Coating(Distribution kind, Real roughness, Real anisotropy, const Color& mirroredAlongNormal)
-      : smooth(!(roughness > 0)), alongNormal(mirroredAlongNormal) {
+  Coating(Distribution kind, Real roughness, Real anisotropy, const LayerFresnel& facet)
+      : smooth(!(roughness > 0)), fresnel(facet) {
+    const Color alongNormal = fresnel.alongNormal();
+    if (!smooth) lobe = {Microfacets::of(kind, roughness, anisotropy), alongNormal};
+    if (fresnel.isSchlick()) {
+      meanAlbedo = smooth ? meanSchlick(alongNormal) : lobe.meanAlbedo(alongNormal);
+      return;
+    }
+    nodes_ = fresnel.atNodes();
+    const Color mean = weighed(meanFresnelShares());
     if (smooth) {
-      meanAlbedo = alongNormal + (Color(1) + alongNormal * -1) / 21;
+      meanAlbedo = mean;
     } else {
-      lobe = {Microfacets::of(kind, roughness, anisotropy), alongNormal};
-      meanAlbedo = lobe.meanAlbedo(alongNormal);
+      lobe.multiple = lobe.multipleOf(mean);
+      meanAlbedo = weighed(meanFacetShares(lobe.facets)) + lobe.multiple * (1 - lobe.meanWhite);
     }
   }
 
-  /// What one facet mirrors.
-  Color fresnel(Real cosine) const {
-    if (!(film.nanometres > 0)) return schlick(cosine, alongNormal);
-    return lerp(filmed, schlick(cosine, Color(mirroredAlongNormal(film.behind))), film.mirrored(cosine));
-  }
-  /// The share of light that goes to `v`, or comes from there, and is mirrored; nearly, for rough films.
+  /// The share of light that goes to `v`, or comes from there, and is mirrored.
   Color albedo(const Vec3& v) const {
-    if (film.nanometres > 0) {
-      const Real once = smooth ? 1 : lobe.white(v);
-      return fresnel(v.z) * once + lobe.multiple * (1 - once);
-    }
-    return smooth ? schlick(v.z, alongNormal) : lobe.albedo(v, alongNormal);
+    if (smooth) return fresnel(v.z);
+    if (fresnel.isSchlick()) return lobe.albedo(v, fresnel.alongNormal());
+    return weighed(facetShares(lobe.facets, v)) + lobe.multiple * (1 - lobe.white(v));
   }
   /// f cos(light) of the layer.
   Color mirrored(const Vec3& eye, const Vec3& light) const {
-    return smooth ? Color(0) : lobe.value(eye, light, [&](Real cosine) { return fresnel(cosine); });
+    return smooth ? Color(0) : lobe.value(eye, light, fresnel);
   }
   /// f cos(light) of a white base below it.
   Color base(const Vec3& eye, const Vec3& light) const {
@@ -85,6 +69,15 @@ struct Coating {
     const Real s = share(eye, base);
     return (s > 0 ? s * lobe.density(eye, light) : 0) + (1 - s) * cosineDensity(light);
   }
+
+ private:
+  Color weighed(const FacetShares& shares) const {
+    Color sum;
+    for (std::size_t k = 0; k < shares.size(); ++k) sum += nodes_[k] * shares[k];
+    return clamp01(sum);
+  }
+
+  std::array<Color, kFresnelNodes> nodes_;  ///< of `fresnel`, where it is not Schlick's
 };
 
 }  // namespace trace

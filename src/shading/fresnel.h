@@ -57,6 +57,10 @@ inline Real schlickWeight(Real cosine) {
 inline Color schlick(Real cosine, const Color& alongNormal) {
   return lerp(schlickWeight(cosine), alongNormal, Color(1));
 }
+/// Its mean over all directions, weighed by the cosine.
+inline Color meanSchlick(const Color& alongNormal) {
+  return alongNormal + (Color(1) + alongNormal * -1) / 21;
+}
 /// What a smooth surface in air mirrors of light along its normal.
 inline Real mirroredAlongNormal(Real index) {
   const Real r = (index - 1) / (index + 1);

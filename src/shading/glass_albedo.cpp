@@ -11,8 +11,20 @@ namespace trace {
 namespace {
 
 constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
-constexpr int kSamples = 32;  // along each side of the square of numbers for a facet
+constexpr int kSamples = 48;  // of the first number for a facet; half as many of the second
 constexpr Real kMostIndex = 4;
+
+/// A stretch between two entries by the root t of the cosine, over which a value is taken to change evenly.
+struct Stretch {
+  Real low, width = 1.0 / kCosines;
+
+  explicit Stretch(int entry) : low(static_cast<Real>(entry) / kCosines) {}
+  /// What it adds, up to t, to the mean over all directions weighed by the cosine, 2 cos d cos = 4 t^3 dt.
+  Real mean(Real atLow, Real atHigh, Real t) const {
+    const Real slope = (atHigh - atLow) / width, a4 = low * low * low * low, t4 = t * t * t * t;
+    return (atLow - slope * low) * (t4 - a4) + slope * 0.8 * (t4 * t - a4 * low);
+  }
+};
 
 /// The albedo for one index and width, by the root of the cosine, over which it changes evenly.
 struct WidthRow {
@@ -22,29 +34,40 @@ struct WidthRow {
 
   void make(const Microfacets& facets, Real eta) {
     for (int c = 0; c <= kCosines; ++c) at[c] = albedo(facets, max(1e-3, 1.0 * c / kCosines), eta);
-    // Simpson's rule for 2 cos d cos with cos = t^2, d cos = 2 t dt.
-    for (int c = 0; c <= kCosines; ++c) {
-      const Real t = 1.0 * c / kCosines, weight = c == 0 || c == kCosines ? 1 : c % 2 ? 4 : 2;
-      mean += weight / (3.0 * kCosines) * 4 * t * t * t * at[c];
-    }
+    for (int c = 0; c < kCosines; ++c)
+      mean += Stretch(c).mean(at[c], at[c + 1], static_cast<Real>(c + 1) / kCosines);
   }
 
  private:
   static Real albedo(const Microfacets& facets, Real root, Real eta) {
     const Real cosine = root * root;
     const Vec3 eye{std::sqrt(1 - cosine * cosine), 0, cosine};
+    // Facets are symmetric to the plane of the eye and the normal: half of them do. The numbers that choose
+    // them lie the closer the nearer they are to 0 and 1, where facets lean most.
+    struct Cell {
+      Real number, weight;
+    };
+    const auto smooth = [](Real x) { return x * x * (3 - 2 * x); };
+    const auto cell = [&](int i, int count) {
+      const Real width = 1.0 / count;
+      return Cell{smooth((i + 0.5) * width), smooth((i + 1) * width) - smooth(i * width)};
+    };
+    const bool around = facets.kind == Distribution::ggx;  // the second number is an angle
     Real sum = 0;
     for (int i = 0; i < kSamples; ++i)
-      for (int j = 0; j < kSamples; ++j) {
-        const Vec3 half = facets.chosen(eye, {(i + 0.5) / kSamples, (j + 0.5) / kSamples});
+      for (int j = 0; j < kSamples / 2; ++j) {
+        const Cell first = cell(i, kSamples), other = cell(j, kSamples / 2);
+        const Real second = (around ? other.number - 0.5 : other.number) / 2;
+        const Vec3 half = facets.chosen(eye, {first.number, second});
+        const Real counts = first.weight * other.weight;
         const Real mirrors = fresnelDielectric(dot(eye, half), 1, eta);
         const Vec3 up = mirroredAt(half, eye);
-        if (up.z > 0) sum += mirrors * facets.seenAndLit(eye, up);
+        if (up.z > 0) sum += counts * mirrors * facets.seenAndLit(eye, up);
         if (!(mirrors < 1)) continue;
         const Vec3 down = refractedAt(half, eye, eta);
-        if (down.z < 0) sum += (1 - mirrors) * facets.seenAndLit(eye, {down.x, down.y, -down.z});
+        if (down.z < 0) sum += counts * (1 - mirrors) * facets.seenAndLit(eye, {down.x, down.y, -down.z});
       }
-    return min(1, sum / (facets.seen(eye) * kSamples * kSamples));
+    return min(1, sum / facets.seen(eye));
   }
 };
 
@@ -91,6 +114,31 @@ Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta) {
 
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta) {
   return glassTable(kind).at(width, eta, [](const WidthRow& row) { return row.mean; });
+}
+
+Vec3 GlassLoss::direction(bool inside, Vec2 u) const {
+  const Real eta = inside ? 1 / index_ : index_;
+  const auto lossAt = [&](int i) {
+    return 1 - glassTable(kind_).at(width_, eta, [&](const WidthRow& row) { return row.at[i]; });
+  };
+  // The stretch of the table in which the share u of the mean loss is reached, and there the place.
+  Real left = u.x * mean_[inside], before = lossAt(0), t = 1;
+  for (int i = 0; i < kCosines; ++i) {
+    const Real next = lossAt(i + 1);
+    const Stretch stretch(i);
+    const Real all = stretch.mean(before, next, stretch.low + stretch.width);
+    if (left < all || i == kCosines - 1) {
+      Real low = stretch.low, high = low + stretch.width;
+      for (int step = 0; step < 40; ++step) {
+        t = (low + high) / 2;
+        (stretch.mean(before, next, t) < left ? low : high) = t;
+      }
+      break;
+    }
+    left -= all;
+    before = next;
+  }
+  return sphericalDirection(t * t, 2 * kPi * u.y);
 }
 
 GlassLoss::GlassLoss(Distribution kind, Real width, Real index)

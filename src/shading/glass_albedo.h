@@ -13,7 +13,7 @@ Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta);
 /// The mean over all directions, weighed by the cosine.
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta);
 
-/// The light that meets several facets of glass: it goes on evenly to both sides.
+/// The light that meets several facets of glass: it goes on to both sides, whatever side it came from.
 class GlassLoss {
  public:
   GlassLoss() = default;
@@ -27,11 +27,15 @@ class GlassLoss {
   }
   /// How much of that goes to the other side.
   Real passes(Real cosine) const { return passes_[cosine < 0]; }
+  /// A direction above that side, chosen as densely as density() says: as much light leaves there.
+  Vec3 direction(bool inside, Vec2 u) const;
+  /// Per solid angle, to the side on which the light is. Precondition: not none().
+  Real density(Real light) const { return of(light) * std::abs(light) / (kPi * mean_[light < 0]); }
   /// f |cos(light)|, for importance. Precondition: not none().
   Real value(Real eye, Real light) const {
     const bool across = (eye > 0) != (light > 0);
     const Real share = across ? passes(eye) : 1 - passes(eye);
-    return share * of(eye) * of(light) * std::abs(light) / (kPi * mean_[light < 0]);
+    return share * of(eye) * density(light);
   }
 
  private:

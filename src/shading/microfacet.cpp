@@ -86,13 +86,14 @@ MicrofacetAlbedo lerp(Real t, const MicrofacetAlbedo& a, const MicrofacetAlbedo&
   return {a.white + t * (b.white - a.white), a.schlick + t * (b.schlick - a.schlick)};
 }
 
-/// By mirrors at the middles of samples x samples cells of the numbers that choose them.
-MicrofacetAlbedo integrated(const Microfacets& facets, const Vec3& eye, int samples) {
+/// Calls visit(share, cosine) for mirrors at the middles of samples x samples cells of the numbers that
+/// choose them: the share of light that each gives back, and the cosine of light to it.
+template <class Visit>
+void forEachMirror(const Microfacets& facets, const Vec3& eye, int samples, const Visit& visit) {
   const bool slopes = facets.kind == Distribution::beckmann;
   const Vec3 v = stretched(facets, eye);
   std::vector<Real> across;
   for (int j = 0; slopes && j < samples; ++j) across.push_back(inverseErf(2 * ((j + 0.5) / samples) - 1));
-  MicrofacetAlbedo sum{0, 0};
   for (int i = 0; i < samples; ++i) {
     const Real along = slopes ? visibleSlope(v.z, (i + 0.5) / samples) : 0;  // which takes long
     for (int j = 0; j < samples; ++j) {
@@ -100,25 +101,36 @@ MicrofacetAlbedo integrated(const Microfacets& facets, const Vec3& eye, int samp
                                : facets.chosen(eye, {(i + 0.5) / samples, (j + 0.5) / samples});
       const Vec3 light = mirroredAt(half, eye);
       if (!(light.z > 0)) continue;
-      const Real share = facets.seenAndLit(eye, light) / facets.seen(eye) / (samples * samples);
-      sum.white += share;
-      sum.schlick += share * schlickWeight(dot(eye, half));
+      visit(facets.seenAndLit(eye, light) / facets.seen(eye) / (samples * samples), dot(eye, half));
     }
   }
+}
+
+MicrofacetAlbedo integrated(const Microfacets& facets, const Vec3& eye, int samples) {
+  MicrofacetAlbedo sum{0, 0};
+  forEachMirror(facets, eye, samples, [&](Real share, Real cosine) {
+    sum.white += share;
+    sum.schlick += share * schlickWeight(cosine);
+  });
   return {min(1, sum.white), min(1, sum.schlick)};
 }
 
-/// The mean over the cosines t^2 of evenly spaced t from 0 to 1, weighed by the cosine: Simpson's rule for
-/// 2 cos d cos, with d cos = 2 t dt.
+/// How much the cosine t^2, t = step / steps, counts in a mean over all directions, weighed by the cosine:
+/// Simpson's rule for 2 cos d cos, with d cos = 2 t dt.
+Real meanWeight(int step, int steps) {
+  const Real t = 1.0 * step / steps;
+  const Real weight = (step == 0 || step == steps ? 1 : step % 2 ? 4 : 2) / (3.0 * steps);
+  return weight * 4 * t * t * t;
+}
+
+/// The mean over the cosines t^2 of evenly spaced t from 0 to 1.
 template <class At>
 MicrofacetAlbedo meanOf(int steps, const At& at) {
   MicrofacetAlbedo mean{0, 0};
   for (int c = 0; c <= steps; ++c) {
-    const Real t = 1.0 * c / steps;
-    const Real weight = (c == 0 || c == steps ? 1 : c % 2 ? 4 : 2) / (3.0 * steps);
     const MicrofacetAlbedo there = at(c);
-    mean.white += weight * 4 * t * t * t * there.white;
-    mean.schlick += weight * 4 * t * t * t * there.schlick;
+    mean.white += meanWeight(c, steps) * there.white;
+    mean.schlick += meanWeight(c, steps) * there.schlick;
   }
   return mean;
 }
@@ -242,11 +254,115 @@ MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets) {
   return lerp(w.share, row(w.low), row(w.low + 1));
 }
 
+// --- albedos of any reflectance ---
+
+namespace {
+
+/// Lagrange's polynomials of the nodes at x: 1 at their own, 0 at the others.
+FacetShares nodeWeights(Real x) {
+  FacetShares weights;
+  for (std::size_t k = 0; k < kFresnelNodes; ++k) {
+    weights[k] = 1;
+    for (std::size_t j = 0; j < kFresnelNodes; ++j)
+      if (j != k) weights[k] *= (x - fresnelNode(j)) / (fresnelNode(k) - fresnelNode(j));
+  }
+  return weights;
+}
+void add(FacetShares& sum, const FacetShares& shares, Real weight) {
+  for (std::size_t k = 0; k < kFresnelNodes; ++k) sum[k] += shares[k] * weight;
+}
+FacetShares lerp(Real t, const FacetShares& a, const FacetShares& b) {
+  FacetShares mixed{};
+  add(mixed, a, 1 - t);
+  add(mixed, b, t);
+  return mixed;
+}
+
+/// As EvenTable.
+struct ShareTable {
+  static constexpr int kSteps = EvenTable::kSteps;
+  FacetShares at[kSteps + 1][kSteps + 1];  ///< by width, cosine
+  FacetShares mean[kSteps + 1];
+
+  explicit ShareTable(Distribution kind) {
+    for (int w = 0; w <= kSteps; ++w) {
+      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kSteps * kMostRoughness);
+      mean[w] = {};
+      for (int c = 0; c <= kSteps; ++c) {
+        at[w][c] = {};
+        forEachMirror(facets, seenFrom(c, kSteps), EvenTable::kSamples,
+                      [&](Real share, Real cosine) { add(at[w][c], nodeWeights(cosine), share); });
+        add(mean[w], at[w][c], meanWeight(c, kSteps));
+      }
+    }
+  }
+  static Between width(Real width) { return {std::sqrt(width) / kMostRoughness, kSteps}; }
+};
+
+Real sumOf(const FacetShares& shares) {
+  Real sum = 0;
+  for (const Real share : shares) sum += share;
+  return sum;
+}
+/// With that sum.
+FacetShares scaledTo(Real sum, const FacetShares& shares) {
+  FacetShares scaled{};
+  add(scaled, shares, sum / sumOf(shares));
+  return scaled;
+}
+
+}  // namespace
+
+Real fresnelNode(std::size_t k) {
+  static const FacetShares kNodes = [] {
+    FacetShares nodes;
+    for (std::size_t i = 0; i < kFresnelNodes; ++i)
+      nodes[i] = (1 - std::cos((2 * static_cast<Real>(i) + 1) * kPi / (2 * kFresnelNodes))) / 2;
+    return nodes;
+  }();
+  return kNodes[k];
+}
+
+FacetShares facetShares(const Microfacets& facets, const Vec3& eye) {
+  // Grain: as even facets that are as wide as these seen along the view.
+  const Real across2 = eye.x * eye.x + eye.y * eye.y;
+  const Real cos2 = across2 > 0 ? eye.x * eye.x / across2 : 0.5;
+  const bool even = facets.x == facets.y;
+  const Real width =
+      even ? facets.x : std::sqrt(facets.x * facets.x * cos2 + facets.y * facets.y * (1 - cos2));
+  const auto& t = table<ShareTable>(facets.kind);
+  const Between w = t.width(width), c(std::sqrt(max(0, eye.z)), t.kSteps);
+  const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
+  const FacetShares shares = lerp(w.share, row(w.low), row(w.low + 1));
+  return even ? shares : scaledTo(microfacetAlbedo(facets, eye).white, shares);
+}
+
+FacetShares meanFacetShares(const Microfacets& facets) {
+  const auto& t = table<ShareTable>(facets.kind);
+  const Between w = t.width(std::sqrt(facets.x * facets.y));
+  const FacetShares shares = lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
+  return facets.x == facets.y ? shares : scaledTo(meanMicrofacetAlbedo(facets).white, shares);
+}
+
+const FacetShares& meanFresnelShares() {
+  static const FacetShares kMean = [] {
+    FacetShares mean{};
+    constexpr int kSteps = 1024;
+    for (int c = 0; c <= kSteps; ++c)
+      add(mean, nodeWeights(1.0 * c / kSteps * c / kSteps), meanWeight(c, kSteps));
+    return mean;
+  }();
+  return kMean;
+}
+
 MicrofacetLobe::MicrofacetLobe(const Microfacets& which, const Color& alongNormal) : facets(which) {
   meanWhite = meanMicrofacetAlbedo(facets).white;
-  const Color mean = alongNormal + (Color(1) + alongNormal * -1) / 21;  // of Schlick's formula
+  multiple = multipleOf(meanSchlick(alongNormal));
+}
+
+Color MicrofacetLobe::multipleOf(const Color& mean) const {
   const auto channel = [&](Real f) { return f * f * meanWhite / (1 - f * (1 - meanWhite)); };
-  multiple = {channel(mean.r), channel(mean.g), channel(mean.b)};
+  return {channel(mean.r), channel(mean.g), channel(mean.b)};
 }
 
 }  // namespace trace

@@ -94,6 +94,21 @@ MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye);
 /// The mean over all directions, weighed by the cosine.
 MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets);
 
+/// What facets give back where their reflectance is any smooth function of the cosine, known at these nodes:
+/// Chebyshev's for a polynomial from 0 to 1, which is off by less than 1e-4 for glass (Trefethen,
+/// Approximation Theory and Approximation Practice, 2013, chapter 8).
+inline constexpr std::size_t kFresnelNodes = 8;
+Real fresnelNode(std::size_t k);
+/// The share of light for each node by which the reflectance there counts; their sum is the albedo of white
+/// facets.
+using FacetShares = std::array<Real, kFresnelNodes>;
+/// Seen from a unit direction above the surface. With grain within a few percent.
+FacetShares facetShares(const Microfacets& facets, const Vec3& eye);
+/// The mean over all directions, weighed by the cosine.
+FacetShares meanFacetShares(const Microfacets& facets);
+/// The same of a smooth surface.
+const FacetShares& meanFresnelShares();
+
 /// Microfacets that mirror by Schlick's formula or another, and what is lost in it for light that is mirrored
 /// several times (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017 course).
 struct MicrofacetLobe {
@@ -104,6 +119,9 @@ struct MicrofacetLobe {
   MicrofacetLobe() = default;
   /// `alongNormal`: what they mirror of light along their normal.
   MicrofacetLobe(const Microfacets& facets, const Color& alongNormal);
+
+  /// The reflectance of the lost light where that of one facet has this mean over all directions.
+  Color multipleOf(const Color& mean) const;
 
   Real white(const Vec3& v) const { return microfacetAlbedo(facets, v).white; }
 

@@ -156,4 +156,9 @@ Color ThinFilm::mirroredOn(const ComplexIndex& metal, Real cosine) const {
   return {of(metal.eta.r, metal.k.r).r, of(metal.eta.g, metal.k.g).g, of(metal.eta.b, metal.k.b).b};
 }
 
+Color ThinFilm::changeOn(const Color& alongNormal, Real cosine) const {
+  const ComplexIndex metal = indexMirroring(alongNormal);
+  return mirroredOn(metal, cosine) + ThinFilm{index, behind, 0}.mirroredOn(metal, cosine) * -1;
+}
+
 }  // namespace trace

@@ -27,6 +27,8 @@ struct ThinFilm {
   Real mirroredOn(Real eta, Real k, Real cosine, Real wavelength) const;
   /// Each channel by its index, which is taken to be that of all wavelengths.
   Color mirroredOn(const ComplexIndex& metal, Real cosine) const;
+  /// How much more is mirrored with the film than without it, of a metal that is known by its colour alone.
+  Color changeOn(const Color& alongNormal, Real cosine) const;
 };
 
 }  // namespace trace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "geometry/materials.h"
 #include "geometry/shapes/copies.h"
@@ -120,6 +121,33 @@ TEST(Julia, SaysHowOftenACubeIsFollowed) {
   EXPECT_EQ(julia.excess(), "iterations of julia: numbers can follow a cube 36 times, found 40; 36 are used");
   julia.iteration = Iteration::square, julia.iterations = 50;
   EXPECT_EQ(julia.excess(), "");
+}
+
+TEST(Fractals, KeepTheirVolumeHoweverOftenTheyAreRepeated) {
+  // Some share of the lines along z through a grid, inside the set, measured with few and with many
+  // repetitions.
+  const auto inside = [](const Shape& shape) {
+    const TracedShape traced = prepare(shape);
+    Real sum = 0;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j) {
+        const auto found = test::crossingsOf(traced, {{0.21 * i + 0.013, 0.21 * j + 0.017, -5}, {0, 0, 1}});
+        for (std::size_t k = 0; k + 1 < found.size(); k += 2) sum += found[k + 1].t - found[k].t;
+      }
+    return sum;
+  };
+  for (const Iteration iteration : {Iteration::square, Iteration::cube, Iteration::hypercomplex}) {
+    Julia julia;
+    julia.iteration = iteration;
+    julia.constant = {-0.2, 0.3, 0, 0};
+    julia.iterations = 8;
+    const Real few = inside(julia);
+    EXPECT_GT(few, 1);
+    for (const int many : {20, 36, 40, 50}) {
+      julia.iterations = many;
+      EXPECT_GT(inside(julia), 0.9 * few) << names(iteration)[static_cast<std::size_t>(iteration)] << many;
+    }
+  }
 }
 
 TEST(Mandelbulb, OfAConstantOfZeroIsABallHoweverOftenItIsRepeated) {
@@ -299,6 +327,21 @@ TEST(Ifs, OfTwentyCubesIsTheMengerSponge) {
     };
     EXPECT_NEAR(length(copies), length(prepare(Shape(Menger{2}))), 1e-12);
   }
+}
+
+TEST(Ifs, MillionsOfCopiesInOnePlaceAreOne) {
+  Ifs ifs;
+  ifs.maps.clear();
+  for (int i = 0; i < 100; ++i) ifs.maps.push_back({0.3, 0, 0, 0.001 * i, 0, 0.3, 0, 0, 0, 0, 0.3, 0});
+  ifs.levels = 4;  // a ray along x meets all of its 1e8 cubes
+  Budget budget;
+  budget.limitTime(60);
+  const BudgetScope scope(&budget);
+  const auto found = test::crossingsOf(prepare(ifs), {{-5, 0, 0}, {1, 0, 0}});
+  ASSERT_EQ(found.size(), 2u);
+  const Real last = 0.5 * 0.3 * 0.3 * 0.3 * 0.3;  // half a cube of the last level
+  EXPECT_NEAR(found[0].t, 5 - last, 1e-12);
+  EXPECT_NEAR(found[1].t, 5 + 0.099 * (1 + 0.3 + 0.09 + 0.027) + last, 1e-12);
 }
 
 TEST(Ifs, RefusesMapsThatDoNotShrink) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "geometry/shapes/prism.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
@@ -114,6 +115,14 @@ TEST(Sweep, IsOneBodyWhereItPassesThroughItself) {
   const auto c = crossingsOf(cross, {{-3, 0.1, 0.05}, {1, 0, 0}});
   ASSERT_EQ(c.size(), 2u);
   EXPECT_NEAR(c[0].t, 1, 1e-12);
+}
+
+TEST(Sweep, RefusesMoreTurnsThanItsPiecesFollow) {
+  Sweep sweep;
+  sweep.twist = 1e9;
+  EXPECT_THROW(prepare(sweep), Error);
+  sweep.twist = 3600;
+  EXPECT_NO_THROW(prepare(sweep));
 }
 
 TEST(Sweep, OpenOnesAreSheets) {

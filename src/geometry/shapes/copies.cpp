@@ -74,11 +74,13 @@ TracedCopies::TracedCopies(std::vector<Affine> maps, Seed seed, int levels)
   for (const Affine& map : maps_) back_.push_back(inverse(map));
   // The box of a level holds the copies of the one before; of the last level, only those count.
   reach_ = bounds_ = kSeedBox;
+  boxes_.push_back(roomy(bounds_));
   for (int i = 0; i < levels_; ++i) {
     Box3 next;
     for (const Affine& map : maps_) next.extend(map * bounds_);
     bounds_ = next;
     reach_.extend(next);
+    boxes_.push_back(roomy(next));
   }
   reach_ = roomy(reach_);
   error_ = maxComponent(max(abs(reach_.low), abs(reach_.high))) * gammaError(32 + 12 * levels_);
@@ -120,7 +122,23 @@ bool TracedCopies::meetSeed(const Ray& ray, Stretch& stretch) const {
   return in.t < out.t;
 }
 
-void TracedCopies::descend(const Ray& ray, int level, std::int64_t leaf, const Range& range,
+/// In order, with those that overlap or touch made one; how many are left, from the first on.
+std::size_t TracedCopies::joined(std::span<Stretch> all) {
+  std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) {
+    return a.in.t != b.in.t ? a.in.t < b.in.t : a.in.part < b.in.part;
+  });
+  std::size_t count = 0;
+  for (const Stretch& s : all) {
+    if (count > 0 && s.in.t <= all[count - 1].out.t) {
+      if (s.out.t > all[count - 1].out.t) all[count - 1].out = s.out;
+    } else {
+      all[count++] = s;
+    }
+  }
+  return count;
+}
+
+void TracedCopies::descend(const Ray& ray, int level, std::int64_t leaf, const Range& range, Merging& merging,
                            SmallList<Stretch, 16>& found) const {
   checkBudget();
   if (level == 0) {
@@ -129,33 +147,35 @@ void TracedCopies::descend(const Ray& ray, int level, std::int64_t leaf, const R
     stretch.in.part += leaf * kFaces;
     stretch.out.part += leaf * kFaces;
     found.add(stretch);
+    if (found.size() >= merging.next) {
+      found.shrink(joined(found.all()));
+      merging = {std::max(2 * found.size(), Merging::kFirst), true};
+    }
     return;
   }
   const Span span = spanIn(reach_, ray);
   if (span.empty() || span.to < range.from || span.from > range.to) return;
+  if (merging.begun) {  // what lies within a stretch that is found changes no end of it
+    const Span own = spanIn(boxes_[static_cast<std::size_t>(level)], ray);
+    if (own.empty()) return;
+    for (const Stretch& s : found.all())
+      if (s.in.t < own.from && own.to < s.out.t) return;
+  }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const Ray inner{back_[i] * ray.origin, linear(back_[i], ray.direction)};
     descend(inner, level - 1, leaf * static_cast<std::int64_t>(maps_.size()) + static_cast<std::int64_t>(i),
-            range, found);
+            range, merging, found);
   }
 }
 
 void TracedCopies::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
   if (spanIn(roomy(bounds_), ray).empty()) return;
   SmallList<Stretch, 16> found;
-  descend(ray, levels_, 0, range, found);
-  const std::span<Stretch> all = found.all();
-  std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) {
-    return a.in.t != b.in.t ? a.in.t < b.in.t : a.in.part < b.in.part;
-  });
-  for (std::size_t i = 0; i < all.size();) {
-    Crossing out = all[i].out;
-    std::size_t next = i + 1;
-    for (; next < all.size() && all[next].in.t <= out.t; ++next)
-      if (all[next].out.t > out.t) out = all[next].out;
-    visit(all[i].in);
-    visit(out);
-    i = next;
+  Merging merging;
+  descend(ray, levels_, 0, range, merging, found);
+  for (const Stretch& s : found.all().first(joined(found.all()))) {
+    visit(s.in);
+    visit(s.out);
   }
 }
 

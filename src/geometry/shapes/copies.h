@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -89,7 +90,15 @@ class TracedCopies {
   struct Stretch {
     Crossing in, out;
   };
-  void descend(const Ray& ray, int level, std::int64_t leaf, const Range& range,
+  /// Of a ray that meets very many copies the stretches are joined before all are found: a union of millions
+  /// of overlapping seeds takes no more memory, and no longer, than what is left of it.
+  struct Merging {
+    static constexpr std::size_t kFirst = 4096;
+    std::size_t next = kFirst;  ///< how many have to be found
+    bool begun = false;
+  };
+  static std::size_t joined(std::span<Stretch> all);
+  void descend(const Ray& ray, int level, std::int64_t leaf, const Range& range, Merging& merging,
                SmallList<Stretch, 16>& found) const;
   bool meetSeed(const Ray& ray, Stretch& stretch) const;
 
@@ -97,7 +106,8 @@ class TracedCopies {
   Seed seed_;
   int levels_;
   std::int64_t leaves_ = 1;
-  Box3 reach_, bounds_;  ///< reach_: holds every level; bounds_: the last
+  std::vector<Box3> boxes_;  ///< of the copies of each number of levels
+  Box3 reach_, bounds_;      ///< reach_: holds every level; bounds_: the last
   Real error_ = 0;
 };
 

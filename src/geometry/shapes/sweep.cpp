@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/small_list.h"
+#include "base/text.h"
 
 namespace trace {
 namespace {
@@ -127,6 +128,10 @@ Path::Path(const Sweep& shape, std::vector<PathArc> arcs) : arcs_(std::move(arcs
   Real twist = std::isfinite(shape.twist) ? shape.twist * (kPi / 180) : 0;
   if (closed) twist = 2 * kPi * std::round(twist / (2 * kPi));  // it must meet itself
   turn_ = twist / count;
+  constexpr Real kMostDegrees = 15360;  // 60 for each of the most pieces of an arc
+  if (std::abs(turn_) > kMostDegrees * (kPi / 180))
+    throw Error(Fault::scene, "twist: expected at most " + toText(kMostDegrees) +
+                                  " degrees for each arc of the path, found " + toText(turn_ / (kPi / 180)));
 
   first.along = directionOf(front, 0);
   const Vec3 up = std::abs(first.along.z) < 0.999 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};

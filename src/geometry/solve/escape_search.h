@@ -53,7 +53,10 @@ class EscapeSearch {
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const {
     Vec3 p = ray.at(crossing.t), n;
     const Real half = step_.half();
-    Real error = half * gammaError(8);
+    // The place on the ray is rounded as its origin and the way to it are.
+    Real error = half * gammaError(8) +
+                 (maxComponent(abs(ray.origin)) + std::abs(crossing.t) * maxComponent(abs(ray.direction))) *
+                     gammaError(4);
     if (const std::int64_t face = TrapPart::face(crossing.part); face != kSurface) {
       const int axis = static_cast<int>(face / 2);
       n[axis] = face % 2 != 0 ? 1 : -1;

@@ -2,8 +2,9 @@
 // on it oil on wet asphalt, the shells of beetles, pearl (shading/thin_film.h).
 // Reciprocal. Energy: gives back at most what arrives, all of it if the base is white.
 //
-// Under Whitted's equation a smooth layer sends one mirrored ray by Schlick's formula; of a rough one the ray
-// stands for the facets that lean less than 5 degrees.
+// Under Whitted's equation a smooth layer sends one mirrored ray; of a rough one the ray stands for the
+// facets that lean less than 5 degrees. Both follow Schlick's approximation, or Fresnel's formula where the
+// rules say so.
 #pragma once
 
 #include <string_view>
@@ -52,15 +53,16 @@ struct Coated : SurfaceFields {
 };
 
 struct CoatedBsdf : LocalBsdf<CoatedBsdf, Coated> {
+  bool exactFresnel = false;
   Coating coat;
 
   CoatedBsdf() = default;
-  explicit CoatedBsdf(const Coated& model)
+  CoatedBsdf(const Coated& model, bool exact)
       : LocalBsdf(model),
-        coat(model.film > 0
-                 ? Coating(model.distribution, model.roughness, 0,
-                           ThinFilm{model.filmIndex, model.index, model.film}, 1)
-                 : Coating(model.distribution, model.roughness, 0, Color(mirroredAlongNormal(model.index)))) {
+        exactFresnel(exact),
+        coat(model.distribution, model.roughness, 0,
+             LayerFresnel(Color(mirroredAlongNormal(model.index)), model.index, exact)
+                 .withFilm(model.filmIndex, model.film, 1)) {
     index = model.index;
     reflective = coat.mirrorWeight(1);
   }
@@ -80,6 +82,6 @@ struct CoatedBsdf : LocalBsdf<CoatedBsdf, Coated> {
   }
 };
 
-inline CoatedBsdf Coated::at(const Rules&) const { return CoatedBsdf(*this); }
+inline CoatedBsdf Coated::at(const Rules& rules) const { return {*this, rules.exactFresnel}; }
 
 }  // namespace trace

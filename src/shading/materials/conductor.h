@@ -51,14 +51,14 @@ struct Conductor : SurfaceFields {
 
   /// What one facet mirrors.
   Color mirrored(Real cosine) const {
-    if (film > 0) {
-      const ThinFilm oxide{filmIndex, 1, film};
-      return metal == Metal::none ? oxide.mirroredOn(indexMirroring(color), cosine)
-                                  : color * oxide.mirroredOn(indexOf(metal), cosine);
+    const ThinFilm oxide{filmIndex, 1, film};
+    if (metal == Metal::none) {
+      const Color bare = schlick(cosine, color);
+      return film > 0 ? clamp01(bare + oxide.changeOn(color, cosine)) : bare;
     }
-    if (metal == Metal::none) return schlick(cosine, color);
     const ComplexIndex index = indexOf(metal);
-    return color * fresnelConductor(cosine, index.eta, index.k);
+    return color *
+           (film > 0 ? oxide.mirroredOn(index, cosine) : fresnelConductor(cosine, index.eta, index.k));
   }
 
   Phong asPhong() const {

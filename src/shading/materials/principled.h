@@ -94,17 +94,22 @@ struct Principled : SurfaceFields {
 
 struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   static constexpr bool kHasCoat = true;
+  static constexpr Real kClearIndex = 1.5;
   static constexpr Real kLeastRoughness = 0.01;  ///< smoother ones have no lobe that a lamp could be seen in
 
+  bool exactFresnel = false;
   Coating plastic, clear;
   Real passing = 0;  ///< share of light that goes on through the sheet
   MicrofacetLobe metal;
   Sheen fibres;
 
   PrincipledBsdf() = default;
-  explicit PrincipledBsdf(const Principled& model)
+  PrincipledBsdf(const Principled& model, bool exact)
       : LocalBsdf(model),
-        plastic(plasticOf(model)),
+        exactFresnel(exact),
+        plastic(Distribution::ggx, max(kLeastRoughness, model.roughness), model.anisotropy,
+                LayerFresnel(model.plasticMirrors(), model.index, exact)
+                    .withFilm(model.iridescenceIndex, model.iridescenceThickness, model.iridescence)),
         metal(plastic.lobe.facets, metalMirrors(1)),
         fibres(Sheen::of(model.sheenRoughness)) {
     said.metallic = max(0, min(1, model.metallic));
@@ -112,7 +117,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
     said.clearcoat = max(0, min(1, model.clearcoat));
     if (said.clearcoat > 0)
       clear = {Distribution::ggx, max(kLeastRoughness, model.clearcoatRoughness), 0,
-               Color(mirroredAlongNormal(1.5))};
+               LayerFresnel(Color(mirroredAlongNormal(kClearIndex)), kClearIndex, exact)};
     index = model.index;
     reflective = mirrorWeight(1);
     passing = max(0, min(1, model.transmission)) * (1 - said.metallic);
@@ -132,7 +137,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
         lerp(said.metallic, plastic.fresnel(cosine) * said.specularStrength, metalMirrors(cosine)) *
         plastic.lobe.facets.sharpShare();
     if (!(said.clearcoat > 0)) return below;
-    const Real through = 1 - said.clearcoat * schlick(cosine, clear.alongNormal).r;
+    const Real through = 1 - said.clearcoat * clear.fresnel(cosine).r;
     return below * (through * through) + clear.mirrorWeight(cosine) * said.clearcoat;
   }
 
@@ -189,23 +194,12 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   }
 
  private:
-  static bool iridesces(const Principled& model) {
-    return model.iridescence > 0 && model.iridescenceThickness > 0;
-  }
-  static ThinFilm filmOf(const Principled& model) {
-    return {model.iridescenceIndex, model.index, model.iridescenceThickness};
-  }
-  static Coating plasticOf(const Principled& model) {
-    const Real roughness = max(kLeastRoughness, model.roughness);
-    if (iridesces(model))
-      return {Distribution::ggx, roughness, model.anisotropy, filmOf(model), min(1, model.iridescence)};
-    return {Distribution::ggx, roughness, model.anisotropy, model.plasticMirrors()};
-  }
   /// What one facet of metal mirrors.
   Color metalMirrors(Real cosine) const {
     const Color bare = schlick(cosine, said.color);
-    if (!iridesces(said)) return bare;
-    return lerp(min(1, said.iridescence), bare, filmOf(said).mirroredOn(indexMirroring(said.color), cosine));
+    if (!(said.iridescence > 0 && said.iridescenceThickness > 0)) return bare;
+    const ThinFilm film{said.iridescenceIndex, 1, said.iridescenceThickness};
+    return clamp01(bare + film.changeOn(said.color, cosine) * min(1, said.iridescence));
   }
   static void cover(Scatter& below, Real through, const Color& layer) {
     below = {below.diffuse * through, below.specular * through + layer};
@@ -257,6 +251,6 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   }
 };
 
-inline PrincipledBsdf Principled::at(const Rules&) const { return PrincipledBsdf(*this); }
+inline PrincipledBsdf Principled::at(const Rules& rules) const { return {*this, rules.exactFresnel}; }
 
 }  // namespace trace

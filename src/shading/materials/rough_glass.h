@@ -107,8 +107,8 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
     if (!loss.none()) {
       const Real several = loss.of(eyeGiven.z);
       if (choose < several) {
-        const Vec3 light = cosineDirection(u);
         const bool passes = choose < several * loss.passes(eyeGiven.z), below = passes == (eyeGiven.z > 0);
+        const Vec3 light = loss.direction(below, u);
         return below ? Vec3{light.x, light.y, -light.z} : light;
       }
       choose = (choose - several) / (1 - several);
@@ -127,7 +127,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
       sum += (1 - fresnelDielectric(bend.eye, 1, eta)) * facets.visible(eye, bend.half) * bend.density;
     if (loss.none()) return sum;
     const Real several = loss.of(eyeGiven.z), passes = loss.passes(eyeGiven.z);
-    return (1 - several) * sum + several * (light.z > 0 ? 1 - passes : passes) * std::abs(light.z) / kPi;
+    return (1 - several) * sum + several * (light.z > 0 ? 1 - passes : passes) * loss.density(lightGiven.z);
   }
 
  private:

@@ -1,8 +1,8 @@
 // The cheap model of Schlick (A Customizable Reflectance Model for Everyday Rendering, EGWR 1993; An
 // Inexpensive BRDF Model, Eurographics 1994): one roughness from a mirror to Lambert's surface, one isotropy.
 // Variant: a single layer; light that the facets hide is scattered evenly, (1 - G G') / pi.
-// Reciprocal. Energy: gives back what arrives or less, but up to a third more at grazing angles, where the
-// two terms overlap.
+// Reciprocal. Energy: gives back what arrives or less up to 60 degrees, but more at grazing angles, where the
+// two terms overlap: if it is white up to 1.27 of it at 80 degrees, 1.52 at 85 and 2.5 at 89.
 #pragma once
 
 #include <string_view>

@@ -72,14 +72,17 @@ struct SubsurfaceBsdf : LocalBsdf<SubsurfaceBsdf, Subsurface> {
   /// light that comes out elsewhere, in all 1; the eye does not matter.
   enum class Part { whole, surface, exit };
 
+  bool exactFresnel = false;
   Coating coat;
   Color albedo;
   Part part = Part::whole;
 
   SubsurfaceBsdf() = default;
-  explicit SubsurfaceBsdf(const Subsurface& model)
+  SubsurfaceBsdf(const Subsurface& model, bool exact)
       : LocalBsdf(model),
-        coat(Distribution::ggx, model.roughness, 0, Color(mirroredAlongNormal(model.index))),
+        exactFresnel(exact),
+        coat(Distribution::ggx, model.roughness, 0,
+             LayerFresnel(Color(mirroredAlongNormal(model.index)), model.index, exact)),
         albedo(model.albedo()) {
     index = model.index;
     reflective = coat.mirrorWeight(1);
@@ -127,6 +130,6 @@ struct SubsurfaceBsdf : LocalBsdf<SubsurfaceBsdf, Subsurface> {
   Real baseWeight() const { return part == Part::surface ? 0 : maxComponent(albedo); }
 };
 
-inline SubsurfaceBsdf Subsurface::at(const Rules&) const { return SubsurfaceBsdf(*this); }
+inline SubsurfaceBsdf Subsurface::at(const Rules& rules) const { return {*this, rules.exactFresnel}; }
 
 }  // namespace trace
