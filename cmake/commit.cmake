@@ -1,3 +1,5 @@
+cmake_minimum_required(VERSION 3.24)
+
 # Writes src/app/version.h's commit() into OUT, as git names it in ROOT, and sources(), a hash of what the program is made of: run
 # before each build, so that `ray --version` is true. The file changes only with these. Without git or its folder the name is empty.
 find_package(Git QUIET)
