@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "formats/format.h"
+#include "geometry/mesh/mesh.h"
 #include "stopwatch.h"
 
 namespace trace::bench {
@@ -30,7 +31,7 @@ struct Reading {
 std::size_t trianglesOf(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects)
-    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) count += mesh->data->triangles.size();
+    if (const auto* mesh = object.shape.as<Mesh>()) count += mesh->data->triangles.size();
   return count;
 }
 

@@ -1,9 +1,11 @@
 #include "app/checkpoint.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <new>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -22,11 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBegin = "Trace checkpoint 1\n";
+constexpr std::string_view kBegin = "Trace checkpoint 1\n", kProgram = "Program: ";
 
 /// What decides about the film: of the options, all but those that are applied to it later.
-std::string identityOf(const Metadata& metadata, const Settings& settings) {
-  std::string text;
+std::string identityOf(const Metadata& metadata, const Settings& settings, const std::string& program) {
+  std::string text = std::string(kProgram) + program + "\n";
   for (const auto& [key, value] : metadata)
     if (key == "Software" || key == "Scene") text += key + ": " + value + "\n";
   text += "Settings:";
@@ -48,26 +50,40 @@ struct Head {
   std::size_t length = 0;  ///< of these lines, in bytes
 };
 
+/// Digits alone.
+std::optional<std::int64_t> countIn(std::string_view text) {
+  std::int64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 0) return {};
+  return count;
+}
+
 /// Nothing of a file that is no checkpoint.
 std::optional<Head> headOf(const std::string& path) {
-  if (!isOrdinaryFile(path)) return {};  // a pipe might never answer
+  constexpr std::size_t kLongest = 1 << 20;  // of lines that say of which picture it is
+  if (!isOrdinaryFile(path)) return {};       // a pipe might never answer
   std::ifstream file(path, std::ios::binary);
+  std::string begin(kLongest, '\0');
+  begin.resize(static_cast<std::size_t>(file.read(begin.data(), kLongest).gcount()));
+  if (!begin.starts_with(kBegin)) return {};
   Head head;
-  std::string line;
-  for (int i = 0; i < 8 && std::getline(file, line); ++i) {
-    head.length += line.size() + 1;
-    if (i == 0) {
-      if (line + "\n" != kBegin) return {};
-    } else if (line.starts_with("Done: ")) {
-      const auto done = parseNumber(std::string_view(line).substr(6));
-      if (!done) return {};
-      head.done = static_cast<std::int64_t>(done->value);
-    } else if (line.starts_with("Hash: ")) {
+  head.length = kBegin.size();
+  std::optional<std::int64_t> done;
+  for (std::size_t end; (end = begin.find('\n', head.length)) != begin.npos;) {
+    const std::string line = begin.substr(head.length, end - head.length);
+    head.length = end + 1;
+    if (done) {
+      if (!line.starts_with("Hash: ")) return {};
+      head.done = *done;
       head.hash = line.substr(6);
       return head;
-    } else {
-      head.identity += line + "\n";
     }
+    if (!line.starts_with("Done: ")) {
+      head.identity += line + "\n";
+      continue;
+    }
+    done = countIn(std::string_view(line).substr(6));
+    if (!done) return {};
   }
   return {};
 }
@@ -107,7 +123,11 @@ struct Difference {
 Difference differenceOf(const std::string& a, const std::string& b) {
   auto one = partsOf(a), other = partsOf(b);
   constexpr std::size_t kFar = 1000;
-  if (one["Software"] != other["Software"]) return {"another version of Trace wrote it", kFar + 1};
+  if (one["Software"] != other["Software"]) return {"another version of Trace wrote it", kFar + 2};
+  if (const std::string its = one["Program"], ours = other["Program"]; its != ours)
+    return {"another build of Trace wrote it (" + its.substr(std::min(its.size(), kProgram.size())) +
+                "; this one is " + ours.substr(std::min(ours.size(), kProgram.size())) + ")",
+            kFar + 1};
   if (one["Scene"] != other["Scene"]) return {"the scene has changed", kFar};
   std::set<std::string> names;
   for (const auto& parts : {one, other})
@@ -141,13 +161,23 @@ void fill(Film& film, const std::string& path, const std::string& identity) {
   const std::string bytes = readFile(path);
   const std::string_view state = std::string_view(bytes).substr(std::min(head->length, bytes.size()));
   if (hashOf(state) != head->hash) throw Misfit{.why = "it is damaged", .damaged = true};
-  film.restore(state);
+  try {
+    film.restore(state);
+  } catch (const TooManySamples&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw Misfit{.why = std::string("it is damaged: ") + error.what(), .damaged = true};
+  }
+  if (head->done <= film.samplesDone()) return;
+  film.clear();  // nobody would ever be ahead of it
+  throw Misfit{.why = "it is damaged: it has fewer samples than it says", .damaged = true};
 }
 
 }  // namespace
 
-Checkpoint::Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings)
-    : picture_(picture), identity_(identityOf(metadata, settings)) {}
+Checkpoint::Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings,
+                       const std::string& program)
+    : picture_(picture), identity_(identityOf(metadata, settings, program)) {}
 
 bool Checkpoint::load(Film& film) {
   const std::vector<std::string> lying = all();
@@ -169,6 +199,8 @@ bool Checkpoint::load(Film& film) {
       note({error.messages().front().what});
     } catch (const std::runtime_error& error) {
       note({error.what()});
+    } catch (const std::bad_alloc&) {
+      note({"there is not enough memory to read it"});
     }
   }
   if (const std::size_t others = lying.size(); others > 1)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/version.h"
 #include "image/film.h"
 #include "image/metadata.h"
 #include "scene/settings.h"
@@ -19,10 +20,13 @@ namespace trace {
 class Checkpoint {
  public:
   /// For the picture of that file, which has these words (Session::metadata()). Whatever changes a sample
-  /// counts, and so does the number of samples, unless more can be added to them.
-  Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings);
+  /// counts, and so do the number of samples, unless more can be added to them, and the program
+  /// (programText()).
+  Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings,
+             const std::string& program = programText());
 
-  /// Fills the film from the first file that fits, if there is one.
+  /// Fills the film from the first file that fits, if there is one. Files are not trusted: whatever stands in
+  /// them does no harm.
   bool load(Film& film);
   /// Why a file that lies there did not fit, of several the one that comes nearest, for a person:
   /// "out.png.checkpoint: it is of another picture"; "" if there was none.

@@ -16,10 +16,9 @@ double PixelSum::variance() const {
 double PixelSum::error() const { return std::sqrt(variance()) / std::max(1.0, luminanceOf(colors_.mean())); }
 
 std::vector<Wave> wavesOf(int samples, int first) {
-  constexpr int kMost = 16;  // a stop waits for a wave of a tile, and the picture is seen after each
   std::vector<Wave> waves;
   while (first < samples) {
-    const int end = std::min(samples, first + std::clamp(first, 1, kMost));
+    const int end = std::min(samples, first + longestWave(first));
     waves.push_back({first, end});
     first = end;
   }

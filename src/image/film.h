@@ -6,12 +6,14 @@
 // their order, whatever the order in which they come: the same bits for any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,10 @@ struct Wave {
   int first, end;
   int count() const { return end - first; }
 };
+
+/// How many samples of a pixel a wave that begins with sample `first` takes at most: a stop waits for a wave
+/// of a tile, and the picture is seen after each.
+constexpr int longestWave(int first) { return std::clamp(first, 1, 16); }
 
 /// One sample, one more, 2, 4, 8, and from then on 16 at a time; those from sample `first` on.
 std::vector<Wave> wavesOf(int samples, int first = 0);
@@ -156,6 +162,11 @@ struct Halves {
   std::vector<double> share;     ///< of the samples that are in the first; 0 where one half has none
 };
 
+/// A saved film has more samples than are asked for.
+struct TooManySamples : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Film {
  public:
   static constexpr int kTileSize = 32;  ///< in pixels, of a side
@@ -219,9 +230,12 @@ class Film {
   /// wave.
   std::string saved() const;
   /// Takes what saved() gave of a film of the same size and layers whose tiles have no more samples than
-  /// this one asks for; these then count as taken. Throws std::runtime_error with the reason if it does not
-  /// fit; the film is then blank.
+  /// this one asks for; these then count as taken. The bytes are not trusted: all counts and indices are
+  /// checked, so that any bytes do no harm. Throws TooManySamples, or std::runtime_error with the reason if
+  /// they do not fit; the film is then blank.
   void restore(std::string_view bytes);
+  /// Takes away all samples.
+  void clear();
 
   /// All waves of all tiles are there.
   bool complete() const;

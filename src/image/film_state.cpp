@@ -1,7 +1,12 @@
 // A film as bytes and back, so that a render can go on after its process ended: Film::saved, Film::restore.
 //
 // Numbers stand as they do in memory, so that the same machine, or one like it, goes on with the same bits.
+//
+// The bytes are not trusted, for anyone may have written them. A colour or a weight may be any number, as it
+// may in a render; whatever counts, selects or ends something is checked here, and nothing after this checks
+// it again.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
@@ -73,11 +78,22 @@ class FilmState {
   static void take(Reader& from, PixelSum& pixel) {
     pixel.taken_ = from.take<int>();
     pixel.squares_ = from.take<double>();
+    if (!(pixel.squares_ >= 0)) throw std::runtime_error("a sum of squares is negative or no number");
     take(from, pixel.colors_);
+  }
+  /// Throws unless the pixel of a tile with that many waves has the samples of all of them, or was left out,
+  /// or, where pixels stop for an error, stopped after one of them.
+  static void checkTaken(const Film& film, const PixelSum& pixel, std::size_t waves) {
+    const std::span<const Wave> there(film.waves_.data(), waves);
+    const auto endsThere = [&](const Wave& wave) { return wave.end == pixel.taken_; };
+    const auto possible = film.noise_ > 0 ? there : there.last(1);
+    if (pixel.taken_ != 0 && std::none_of(possible.begin(), possible.end(), endsThere))
+      throw std::runtime_error("a pixel has another number of samples than its tile");
   }
 
   static void take(Reader& from, WeightedMean& mean) {
-    const bool alike = from.take<std::uint8_t>() != 0;
+    const auto alike = from.take<std::uint8_t>();
+    if (alike > 1) throw std::runtime_error("a mean is neither of one kind nor of the other");
     mean.sum_ = from.take<Color>();
     mean.weights_ = from.take<double>();
     mean.above_ = alike ? mean.sum_ : from.take<Color>();
@@ -89,8 +105,16 @@ class FilmState {
     for (const SplatPlane::Sum& sum : splats.sums_) to.put(sum);
   }
   static void take(Reader& from, SplatPlane& splats) {
+    constexpr std::int64_t kMostPaths = std::int64_t{1} << 62;  // as many can still be added
     splats.paths_ = from.take<std::int64_t>();
-    for (SplatPlane::Sum& sum : splats.sums_) sum = from.take<SplatPlane::Sum>();
+    if (splats.paths_ < 0 || splats.paths_ > kMostPaths)
+      throw std::runtime_error("its number of paths makes no sense");
+    for (SplatPlane::Sum& sum : splats.sums_) {
+      sum = from.take<SplatPlane::Sum>();
+      for (const SplatPlane::Whole part : sum)
+        if (part < -SplatPlane::kLimit || part > SplatPlane::kLimit)
+          throw std::runtime_error("more light has landed in a pixel than its paths can bring");
+    }
   }
 
   template <class T>
@@ -117,7 +141,74 @@ class FilmState {
     takeAll(from, level.starts);
     takeAll(from, level.corners);
     level.values.resize(values);
-    for (std::vector<Color>& all : level.values) takeAll(from, all);
+    for (std::vector<Color>& all : level.values) {
+      takeAll(from, all);
+      if (all.size() != level.corners.size())
+        throw std::runtime_error("its corners have too few or too many values");
+    }
+  }
+
+  /// Throws unless the tile's level holds the corners that a render looks at, and no others. Those of lower
+  /// levels have been checked, of all tiles: they decide which these are.
+  static void check(const CornerSamples& corners, const Tile& tile, const CornerSamples::Level& level,
+                    int number) {
+    const auto fail = [] { throw std::runtime_error("its corners are not those of the divided pixels"); };
+    const Tile& all = corners.rules().area;
+    const Tile area{std::max(tile.x0, all.x0), std::max(tile.y0, all.y0), std::min(tile.x1, all.x1),
+                    std::min(tile.y1, all.y1)};
+    if (!(level.area == area)) fail();
+    std::vector<std::size_t> starts;
+    std::vector<Corner> wanted;
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        starts.push_back(wanted.size());
+        const std::vector<Corner> ofPixel = corners.wanted(x, y, number);
+        wanted.insert(wanted.end(), ofPixel.begin(), ofPixel.end());
+      }
+    starts.push_back(wanted.size());
+    if (level.starts != starts || level.corners != wanted) fail();
+  }
+
+  /// How many levels of each tile are saved: a wave looks at the corners of those before in all tiles, so
+  /// none is two ahead of another; but while one tile is read others go on.
+  static std::vector<std::size_t> levelsThere(const Film& film) {
+    std::vector<std::size_t> levels;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(film.tiles()); ++i) {
+      const std::lock_guard lock(film.states_[i].mutex);
+      levels.push_back(film.states_[i].waves);
+    }
+    const std::size_t most = *std::min_element(levels.begin(), levels.end()) + 1;
+    for (std::size_t& level : levels) level = std::min(level, most);
+    return levels;
+  }
+
+  static void takeCorners(Reader& from, Film& film) {
+    CornerSamples& corners = *film.corners_;
+    std::size_t least = film.waves_.size(), most = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(film.tiles()); ++i) {
+      const std::size_t levels = takeWaves(from, film.waves_.size());
+      film.states_[i].waves = levels;
+      least = std::min(least, levels);
+      most = std::max(most, levels);
+      for (std::size_t level = 0; level < levels; ++level) {
+        CornerSamples::Level taken;
+        take(from, taken, film.layers_.size() + 1);
+        corners.put(i, level, std::move(taken));
+      }
+    }
+    if (most > least + 1) throw std::runtime_error("a tile is further than the corners around it allow");
+    for (std::size_t level = 0; level < most; ++level)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(film.tiles()); ++i)
+        if (level < film.states_[i].waves)
+          check(corners, film.tile(static_cast<std::int64_t>(i)), corners.level(i, level),
+                static_cast<int>(level));
+  }
+
+  /// A tile's number of waves, of those that are known.
+  static std::size_t takeWaves(Reader& from, std::size_t known) {
+    const std::size_t waves = from.take<std::uint32_t>();
+    if (waves > known) throw std::runtime_error("a tile has more waves than there are");
+    return waves;
   }
 
   static std::string saved(const Film& film) {
@@ -132,14 +223,20 @@ class FilmState {
     for (const Wave& wave : film.waves_) to.put(wave.end);
     to.put(static_cast<std::uint8_t>(film.takesSplats()));
     if (film.takesSplats()) put(to, *film.splats_);
+    if (film.corners_) {
+      const std::vector<std::size_t> levels = levelsThere(film);
+      for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::lock_guard lock(film.states_[i].mutex);
+        to.put(static_cast<std::uint32_t>(levels[i]));
+        for (std::size_t level = 0; level < levels[i]; ++level) put(to, film.corners_->level(i, level));
+      }
+      return std::move(to.bytes());
+    }
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       const Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       const std::lock_guard lock(state.mutex);
       to.put(static_cast<std::uint32_t>(state.waves));
-      if (film.corners_)
-        for (std::size_t level = 0; level < state.waves; ++level)
-          put(to, film.corners_->level(static_cast<std::size_t>(i), level));
-      if (state.waves == 0 || film.corners_) continue;
+      if (state.waves == 0) continue;
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
@@ -163,11 +260,21 @@ class FilmState {
     std::vector<Wave> waves;
     for (auto left = from.take<std::uint32_t>(); left > 0; --left) {
       const int first = waves.empty() ? 0 : waves.back().end, end = from.take<int>();
-      if (end <= first) throw std::runtime_error("its waves of samples make no sense");
+      if (end <= first || end - first > longestWave(first))
+        throw std::runtime_error("its waves of samples make no sense");
       waves.push_back({first, end});
     }
     if (waves.empty()) throw std::runtime_error("it has no samples");
-    const int asked = film.waves_.back().end, planned = waves.back().end;
+    if (film.corners_) {
+      if (waves.size() != film.waves_.size() || waves.back().end != film.waves_.back().end)
+        throw std::runtime_error("its pixels are divided more or less often");
+      from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
+      takeCorners(from, film);
+      if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+      return;
+    }
+    const int asked = film.waves_.back().end;
+    const std::size_t wavesSaved = waves.size();
     while (waves.back().end > asked && waves.size() > 1) waves.pop_back();
     const std::size_t known = waves.size();
     for (const Wave& wave : wavesOf(asked, waves.back().end)) waves.push_back(wave);
@@ -176,23 +283,19 @@ class FilmState {
     if (film.takesSplats()) take(from, *film.splats_);
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
-      state.waves = from.take<std::uint32_t>();
-      if (state.waves > known && planned > asked)
-        throw std::runtime_error("it has more samples a pixel than the " + std::to_string(asked) +
-                                 " that are asked for");
-      if (state.waves > known) throw std::runtime_error("a tile has more waves than there are");
-      if (film.corners_)
-        for (std::size_t level = 0; level < state.waves; ++level) {
-          CornerSamples::Level taken;
-          take(from, taken, film.layers_.size() + 1);
-          film.corners_->put(static_cast<std::size_t>(i), level, std::move(taken));
-        }
-      if (state.waves == 0 || film.corners_) continue;
+      state.waves = takeWaves(from, wavesSaved);
+      if (state.waves > known)
+        throw TooManySamples("it has more samples a pixel than the " + std::to_string(asked) +
+                             " that are asked for");
+      if (state.waves == 0) continue;
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-          take(from, film.pixels_[film.index(x, y)]);
-          if (film.noise_ > 0) film.pixels_[film.index(x, y)].firstError_ = from.take<float>();
+          PixelSum& pixel = film.pixels_[film.index(x, y)];
+          take(from, pixel);
+          checkTaken(film, pixel, state.waves);
+          if (film.noise_ > 0) pixel.firstError_ = from.take<float>();
+          if (!(pixel.firstError_ >= 0)) throw std::runtime_error("an error is negative or no number");
           for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
           if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
         }
@@ -212,13 +315,15 @@ class FilmState {
   }
 };
 
+void Film::clear() { FilmState::clear(*this, waves_); }
+
 std::string Film::saved() const { return FilmState::saved(*this); }
 
 void Film::restore(std::string_view bytes) {
   const std::vector<Wave> before = waves_;
   try {
     FilmState::restore(*this, bytes);
-  } catch (const std::runtime_error&) {
+  } catch (...) {
     FilmState::clear(*this, before);
     throw;
   }

@@ -57,8 +57,9 @@ class SplatPlane {
   friend class FilmState;
   __extension__ using Whole = __int128;
   using Sum = std::array<Whole, 3>;
-  static constexpr double kParts = 0x1p40;  ///< of one: what is very dark counts as well
-  static constexpr double kMost = 0x1p50;   ///< of these 2^37 do not overflow
+  static constexpr double kParts = 0x1p40;          ///< of one: what is very dark counts as well
+  static constexpr double kMost = 0x1p50;           ///< of these 2^37 do not overflow
+  static constexpr Whole kLimit = Whole{1} << 126;  ///< of a sum that is read: as much can still be added
 
   static Whole parts(double value) {
     return static_cast<Whole>(std::nearbyint(std::clamp(value, -kMost, kMost) * kParts));

@@ -19,6 +19,7 @@ namespace trace {
 /// Pixels x0 <= x < x1, y0 <= y < y1.
 struct Tile {
   int x0, y0, x1, y1;
+  bool operator==(const Tile&) const = default;
 };
 
 /// A place on the grid of the smallest squares of a pixel, from 0 to the number of these along its side: x

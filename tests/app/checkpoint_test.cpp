@@ -2,12 +2,15 @@
 #include "app/checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
 #include "app/output.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
+#include "support/films.h"
 #include "support/folder.h"
 
 namespace trace::test {
@@ -192,6 +195,96 @@ TEST_F(Checkpoints, ThatAreDamagedKeepNoneFromBeingWritten) {
   checkpoint().remove(film(3));
   EXPECT_FALSE(exists("out.png.checkpoint"));
   EXPECT_FALSE(exists("out.png.checkpoint-2"));
+}
+
+/// The bytes of a checkpoint with other lines or another film, and the hash of these: what an enemy writes.
+std::string forged(std::string bytes, const std::string& done, const std::string& state) {
+  const std::size_t at = bytes.find("Done: ");
+  Hash hash;
+  hash.add(state);
+  return bytes.substr(0, at) + "Done: " + done + "\nHash: " + hexText(hash.value()) + "\n" + state;
+}
+
+TEST_F(Checkpoints, WhoseCountsAreForgedAreRefused) {
+  checkpoint().save(film(2));
+  const std::string name = folder_ / "out.png.checkpoint", whole = readFile(name);
+  const std::string state = film(2).saved();
+  Film back = blank();
+  writeFile(name, forged(whole, "2", state));
+  ASSERT_TRUE(checkpoint().load(back)) << "this is how they are forged";
+  for (const char* done : {"1e300", "-1", "nan", "", " 2", "2 ", "0x2", "99999999999999999999"}) {
+    writeFile(name, forged(whole, done, state));
+    Checkpoint own = checkpoint();
+    Film other = blank();
+    EXPECT_FALSE(own.load(other)) << done;
+    EXPECT_NE(own.whyNot().find("it is no checkpoint"), std::string::npos) << own.whyNot();
+    own.save(film(1));
+    EXPECT_TRUE(exists("out.png.checkpoint-2")) << done;
+    std::filesystem::remove(folder_ / "out.png.checkpoint-2");
+  }
+  writeFile(name, forged(whole, "9000000000000000000", state));
+  Checkpoint ahead = checkpoint();
+  Film other = blank();
+  EXPECT_FALSE(ahead.load(other));
+  EXPECT_NE(ahead.whyNot().find("it has fewer samples than it says"), std::string::npos) << ahead.whyNot();
+  EXPECT_EQ(other.picture(), blank().picture());
+  ahead.save(film(1));
+  EXPECT_TRUE(exists("out.png.checkpoint-2")) << "none is ahead of this one";
+}
+
+TEST_F(Checkpoints, OfAFilmThatIsForgedAreDamaged) {
+  for (int kind = 0; kind < kFilmKinds; ++kind) {
+    SCOPED_TRACE(filmKindName(kind));
+    Film half = blankFilm(kind);
+    renderPart(half, 2);
+    Checkpoint(folder_ / "forged.png", {}, settings_).save(half);
+    const std::string name = folder_ / "forged.png.checkpoint", whole = readFile(name);
+    std::string state = half.saved();
+    state[state.size() / 2 / 4 * 4 + 3] ^= 0x55;
+    state.resize(state.size() - 1);
+    writeFile(name, forged(whole, "1", state));
+    Checkpoint own(folder_ / "forged.png", {}, settings_);
+    Film back = blankFilm(kind);
+    EXPECT_FALSE(own.load(back));
+    EXPECT_TRUE(own.damaged()) << own.whyNot();
+    EXPECT_EQ(back.samplesDone(), 0);
+    own.save(half);
+    EXPECT_TRUE(exists("forged.png.checkpoint-2")) << "beside it";
+    own.remove(half);
+  }
+}
+
+TEST_F(Checkpoints, OfAnotherProgramAreAnother) {
+  const auto of = [&](const char* program) {
+    return Checkpoint(folder_ / "out.png", {{"Software", "Trace 0.1.0"}, {"Scene", "one"}}, settings_,
+                      program);
+  };
+  of("commit 2093372, sources 01").save(film(2));
+  Film back = blank();
+  Checkpoint other = of("commit 2093372+, sources 02");
+  EXPECT_FALSE(other.load(back));
+  EXPECT_NE(
+      other.whyNot().find("another build of Trace wrote it (commit 2093372, sources 01; this one is commit "
+                          "2093372+, sources 02)"),
+      std::string::npos)
+      << other.whyNot();
+  other.save(film(1));
+  EXPECT_TRUE(of("commit 2093372, sources 01").load(back)) << "each has its own";
+  EXPECT_EQ(back.picture(), film(2).picture());
+  EXPECT_NE(programText().find("sources "), std::string::npos);
+  EXPECT_EQ(sources().size(), 16u);
+}
+
+TEST_F(Checkpoints, ThatAreNoOrdinaryFilesAreNotWaitedFor) {
+  ASSERT_EQ(mkfifo((folder_ / "out.png.checkpoint").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder_ / "out.png.checkpoint-2");
+  Checkpoint own = checkpoint();
+  Film back = blank();
+  EXPECT_FALSE(own.load(back));
+  EXPECT_FALSE(own.exists());
+  own.save(film(2));
+  EXPECT_EQ(own.path(), folder_ / "out.png.checkpoint-3");
+  EXPECT_TRUE(checkpoint().load(back));
 }
 
 TEST_F(Checkpoints, OfAnotherNoiseTargetSayWhyTheyDoNotServe) {

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#if defined(__linux__)
+#include <unistd.h>
+#endif
+
 #include <cstdint>
+#include <fstream>
 
 namespace trace {
 namespace {
@@ -31,10 +36,30 @@ TEST(HugePages, GrowthAndCopiesKeepWhatIsThere) {
   for (const std::uint64_t value : copy) ASSERT_EQ(value, expected++);
 }
 
-TEST(HugePages, MemoryIsGivenBack) {
-  for (int i = 0; i < 150'000; ++i)
-    HugeVector<char>().reserve(std::size_t{1} << 30);  // together more than addresses
+#if defined(__linux__)
+/// Bytes of address space that the process has (proc(5), statm).
+std::size_t mappedBytes() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
+
+TEST(HugePages, MemoryIsGivenBack) {
+  constexpr std::size_t kBytes = std::size_t{1} << 30;
+  const std::size_t before = mappedBytes();
+  ASSERT_GT(before, 0u);
+  {
+    HugeVector<char> held;
+    held.reserve(kBytes);
+    const std::size_t with = mappedBytes();
+    EXPECT_GE(with, before + kBytes);
+    EXPECT_LT(with, before + kBytes + Pages::kPage)
+        << "what lies before and behind whole pages is given back";
+  }
+  for (int i = 0; i < 20; ++i) HugeVector<char>().reserve(kBytes + static_cast<std::size_t>(i));
+  EXPECT_LT(mappedBytes(), before + Pages::kPage);
+}
+#endif
 
 TEST(HugePages, MoreThanThereIsThrows) {
   EXPECT_THROW(HugeVector<char>().reserve(std::size_t{1} << 60), std::bad_alloc);

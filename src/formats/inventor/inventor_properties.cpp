@@ -158,7 +158,7 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
     const auto line = std::to_string(place.line) + ":" + std::to_string(place.column);
     const std::string file = std::filesystem::path(document_.file()).filename().string();
     picture.map = modelPicture({file + "#" + line, std::make_shared<const MipMap>(*image), place,
-                                std::make_shared<const InsideFile>("", encodePng(*image))});
+                                std::make_shared<const InsideFile>(InsideFile{"", encodePng(*image)})});
     if (image->width == 1 || image->height == 1) picture.map.filter = TexelFilter::bilinear;
   } else {
     if (v.numbers("image").size() > 3)
