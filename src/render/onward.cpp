@@ -47,7 +47,7 @@ Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBod
     through_ = at.filter(*share_);
     response_ = share_->weight * count;
   }
-  mirror_ = at.mirror(glossy);
+  mirror_ = at.mirror(true);
   const Real mirrors = maxComponent(mirror_), passes = maxComponent(through_);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const Real likely = intoBody ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
