@@ -157,8 +157,8 @@ constexpr Real kLookDown = 0.4;
 
 }  // namespace
 
-/// Whether a ray from so high above the place down to a point of the plane there meets the surface as it goes on
-/// from the place: about there, and bent no more than PhotonMap takes for one surface.
+/// Whether a ray from so high above the place down to a point of the plane there meets the surface as it goes
+/// on from the place: about there, and bent no more than PhotonMap takes for one surface.
 bool Interaction::continues(const Vec3& to, Real height) const {
   constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // in parts of the distance
   const Vec3 up = trueNormal(), from = hit.surface.point + up * height;
@@ -245,8 +245,7 @@ Color Interaction::mirror(bool follow) const {
   if (follow && isGlossy(*bsdf_)) return Color(transmits ? 0 : coat);
   Color mirror(coat);
   if (fresnel_ == Fresnel::constant || !transmits)
-    return mirror +
-           (follow ? exactMirrorWeight(*bsdf_, cosine) : mirrorWeight(*bsdf_, cosine)) * (1 - coat);
+    return mirror + (follow ? exactMirrorWeight(*bsdf_, cosine) : mirrorWeight(*bsdf_, cosine)) * (1 - coat);
   for (const SpectralShare& share : shares())
     mirror += share.weight * (mirroredShare(share) * material.sharp);
   return mirror;

@@ -63,9 +63,9 @@ class Interaction {
   PhotonMap::Near photonsOf(const PhotonMap& photons) const {
     return photons.near(hit.surface.point, trueNormal());
   }
-  /// Whether all of a disk of that radius around the place lies on the surface, and nothing stands on it: only
-  /// then the density of the photons there is the light that arrives at the place. Short rays look, around
-  /// which the numbers turn.
+  /// Whether all of a disk of that radius around the place lies on the surface, and nothing stands on it:
+  /// only then the density of the photons there is the light that arrives at the place. Short rays look,
+  /// around which the numbers turn.
   bool hasDisk(Real radius, Sampler numbers) const;
   /// The share of such a disk that does, by the kernel of PhotonMap::Near::perArea().
   Real shareOfDisk(Real radius, Sampler numbers) const;

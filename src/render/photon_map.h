@@ -31,8 +31,8 @@ class PhotonMap {
   static constexpr Real kAlike = 0.8;
   /// Photons farther than `reach` away count nowhere. Distances along the normal count `flatness` times more:
   /// what lies above a surface or below it is of another one. That is the mean of the normals of both places,
-  /// to which a ball and all that bends as evenly is level: so a bent surface is not taken to end there. `nearest` photons make an estimate, from 2 to
-  /// kNearest.
+  /// to which a ball and all that bends as evenly is level: so a bent surface is not taken to end there.
+  /// `nearest` photons make an estimate, from 2 to kNearest.
   PhotonMap(std::vector<Photon> photons, Real reach, Real flatness = 1, std::size_t nearest = kNearest);
 
   bool empty() const { return photons_.empty(); }
@@ -43,9 +43,9 @@ class PhotonMap {
     std::array<const Photon*, kNearest> photons;
     std::array<Real, kNearest> distance2;
     std::size_t count = 0;
-    Real radius2 = 0;        ///< of the disk on which they arrived
-    /// The share of an area that photon i counts for: less toward the edge of the disk (Epanechnikov's kernel,
-    /// which keeps edges of light sharper than a disk does).
+    Real radius2 = 0;  ///< of the disk on which they arrived
+    /// The share of an area that photon i counts for: less toward the edge of the disk (Epanechnikov's
+    /// kernel, which keeps edges of light sharper than a disk does).
     Real perArea(std::size_t i) const {
       return 2 / (kPi * radius2) * std::max(0.0, 1 - distance2[i] / radius2);
     }

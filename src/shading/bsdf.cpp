@@ -138,8 +138,7 @@ Color MixedBsdf::mirrorWeight(Real cosine) const {
   return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::mirrorWeight(part, cosine); });
 }
 Color MixedBsdf::exactMirrorWeight(Real cosine) const {
-  return weighed(*parts, Color(0),
-                 [&](const Bsdf& part) { return trace::exactMirrorWeight(part, cosine); });
+  return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::exactMirrorWeight(part, cosine); });
 }
 Color MixedBsdf::passWeight(Real cosine) const {
   return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::passWeight(part, cosine); });

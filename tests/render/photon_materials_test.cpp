@@ -1,7 +1,6 @@
-// Each lobe of each material rests in one map of photons: photon held to bdpt over all models and roughnesses.
+// Each lobe of each material rests in one map of photons: photon held to bdpt over all models and
+// roughnesses.
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 #include "geometry/shapes/cube.h"
 #include "render/agreement.h"
@@ -15,8 +14,8 @@ struct Surface {
   MaterialModel model;
 };
 
-/// Every model, as rough as each number says where it says how rough it is; as it is else. Sheets and bodies let
-/// light through where they can.
+/// Every model, as rough as each number says where it says how rough it is; as it is else. Sheets and bodies
+/// let light through where they can.
 std::vector<Surface> surfaces() {
   std::vector<Surface> all;
   forEachType<MaterialModel>([&]<class Model>(Model*) {
@@ -65,12 +64,15 @@ Scene sceneOf(const MaterialModel& model, Light light, bool through) {
   scene.camera.fov = 28;
   const Vec3 place{0, through ? 2 : 0.5, 0};
   if (light == Light::lamp)
-    add(scene, Square{}, Affine::translation(place) * (through ? down : turned({1, 0, 0}, -0.5)) * scaled(0.5),
+    add(scene, Square{},
+        Affine::translation(place) * (through ? down : turned({1, 0, 0}, -0.5)) * scaled(0.5),
         diffuse(0, 30));
   else
-    scene.lights.push_back({PointLight{.position = place + Vec3{0, through ? -0.05 : 0.05, 0}, .color = Color(4)}, {}});
+    scene.lights.push_back(
+        {PointLight{.position = place + Vec3{0, through ? -0.05 : 0.05, 0}, .color = Color(4)}, {}});
   // Below the light, or above it, what is opaque.
-  add(scene, Cube{}, Affine::translation({0, through ? 2.1 : 0.42, 0}) * Affine::scaling({0.8, 0.1, 0.8}), diffuse(0));
+  add(scene, Cube{}, Affine::translation({0, through ? 2.1 : 0.42, 0}) * Affine::scaling({0.8, 0.1, 0.8}),
+      diffuse(0));
   if (through)  // around the light all around
     add(scene, Cube{}, Affine::translation({0, 1.9, 0}) * Affine::scaling({1.2, 1.2, 1.2}), model);
   else
@@ -82,31 +84,32 @@ Settings settingsOf(IntegratorKind integrator, int spp) {
   Settings settings;
   settings.integrator = integrator;
   settings.sampling = SampleKind::sobol;
-  settings.width = settings.height = 16;
+  settings.width = settings.height = 8;
   settings.depth = 20, settings.spp = spp;
   settings.airIndex = 1;
   settings.fresnel = Fresnel::exact;
-  settings.photons = 40000, settings.photonPasses = 4;
+  settings.photons = 20000, settings.photonPasses = 4;
   settings.threads = 2;
   return settings;
 }
 
 TEST(PhotonMaterials, EachLobeRestsInOneMap) {
+  constexpr double kBlur = 0.06;  // and what bdpt finds rarely: light counted twice is 40 % and more
   int compared = 0;
   for (const Surface& surface : surfaces())
     for (const bool through : {false, true}) {
       const bool passes = whitted(bsdfOf(surface.model, {})).transmits();
       if (through && !passes) continue;
       for (const Light light : {Light::lamp, Light::point}) {
-        SCOPED_TRACE(surface.name + (through ? " around" : " above") + (light == Light::lamp ? " a lamp" : " a light"));
+        SCOPED_TRACE(surface.name + (through ? " around" : " above") +
+                     (light == Light::lamp ? " a lamp" : " a light"));
         const Scene scene = sceneOf(surface.model, light, through);
-        const Agreement a = agreement(scene, settingsOf(IntegratorKind::bdpt, 32),
-                                      settingsOf(IntegratorKind::photon, 4), 4, 8, 0.04);
+        const Agreement a = agreement(scene, settingsOf(IntegratorKind::bdpt, 128),
+                                      settingsOf(IntegratorKind::photon, 4), 5, 4, kBlur);
         if (!(a.meanA > 1e-4) && !(a.meanB > 1e-4)) continue;
         ++compared;
-        EXPECT_NEAR(a.meanB, a.meanA, 0.03 * a.meanA + 4 * a.error);
+        EXPECT_NEAR(a.meanB, a.meanA, kBlur * a.meanA + 4 * a.error);
         EXPECT_GT(a.least, 1e-3) << a.meanA << " " << a.meanB;
-        if (std::getenv("SHOW")) printf("%-34s %-7s %-6s bdpt %.5f photon %+.2f%% (error %.2f%%) least %.3g\n", surface.name.c_str(), through ? "around" : "above", light == Light::lamp ? "lamp" : "light", a.meanA, 100 * (a.meanB / a.meanA - 1), 100 * a.error / a.meanA, a.least);
       }
     }
   EXPECT_GT(compared, 100);

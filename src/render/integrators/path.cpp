@@ -173,8 +173,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     return throughMedium();
   }
   // A gathering ray may end nearer than the photons lie of which the estimate would be made: they might be
-  // behind the wall that it comes from. Then the place looks around by itself (Jensen 2001); and where they lie
-  // beyond an edge, too.
+  // behind the wall that it comes from. Then the place looks around by itself (Jensen 2001); and where they
+  // lie beyond an edge, too.
   bool gathers = path.gathers;
   if (gathers && scatters(at.bsdf())) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
@@ -187,8 +187,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     if (!world.lights().empty()) at.addLights(sum, sampler);
     at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
   }
-  // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or below
-  // what stands there: from there the path goes on.
+  // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or
+  // below what stands there: from there the path goes on.
   bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
   if (tells) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
