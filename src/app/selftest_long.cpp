@@ -13,8 +13,9 @@ namespace {
 /// A room of coloured walls with an open lamp, 32 pixels wide: with two boxes, a ball that mirrors or one of
 /// glass; and one whose light comes through a door that stands ajar. And floors whose light is easily lost or
 /// counted twice: one without an end under a sun; below a panel that is seen behind a pane, or in a mirror;
-/// below a narrow projector behind a pane; in fog.
-enum class Room { diffuse, mirror, glass, door, sun, window, panel, projector, fog };
+/// below a narrow projector behind a pane; in fog; in light that polished metal throws; below a lamp in rough
+/// glass.
+enum class Room { diffuse, mirror, glass, door, sun, window, panel, projector, fog, metal, roughGlass };
 
 /// What is on such a floor, if it is one.
 const char* floorText(Room room) {
@@ -48,6 +49,19 @@ translate(0, 2, 0, rotate(1, 0, 0, -1.5707963267948966, scale(3, 3, 1, square { 
 settings { fog = 0.4; fog-color = (0.9, 0.8, 0.7); fog-forward = 0.3; medium-depth = 6; }
 point_light { position = (0, 1.2, 0); color = (1, 1, 1); }
 rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+)";
+    case Room::metal:
+      return R"(
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+translate(0, 2.5, 0, rotate(1, 0, 0, 1.5707963267948966, scale(4, 4, 1, square { material = { model = conductor; color = (0.9, 0.9, 0.9); roughness = 0.05; }; })))
+translate(0, 1.7, 0, rotate(1, 0, 0, -1.5707963267948966, square { material = { diffuse = (0, 0, 0); }; }))
+translate(0, 1.75, 0, rotate(1, 0, 0, -1.5707963267948966, scale(0.5, 0.5, 1, square { material = { diffuse = (0, 0, 0); emissive = (12, 12, 12); }; })))
+)";
+    case Room::roughGlass:
+      return R"(
+rotate(1, 0, 0, -1.5707963267948966, scale(8, 8, 1, square { material = "white"; }))
+translate(0, 1, 0, scale(0.6, sphere { material = { model = rough_glass; roughness = 0.1; index = 1.5; compensated = true; }; }))
+translate(0, 1, 0, scale(0.2, sphere { material = { diffuse = (0, 0, 0); emissive = (12, 12, 12); }; }))
 )";
     default: return nullptr;
   }
@@ -91,15 +105,17 @@ translate(-0.4, 0.45, -0.4, rotate(0, 1, 0, 0.3, scale(0.5, 0.9, 0.5, box { mate
 
 using Choices = std::vector<Choice>;
 
-Agreement agreementOf(Room room, const Choices& a, const Choices& b, int seeds, double bias = 0) {
+constexpr int kTile = 8;  // pixels
+
+Agreement agreementOf(Room room, const Choices& a, const Choices& b, int seeds, double bias = 0,
+                      int tile = kTile) {
   Messages messages;
   const Scene scene = readScene("room.ray", "SBT-raytracer 1.0\n" + roomText(room), messages, 0);
   messages.throwIfFailed();
   const auto settings = [&](const Choices& choices) {
     return settingsFor(scene.camera, {scene.choices, choices});
   };
-  constexpr int kTile = 8;
-  return agreement(scene, settings(a), settings(b), seeds, kTile, bias);
+  return agreement(scene, settings(a), settings(b), seeds, tile, bias);
 }
 
 Choices choices(std::initializer_list<std::pair<const char*, const char*>> pairs) {
@@ -118,6 +134,7 @@ const Choices kMltVeach =
     choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "400000"}});
 // Photons have bounces of their own: only without an end are both the same.
 const Choices kPathDeep = choices({{"integrator", "path"}, {"spp", "96"}, {"depth", "20"}});
+const Choices kBdptDeep = choices({{"integrator", "bdpt"}, {"spp", "64"}, {"depth", "20"}});
 const Choices kPhotonDeep = choices({{"integrator", "photon"},
                                      {"photons", "100000"},
                                      {"photon-passes", "4"},
@@ -135,10 +152,16 @@ constexpr int kSeeds = 8;
 double alike(Room room, const Choices& other) { return agreementOf(room, kPath, other, kSeeds).uniform; }
 /// Photons blur light, however many passes they have: of a tile of 8 by 8 pixels they may change this part,
 /// where rays gather them and where they are seen at once.
-constexpr double kBias = 0.01, kSeenBias = 0.04;
+constexpr double kBias = 0.01, kSeenBias = 0.02;
 /// The p-value of all tiles' differing by no more than that.
 double alikeWithin(Room room, const Choices& other, double bias = kBias) {
   return agreementOf(room, kPathDeep, other, kSeeds, bias).least;
+}
+/// The same of tiles so small that some lie along the room's edges alone.
+double edgesAlike(const Choices& other) {
+  constexpr int kEdge = 4;
+  constexpr double kEdgeBias = 0.03;
+  return agreementOf(Room::diffuse, kPathDeep, other, kSeeds, kEdgeBias, kEdge).least;
 }
 /// How much brighter the picture is, relative to path's, in standard errors of the difference.
 double brighter(Room room, const Choices& other) {
@@ -151,9 +174,16 @@ double ratio(Room room, const Choices& other) {
   return a.meanB / a.meanA;
 }
 
+/// By photons, in parts of bdpt's.
+double ratioToBdpt(Room room) {
+  const Agreement a = agreementOf(room, kBdptDeep, kPhotonDeep, kSeeds);
+  return a.meanB / a.meanA;
+}
+
 constexpr const char* kWelch = "Welch's test, 16 tiles, 8 seeds";
 constexpr const char* kWithin = "Welch's test, 16 tiles, 8 seeds, within 1 %";
-constexpr const char* kSeen = "Welch's test, 16 tiles, 8 seeds, within 4 %";
+constexpr const char* kSeen = "Welch's test, 16 tiles, 8 seeds, within 2 %";
+constexpr const char* kEdges = "Welch's test, 64 tiles, 8 seeds, within 3 %";
 constexpr const char* kMeans = "both means, in standard errors";
 constexpr const char* kBlur = "the light of path";
 
@@ -213,6 +243,12 @@ constexpr std::array kLongChecks{
               [] { return alikeWithin(Room::mirror, kPhotonGather); }},
     SelfCheck{"photon and path: with a ball of glass, tile by tile", kWithin, kMiddle, kAround,
               [] { return alikeWithin(Room::glass, kPhotonGather); }},
+    SelfCheck{"photons seen at once and path: the edges of a room", kEdges, kMiddle, kAround,
+              [] { return edgesAlike(kPhotonDeep); }},
+    SelfCheck{"photon and bdpt: off polished metal", "the light of bdpt", 1, 0.02,
+              [] { return ratioToBdpt(Room::metal); }},
+    SelfCheck{"photon and bdpt: a lamp in rough glass", "the light of bdpt", 1, 0.02,
+              [] { return ratioToBdpt(Room::roughGlass); }},
     SelfCheck{"photon and path: a door ajar", kBlur, 1, 0.03, [] { return ratio(Room::door, kPhotonDeep); }},
 };
 

@@ -59,14 +59,21 @@ class Interaction {
   /// it.
   void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
 
-  /// The nearest photons of a map of light that changes slowly, on the side where the ray comes from.
-  PhotonMap::Near photonsOf(const PhotonMap& photons) const;
-  /// Adds their light that is scattered to where the ray comes from: the diffuse part of it, or all.
-  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all) const;
-  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap& photons, bool all) const {
-    if (!photons.empty() && scatters(*bsdf_))
-      addPhotons(sum, kind, photons.near(hit.surface.point, trueNormal()), all);
+  /// The nearest photons of a map, on the side where the ray comes from.
+  PhotonMap::Near photonsOf(const PhotonMap& photons) const {
+    return photons.near(hit.surface.point, trueNormal());
   }
+  /// Whether all of a disk of that radius around the place lies on the surface, and nothing stands on it:
+  /// only then the density of the photons there is the light that arrives at the place. Short rays look,
+  /// around which the numbers turn.
+  bool hasDisk(Real radius, Sampler numbers) const;
+  /// The share of such a disk that does, by the kernel of PhotonMap::Near::perArea().
+  Real shareOfDisk(Real radius, Sampler numbers) const;
+  /// Adds the light of photons that is scattered to where the ray comes from: the diffuse part of it, or all.
+  /// `share` is how much of their disk lies on the surface.
+  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all, Real share = 1) const;
+  /// Adds what mirrors and glass throw there, of which a map holds all.
+  void addCaustics(Gather& sum, const PhotonMap& photons, const Sampler& numbers) const;
 
   // --- rays that go on in one direction ---
 
@@ -75,9 +82,9 @@ class Interaction {
   std::span<const SpectralShare> shares() const {
     return !fan_.empty() ? std::span(fan_) : std::span(&whole_, transmits ? 1 : 0);
   }
-  /// The weight of the mirrored ray, for all shares together. `glossy`: what is mirrored is followed into its
-  /// lobe, and this is the coat's alone.
-  Color mirror(bool glossy) const;
+  /// The weight of the mirrored ray, for all shares together. If rays `follow` lobes, without what it stands
+  /// for in place of these.
+  Color mirror(bool follow) const;
   /// The weight of the refracted ray, without that of the share.
   Color filter(const SpectralShare& share) const;
   /// Where it goes, and how the index changes there; nothing at total reflection.
@@ -106,6 +113,7 @@ class Interaction {
 
  private:
   bool spreads(const Subsurface& said) const;
+  bool continues(const Vec3& to, Real height) const;
   Real mirroredShare(const SpectralShare& share) const;
   [[gnu::noinline]] void raise(bool turned);
 

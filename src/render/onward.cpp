@@ -17,6 +17,13 @@ Real coatTo(const Interaction& at, const Vec3& toEye) {
 
 }  // namespace
 
+Frame frameToward(const Interaction& at, const Vec3& toEye) {
+  Frame frame = at.frame;
+  if (at.transmits && at.straight && dot(toEye, frame.normal) < 0)
+    frame.normal = -frame.normal, frame.coat = -frame.coat;
+  return frame;
+}
+
 Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit) {
   const Vec3& flat = at.hit.surface.normal;
   // Which side of the normal is the eye's depends, where the normal is turned, on where the eye is.
@@ -24,7 +31,7 @@ Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, b
   const bool inward = dot(toLight, at.normal) * side < 0;
   if (!inward && !at.raised() && dot(toLight, flat) * dot(toEye, flat) < 0) return Color(0);
   const Real below = 1 - coatTo(at, toEye);
-  if (!lit) return evaluate(at.bsdf(), at.frame, toEye, toLight, Transport::importance) * below;
+  if (!lit) return evaluate(at.bsdf(), frameToward(at, toEye), toEye, toLight, Transport::importance) * below;
   // As the eye sees it: light from behind is not spread to this side.
   Frame frame = at.frame;
   if (side < 0) frame.normal = -frame.normal, frame.inside = !frame.inside;
@@ -47,7 +54,7 @@ Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBod
     through_ = at.filter(*share_);
     response_ = share_->weight * count;
   }
-  mirror_ = at.mirror(glossy);
+  mirror_ = at.mirror(true);
   const Real mirrors = maxComponent(mirror_), passes = maxComponent(through_);
   constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
   const Real likely = intoBody ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);

@@ -18,6 +18,10 @@ Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, b
 /// what goes on from there over solid angle (Veach 1997, section 5.3).
 Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
+/// Around the normal on the side of `toEye` where the surface is a sheet, which is the same from both sides:
+/// a path from a light may have met it on the other.
+Frame frameToward(const Interaction& at, const Vec3& toEye);
+
 class Onward {
  public:
   /// `spectrum` from 0 up to 1 chooses the wavelength where the surface begins to split light: of all

@@ -32,7 +32,8 @@ class PathPlace {
   }
   /// Per solid angle, of going on in a direction after one has come from the other.
   Real density(const Vec3& from, const Vec3& to) const {
-    return at_ ? trace::density(at_->bsdf(), at_->frame, from, to) : phase(forward_, -dot(from, to));
+    return at_ ? trace::density(at_->bsdf(), frameToward(*at_, from), from, to)
+               : phase(forward_, -dot(from, to));
   }
   /// What it scatters of the light from one direction to the other, of a path from the camera and of one from
   /// a light; see render/onward.h.

@@ -143,8 +143,10 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
   const SpectralShare* share =
       shares.empty() ? nullptr
                      : &shares[static_cast<std::size_t>(chance() * static_cast<Real>(shares.size()))];
-  const bool glossy = !onlyCaustics_ && isGlossy(at.bsdf());
-  const Color mirror = at.mirror(glossy);
+  // What is mirrored or refracted into a lobe is scattered, and rests in the map of all light alone.
+  // Whitted's tracer, which has no such map, takes the rays that stand for the lobe.
+  const bool glossy = lamps_ && isGlossy(at.bsdf());
+  const Color mirror = at.mirror(lamps_);
   const Color through =
       share && !glossy ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/budget.h"
-#include "math/perpendicular.h"
 
 namespace trace {
 namespace {
@@ -20,40 +19,6 @@ std::size_t facingOf(const Photon& photon) {
 Real distance2(const Vec3& point, const Box3& box) {
   const Vec3 away = max(max(box.low - point, point - box.high), Vec3{});
   return dot(away, away);
-}
-
-/// Whether something within the box is smaller than a disk on it, along some axis. What has no end has an
-/// empty box.
-bool isSmaller(const Box3& box, const Vec3& center, const Vec3& normal, Real radius) {
-  if (box.empty()) return false;
-  for (const int axis : {0, 1, 2}) {
-    const Real reach = radius * std::sqrt(std::max(0.0, 1 - normal[axis] * normal[axis]));
-    if (center[axis] - reach < box.low[axis] && center[axis] + reach > box.high[axis]) return true;
-  }
-  return false;
-}
-
-/// The area of the part of the disk on which photons lie. Their second moments are those of an ellipse: of a
-/// disk of radius r, r^2/4 along any line. That ellipse has the area of what is left of the disk beside an
-/// edge, in a corner or on a strip, within 7 %. 0 where there are too few to tell, or where the place is not
-/// among them: then what ends is the light and not the surface.
-Real areaOf(const PhotonMap::Near& near, const Vec3& point, const Vec3& normal) {
-  constexpr Real kFewest = 16, kFarthest2 = 9;  // the square of the distance from their middle, in deviations
-  constexpr Real kBias = 1.1;  // n times what is too bright, because the area is estimated of n
-  const Vec3 x = perpendicularTo(normal), y = cross(normal, x);
-  Real n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-  for (std::size_t i = 0; i < near.count; ++i) {
-    if (!(near.distance2[i] < near.radius2)) continue;
-    const Vec3 way = near.photons[i]->point - point;
-    const Real u = dot(way, x), v = dot(way, y);
-    n += 1, sx += u, sy += v, sxx += u * u, sxy += u * v, syy += v * v;
-  }
-  if (n < kFewest) return 0;
-  const Real mx = sx / n, my = sy / n;
-  const Real xx = (sxx - sx * mx) / (n - 1), yy = (syy - sy * my) / (n - 1), xy = (sxy - sx * my) / (n - 1);
-  const Real det = xx * yy - xy * xy;
-  if (!(det > 0) || (yy * mx * mx - 2 * xy * mx * my + xx * my * my) / det > kFarthest2) return 0;
-  return 4 * kPi * std::sqrt(det) * (1 + kBias / n);
 }
 
 }  // namespace
@@ -115,8 +80,11 @@ struct PhotonMap::Search {
 
   void take(const Photon& photon) {
     const Vec3 way = photon.point - point;
-    const Real height = dot(way, normal), distance2 = dot(way, way) + steepness * (height * height);
-    if (!(distance2 < most2) || dot(photon.normal, normal) < alike) return;
+    if (dot(photon.normal, normal) < alike) return;
+    // Between both normals, which on a ball is 0 for all of it.
+    const Real height = dot(way, normal + photon.normal) / 2;
+    const Real distance2 = dot(way, way) + steepness * (height * height);
+    if (!(distance2 < most2)) return;
     if (count == nearest) std::pop_heap(heap.begin(), heap.begin() + count--);
     heap[count++] = {distance2, &photon};
     std::push_heap(heap.begin(), heap.begin() + count);
@@ -136,16 +104,8 @@ void PhotonMap::search(std::size_t first, std::size_t end, Search& s) const {
 }
 
 PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal) const {
-  constexpr Real kAlike = 0.8;
   Search s{point, normal, kAlike, steepness_, reach2_, nearest_};
   return found(s);
-}
-
-PhotonMap::Near PhotonMap::near(const Vec3& point, const Vec3& normal, const Box3& bounds) const {
-  Near near = this->near(point, normal);
-  near.onSmaller = isSmaller(bounds, point, normal, std::sqrt(near.radius2));
-  if (near.onSmaller) near.area = areaOf(near, point, normal);
-  return near;
 }
 
 PhotonMap::Near PhotonMap::around(const Vec3& point) const {
@@ -160,7 +120,6 @@ PhotonMap::Near PhotonMap::found(Search& s) const {
   Near result;
   result.count = s.count;
   result.radius2 = s.most2;
-  result.enough = s.count == s.nearest;
   for (std::size_t i = 0; i < s.count; ++i) {
     result.photons[i] = s.heap[i].photon;
     result.distance2[i] = s.heap[i].distance2;

@@ -27,9 +27,12 @@ class PhotonMap {
   static constexpr std::size_t kNearest = 64;  ///< photons of an estimate, at most
 
   PhotonMap() = default;
+  /// The least cosine between the normals of places that may lie on one surface.
+  static constexpr Real kAlike = 0.8;
   /// Photons farther than `reach` away count nowhere. Distances along the normal count `flatness` times more:
-  /// what lies above a surface or below it is of another one. `nearest` photons make an estimate, from 2 to
-  /// kNearest.
+  /// what lies above a surface or below it is of another one. That is the mean of the normals of both places,
+  /// to which a ball and all that bends as evenly is level: so a bent surface is not taken to end there.
+  /// `nearest` photons make an estimate, from 2 to kNearest.
   PhotonMap(std::vector<Photon> photons, Real reach, Real flatness = 1, std::size_t nearest = kNearest);
 
   bool empty() const { return photons_.empty(); }
@@ -40,15 +43,10 @@ class PhotonMap {
     std::array<const Photon*, kNearest> photons;
     std::array<Real, kNearest> distance2;
     std::size_t count = 0;
-    Real radius2 = 0;        ///< of the disk on which they arrived
-    bool enough = false;     ///< as many as an estimate takes
-    bool onSmaller = false;  ///< the surface is smaller than the disk
-    Real area = 0;           ///< of the part of the disk that is there, if that is known
-    /// The share of an area that photon i counts for. Where the part of the disk that is there is known, all
-    /// count alike, but for the one that says how large the disk is. Else they count less toward its edge
-    /// (Epanechnikov's kernel, which keeps edges of light sharper than a disk does).
+    Real radius2 = 0;  ///< of the disk on which they arrived
+    /// The share of an area that photon i counts for: less toward the edge of the disk (Epanechnikov's
+    /// kernel, which keeps edges of light sharper than a disk does).
     Real perArea(std::size_t i) const {
-      if (area > 0) return distance2[i] < radius2 ? 1 / area : 0;
       return 2 / (kPi * radius2) * std::max(0.0, 1 - distance2[i] / radius2);
     }
     /// The share of a volume, by the same kernel in a ball.
@@ -57,9 +55,6 @@ class PhotonMap {
     }
   };
   Near near(const Vec3& point, const Vec3& normal) const;
-  /// The same of light that changes slowly, on a surface within such bounds: where that is smaller than the
-  /// disk, photons tell by where they lie how much of the disk is there.
-  Near near(const Vec3& point, const Vec3& normal, const Box3& bounds) const;
   /// The same in a medium: all around.
   Near around(const Vec3& point) const;
 

@@ -24,15 +24,14 @@ TargetChoice chosenTarget(const std::vector<PhotonTarget>& targets, Real which, 
 
 }  // namespace
 
-std::vector<PhotonTarget> photonTargetsOf(const World& world) {
+std::vector<PhotonTarget> photonTargetsOf(const World& world, const Settings& settings, bool follow) {
   constexpr std::size_t kMost = 64;
   std::vector<PhotonTarget> targets;
   Box3 all;
   const auto add = [&](const Box3& box) { targets.push_back({box.center(), length(box.size()) / 2}); };
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
     const Box3& box = world.boundsOf(object);
-    const WhittedTerms& terms = world.termsOf(object);
-    if (box.empty() || box.unbounded() || !(terms.mirrors() || terms.transmits())) continue;
+    if (box.empty() || box.unbounded() || !world.sendsOn(object, settings.varnish, follow)) continue;
     add(box);
     all.extend(box);
   }

@@ -14,7 +14,8 @@ struct PhotonTarget {
   Vec3 center;
   Real radius;
 };
-std::vector<PhotonTarget> photonTargetsOf(const World& world);
+/// If photons `follow` lobes, of what mirrors or refracts into one direction only.
+std::vector<PhotonTarget> photonTargetsOf(const World& world, const Settings& settings, bool follow);
 
 /// A photon on its way to a target.
 struct PhotonAim {

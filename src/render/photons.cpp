@@ -16,8 +16,10 @@ std::vector<PhotonSource> sourcesOf(const World& world, const Lamps* lamps,
   std::vector<PhotonSource> sources;
   Real most = 0, sum = 0;
   const auto add = [&](PhotonSource::Kind kind, std::size_t light, Real power) {
-    sources.push_back({kind, light, power});
-    most = std::max(most, power);
+    constexpr Real kMost = 1e200;  // so that sums stay numbers, however strong the lights are
+    power = std::clamp(power, 0.0, kMost);
+    sources.push_back({kind, light, power > 0 ? power : 0});
+    most = std::max(most, sources.back().power);
   };
   // In parts of pi squared.
   for (std::size_t i = 0; i < world.lights().size(); ++i) {
@@ -108,7 +110,7 @@ Real causticReach(const World& world, const std::vector<PhotonTarget>& targets) 
 
 GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side,
                           Job& job, int pass) {
-  const std::vector<PhotonTarget> targets = photonTargetsOf(world);
+  const std::vector<PhotonTarget> targets = photonTargetsOf(world, settings, lamps);
   const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
   if (photons == 0 || targets.empty()) return {};
   const Real widest = settings.causticRadius > 0 ? settings.causticRadius : causticReach(world, targets);

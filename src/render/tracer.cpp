@@ -261,7 +261,7 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
     };
     const PlaceBsdf bsdf = world_.bsdfAt(ray, found);
     const WhittedTerms& terms = whitted(*bsdf);
-    if (!lightPasses(terms)) {
+    if (!lightPasses(*bsdf)) {
       if (!(opacity < 1)) return Color(0);
       pass(Color(0));
       continue;
@@ -317,7 +317,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
     const bool opaque = world_.opaque(found.object) || (!(world_.opacityAt(ray, found) < 1) &&
                                                         (settings_.glassShadows == GlassShadows::black ||
                                                          isBlack(world_.filter(ray, found)) ||
-                                                         gathers(whitted(*world_.bsdfAt(ray, found)))));
+                                                         gathers(*world_.bsdfAt(ray, found))));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

@@ -84,9 +84,9 @@ class Tracer {
 
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
-  /// Shadow rays pass what looks so: what it lets through is asked for.
-  bool lightPasses(const WhittedTerms& terms) const {
-    return terms.transmits() && !gathers(terms) && settings_.glassShadows != GlassShadows::black;
+  /// Whether shadow rays pass such a surface.
+  bool lightPasses(const Bsdf& bsdf) const {
+    return whitted(bsdf).transmits() && !gathers(bsdf) && settings_.glassShadows != GlassShadows::black;
   }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
@@ -148,11 +148,19 @@ class Tracer {
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
+  /// It sends rays into the lobes of surfaces, however often light is scattered.
+  bool followsLobes() const {
+    const IntegratorKind kind = settings_.integrator;
+    return kind == IntegratorKind::path || kind == IntegratorKind::photon || kind == IntegratorKind::mlt;
+  }
   /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere. Photons
-  /// bring it to surfaces only.
-  bool gathers(const WhittedTerms& terms) const {
+  /// bring it to surfaces only. Of rough glass, rays that are followed into its lobe ask lights where they
+  /// meet it: a shadow ray through it would count them twice.
+  bool gathers(const Bsdf& bsdf) const {
     if (isBidirectional(settings_)) return true;
+    if (followsLobes() && isGlossy(bsdf)) return true;
     if (midair_) return false;
+    const WhittedTerms& terms = whitted(bsdf);
     const bool bring = settings_.integrator == IntegratorKind::photon ||
                        (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
     return bring && terms.passage != Passage::straight;

@@ -75,7 +75,7 @@ bool Paths::follow(Path& path, RayKind kind, const Vec3& direction) const {
     if (!only) return false;
     ray = from.vertex->hit.leave(only->direction);
     inside = std::move(only->there);
-    next.asked = kind == RayKind::refraction && from.asked && tracer.lightPasses(from.vertex->at.material);
+    next.asked = kind == RayKind::refraction && from.asked && tracer.lightPasses(from.vertex->at.bsdf());
   }
   const auto hit = tracer.cast(ray, kind, inside);
   const auto end = [&](Path::End what, const Color& shines) {
@@ -225,7 +225,7 @@ bool Paths::allowed(const Path& path) const {
   for (std::size_t i = 1; i + (path.end == Path::End::light) < end; ++i) {
     const Node& from = path.nodes[i];
     const bool asked = from.leaves == RayKind::bounce || (from.leaves == RayKind::refraction && from.asked &&
-                                                          tracer.lightPasses(from.vertex->at.material));
+                                                          tracer.lightPasses(from.vertex->at.bsdf()));
     if (path.nodes[i + 1].asked != asked) return false;
   }
   return true;

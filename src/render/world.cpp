@@ -39,6 +39,27 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
   return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
+bool World::sendsOn(std::uint32_t object, bool varnish, bool follow) const {
+  const Instance& instance = objects_[object];
+  std::vector<std::uint32_t> used{instance.material};
+  if (!instance.mesh) {
+    instance.shape.addMaterials(used);
+  } else {
+    used.insert(used.end(), instance.mesh->data().materials.begin(), instance.mesh->data().materials.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+  }
+  return std::any_of(used.begin(), used.end(), [&](std::uint32_t m) {
+    if (m == MaterialMix::kClear) return false;
+    const Bsdf& bsdf = surfaces_[m].bsdf;
+    const WhittedTerms& terms = whitted(bsdf);
+    if (varnish && !terms.transmits() && terms.index != 1) return true;
+    // A texture may make it smooth in places.
+    if (follow && isGlossy(bsdf) && !surfaces_[m].textured) return false;
+    return terms.mirrors() || terms.transmits();
+  });
+}
+
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   MaterialMix materials = materialMix(found);
   const SurfacePoint point = textured(materials) ? surface(ray, found) : SurfacePoint();

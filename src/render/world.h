@@ -202,6 +202,10 @@ class World {
   /// What it is made of where its parts say nothing else; without its textures.
   const WhittedTerms& termsOf(std::uint32_t object) const { return whitted(bsdf(objects_[object].material)); }
 
+  /// Whether something of its surface mirrors or refracts rays into one direction, or, unless they `follow`
+  /// lobes, into a lobe. With `varnish` what has an index of refraction mirrors.
+  bool sendsOn(std::uint32_t object, bool varnish, bool follow) const;
+
   const CameraFrame& camera() const { return camera_; }
   const std::vector<Light>& lights() const { return lights_; }
   /// The place in Scene::lights of the light of that number.
@@ -314,7 +318,7 @@ class World {
 
   struct Forms;  ///< complete in world_queries.cpp
   std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;
-  void addLights(const Scene& scene, const Settings& settings);
+  void addLights(const Scene& scene, const Settings& settings, Messages& messages);
   /// Takes the forms out of the shapes of all objects, to lie side by side.
   void collectForms();
 

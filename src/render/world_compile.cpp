@@ -8,6 +8,7 @@
 #include "geometry/mesh/mesh_closed.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
+#include "render/number_range.h"
 #include "render/world.h"
 #include "scene/displacement.h"
 
@@ -209,7 +210,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       world.hasBumps_ |= t.field == "bump" || t.field == "clearcoat_bump";
     }
 
-  world.addLights(scene, settings);
+  world.addLights(scene, settings, messages);
 
   const Camera& camera = scene.camera;
   if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
@@ -217,6 +218,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     throw Error(Fault::scene, Place{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
+  if (!isInRange(camera))
+    throw Error(Fault::scene, Place{.file = scene.file},
+                "the camera cannot look: its place or its axes are too far away, too long or too short",
+                "its position is at most 1e75 from the origin, its axes are between 1e-75 and 1e75 long");
   Optics optics = opticsOf(settings);
   optics.lens.picture = scene.surroundings.aperture;
   world.camera_ = frame(camera, settings.cameraAxes, optics);
@@ -225,6 +230,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const bool bruteForce = settings.accel == Accel::none;
   TreesOfMeshes trees;
   std::vector<const Object*> undisplaced;  // what its material displaces in vain
+  LeftOut leftOut("this object");
   std::vector<Box3> boxes;
   Work work("building the objects", static_cast<std::int64_t>(scene.objects.size()));
   for (const Object& object : scene.objects) {
@@ -232,9 +238,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
     World::Instance instance(same ? same->shape : prepared(object, earlier.operandTrees()));
     instance.kind = static_cast<std::uint32_t>(object.shape.type().index);
-    const bool flat = !invertible(object.worldFromObject),
+    bool inRange = isInRange(object.worldFromObject);
+    const bool flat = inRange && !invertible(object.worldFromObject),
                round = settings.roundSpheres && object.shape.is<Sphere>();
-    if (!flat)
+    if (inRange && !flat)
       instance.placement = Placement(round ? rounded(object.worldFromObject) : object.worldFromObject);
     instance.mapped = settings.roundMaps || !isRound(object.shape);
     instance.material = object.material;
@@ -288,10 +295,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
                                    : instance.shape.solid();
+    inRange = inRange && isInRange(box) && isInRange(materials[object.material]) &&
+              (box.unbounded() || isInRange(instance.placement.outFromIn() * box));
+    if (!inRange) leftOut.add(object.place);  // stays as well
+    const bool isThere = inRange && !flat;
     const auto number = static_cast<std::uint32_t>(world.objects_.size());
     const Material& material = materials[object.material];
-    const bool fills = material.mediumDensity > 0 && !flat && !box.unbounded();
-    const bool encloses = !instance.opaque && (world.nestedGlass_ || fills || settings.fog > 0) &&
+    const bool fills = material.mediumDensity > 0 && isThere && !box.unbounded();
+    const bool encloses = isThere && !instance.opaque && (world.nestedGlass_ || fills || settings.fog > 0) &&
                           (instance.mesh ? closed(instance.mesh->data()) : instance.shape.solid());
     const bool cloud = fills && encloses && material.opacity == 0 &&
                        std::all_of(used.begin(), used.end(), [&](auto m) { return m == object.material; });
@@ -300,7 +311,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (encloses && !cloud) world.glass_.push_back(number);
     if (cloud) {  // it is met nowhere
       world.bounds_.extend(world.media_.back().bounds);
-    } else if (!flat) {
+    } else if (isThere) {
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
       else
@@ -311,6 +322,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     world.objects_.push_back(std::move(instance));
   }
   warnOfUndisplaced(undisplaced, messages);
+  leftOut.warn(messages);
   world.collectForms();
   world.bvh_ = earlier.hierarchy(boxes);
   if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);

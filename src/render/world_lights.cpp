@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/match.h"
+#include "render/number_range.h"
 #include "render/world.h"
 
 namespace trace {
@@ -38,11 +39,16 @@ std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& obje
 
 }  // namespace
 
-void World::addLights(const Scene& scene, const Settings& settings) {
+void World::addLights(const Scene& scene, const Settings& settings, Messages& messages) {
+  LeftOut leftOut("this light");
   std::vector<LightReach> reaches;
   std::vector<Box3> boxes;  // of the visible ones
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const LightSource& source = scene.lights[i];
+    if (!isInRange(source.light)) {
+      leftOut.add(source.place);
+      continue;
+    }
     match(source.light,
           Overloaded{[&](const AmbientLight& light) { ambient_ += light.color * settings.ambientScale; },
                      [&](const Portal& portal) { portals_.push_back(portal); },
@@ -58,6 +64,7 @@ void World::addLights(const Scene& scene, const Settings& settings) {
                        reaches.push_back(light.reach(rules_));
                      }});
   }
+  leftOut.warn(messages);
   lightTree_ = std::make_shared<const LightTree>(reaches);
   visibleBoxes_ = std::make_shared<const Bvh>(boxes);
 }

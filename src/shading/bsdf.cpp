@@ -36,6 +36,11 @@ Color mirrorWeightOfOthers(const Bsdf& bsdf, Real cosine) {
   return match(bsdf, [&](const auto& model) { return model.mirrorWeight(cosine); });
 }
 
+Color exactMirrorWeight(const Bsdf& bsdf, Real cosine) {
+  if (const auto* mixed = std::get_if<MixedBsdf>(&bsdf)) return mixed->exactMirrorWeight(cosine);
+  return isGlossy(bsdf) ? Color(0) : mirrorWeight(bsdf, cosine);
+}
+
 Color passWeight(const Bsdf& bsdf, Real cosine) {
   return match(bsdf, [&](const auto& model) { return model.passWeight(cosine); });
 }
@@ -135,6 +140,9 @@ bool MixedBsdf::mirrorIsExact() const {
 }
 Color MixedBsdf::mirrorWeight(Real cosine) const {
   return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::mirrorWeight(part, cosine); });
+}
+Color MixedBsdf::exactMirrorWeight(Real cosine) const {
+  return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::exactMirrorWeight(part, cosine); });
 }
 Color MixedBsdf::passWeight(Real cosine) const {
   return weighed(*parts, Color(0), [&](const Bsdf& part) { return trace::passWeight(part, cosine); });

@@ -23,6 +23,7 @@ struct MixedBsdf : WhittedTerms {
   bool scatters() const;
   bool mirrorIsExact() const;
   Color mirrorWeight(Real cosine) const;
+  Color exactMirrorWeight(Real cosine) const;
   Color passWeight(Real cosine) const;
   Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const;
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const;
@@ -63,6 +64,8 @@ inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->mirrorWeight(cosine);
   return mirrorWeightOfOthers(bsdf, cosine);
 }
+/// The same without the rays that stand for lobes, for integrators that follow these.
+Color exactMirrorWeight(const Bsdf& bsdf, Real cosine);
 /// The weight of the ray that goes straight on, where the passage is straight.
 Color passWeight(const Bsdf& bsdf, Real cosine);
 /// False if `evaluate` has all that is mirrored.

@@ -231,35 +231,6 @@ TEST(Photons, TheBlurOfManyMapsIsLess) {
   EXPECT_LT(std::abs(many), 0.5 * one);
 }
 
-/// The same in the middle of a strip of that width, by maps of all that lies on it.
-Real onStrip(Real width, bool known) {
-  constexpr int kPhotons = 4000, kMaps = 40;
-  Random random(9);
-  Real sum = 0;
-  for (int n = 0; n < kMaps; ++n) {
-    std::vector<Photon> photons;
-    for (int i = 0; i < kPhotons; ++i)
-      photons.push_back({{random.uniform(-0.5, 0.5) * width, random.uniform(-10, 10), 0},
-                         {0, 0, -1},
-                         {0, 0, 1},
-                         Color(20 * width / kPhotons)});
-    const PhotonMap map(std::move(photons), 10);
-    const Box3 strip{{-0.5 * width, -10, 0}, {0.5 * width, 10, 0}};
-    const PhotonMap::Near near = known ? map.near({}, {0, 0, 1}, strip) : map.near(Vec3{}, Vec3{0, 0, 1});
-    EXPECT_TRUE(near.enough);
-    EXPECT_EQ(near.onSmaller, known && width < 0.3);
-    for (std::size_t i = 0; i < near.count; ++i) sum += near.photons[i]->power.g * near.perArea(i) / kMaps;
-  }
-  return sum;
-}
-
-TEST(Photons, ThingsThatAreSmallerThanTheDiskAreNotDark) {
-  EXPECT_LT(onStrip(0.05, false), 0.5) << "most of the disk is beside it";
-  EXPECT_NEAR(onStrip(0.05, true), 1, 0.08);
-  EXPECT_NEAR(onStrip(0.1, true), 1, 0.08);
-  EXPECT_NEAR(onStrip(3, true), 1, 0.03);
-}
-
 TEST(Photons, WhereTooFewLieOnASmallThingThePathGoesOn) {
   Scene scene = openRoom();
   addObject(scene, Square{}, ceiling(1), diffuse(Color(0.5), 4));

@@ -113,7 +113,7 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   const Vec3 from = -f.ray.direction, to = next->direction;
   const Real cosine = place.place.cosine(to);
   if (next->density > 0)
-    f.partial.leave(next->density, density(at.bsdf(), at.frame, to, from), cosine);
+    f.partial.leave(next->density, density(at.bsdf(), frameToward(at, to), to, from), cosine);
   else
     f.partial.reflect(cosine);
   if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;

@@ -21,7 +21,8 @@ namespace {
 /// Branches of a place's numbers: its lights by their number, and these.
 constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
                         kMedium = 0x80000004u, kHole = 0x80000005u, kBody = 0x80000006u,
-                        kToLamp = 0x80000007u, kRoulette = 0x80000008u;
+                        kToLamp = 0x80000007u, kRoulette = 0x80000008u, kDisk = 0x80000009u,
+                        kCaustic = 0x8000000au;
 /// The numbers by which a path came to a place: the second pair chooses the place's lamp, so that what
 /// depends on both is spread evenly, too. Where the camera ray arrives, they are its place in the picture.
 constexpr std::uint32_t kArrival = Sampler::kFilm;
@@ -172,24 +173,26 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     return throughMedium();
   }
   // A gathering ray may end nearer than the photons lie of which the estimate would be made: they might be
-  // behind the wall that it comes from. Then the place looks around by itself (Jensen 2001).
+  // behind the wall that it comes from. Then the place looks around by itself (Jensen 2001); and where they
+  // lie beyond an edge, too.
   bool gathers = path.gathers;
   if (gathers && scatters(at.bsdf())) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
-    gathers = path.kind != RayKind::bounce || !(hit->t * hit->t < near.radius2);
+    gathers = (path.kind != RayKind::bounce || !(hit->t * hit->t < near.radius2)) &&
+              at.hasDisk(std::sqrt(near.radius2), sampler.branch(kDisk));
     if (gathers) at.addPhotons(sum, Term::Kind::photons, near, true);
   }
   const bool glossy = isGlossy(at.bsdf()), asks = !gathers && !path.told;
   if (asks) {
     if (!world.lights().empty()) at.addLights(sum, sampler);
-    at.addPhotons(sum, Term::Kind::caustic, path.maps->caustics, true);
+    at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
   }
-  // Photons tell what is scattered. Not on a thing that is smaller than the disk on which enough of them
-  // would lie: from there the path goes on.
+  // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or
+  // below what stands there: from there the path goes on.
   bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
   if (tells) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
-    tells = near.enough || !near.onSmaller;
+    tells = at.hasDisk(std::sqrt(near.radius2), sampler.branch(kDisk));
     if (tells) at.addPhotons(sum, Term::Kind::photons, near, true);
   }
 
@@ -198,7 +201,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const SpectralShare* share =
       shares.empty() ? nullptr
                      : &shares[static_cast<std::size_t>(choice.y * static_cast<Real>(shares.size()))];
-  const Color mirror = at.mirror(glossy);
+  const Color mirror = at.mirror(true);
   const Color through =
       share ? at.filter(*share) * share->weight * static_cast<Real>(shares.size()) : Color(0);
   const Real mirrors = maxComponent(mirror), passes = maxComponent(through);
@@ -244,7 +247,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
               path.scattered};
     next.told = path.told || (tells && kind == RayKind::bounce);
     next.asked = kind == RayKind::bounce ||
-                 (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.material));
+                 (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     next.bounced = path.bounced || kind == RayKind::bounce;
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));

@@ -218,7 +218,11 @@ void Whitted::addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& 
 void Whitted::addCaustics(Gather& sum, const Interaction& at) const {
   const IlluminationMap& texels = caustics_.texels;
   const auto place = texels.place(at.tracer.world(), at.ray, at.hit);
-  if (!place) return at.addPhotons(sum, Term::Kind::caustic, caustics_.photons, false);
+  if (!place) {
+    if (!caustics_.photons.empty() && scatters(at.bsdf()))
+      at.addPhotons(sum, Term::Kind::caustic, at.photonsOf(caustics_.photons), false);
+    return;
+  }
   const Scatter parts = scatter(at.bsdf(), at.frame, at.normal, -at.ray.direction);
   sum.add(Term::Kind::caustic, parts.diffuse * ((1 - at.coat) / kPi), texels.at(*place));
 }
