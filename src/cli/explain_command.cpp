@@ -135,7 +135,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     light = lightLandings(session, whole.settings().region, x, y, job);
   }
   const Size size = session.size();
-  const PixelFacts facts{session.scene(),
+  const PixelFacts facts{session.sceneOf(explanation.tree),
                          explanation,
                          size.width,
                          size.height,
@@ -146,7 +146,8 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {
-    return drawRays(session.scene(), session.settings(), session.worldOf(explanation.tree), explanation.tree);
+    return drawRays(session.sceneOf(explanation.tree), session.settings(), session.worldOf(explanation.tree),
+                    explanation.tree);
   };
   if (format == "png") {
     writePicture(arguments.output, toPicture(drawing()), Rounding::nearest);
