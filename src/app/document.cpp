@@ -75,7 +75,9 @@ Document::Reading Document::read(const Source& source) {
   const auto readAt = [&](Real time) {
     reading.messages = {};
     text.time = time;
-    reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, time));
+    SceneTime moment(time);
+    reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, moment));
+    reading.changesWithTime = moment.changesScene();
     reading.messages.throwIfFailed();
     return resolve({reading.scene->choices, source.commandLine, source.choices}).time;
   };
@@ -88,7 +90,6 @@ Document::Reading Document::read(const Source& source) {
     text.bytes.reset();
   reading.text = std::make_shared<const SceneText>(text);
   reading.fingerprint = reading.scene->inputs.fingerprint();
-  reading.changesWithTime = trace::changesWithTime(source.file, bytes);
   return reading;
 }
 

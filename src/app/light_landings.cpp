@@ -24,7 +24,7 @@ std::string routeOf(const Session& session, const Landing& landing) {
     const RayNode& node = rayAt(tree, *ray);
     const bool last = ray + 1 == rays.rend();
     route += ray == rays.rbegin() ? "from a light by " : last ? " and " : ", ";
-    route += node.hit ? objectName(session.scene(), node.hit->object) : "a medium";
+    route += node.hit ? objectName(session.sceneOf(tree), node.hit->object) : "a medium";
   }
   return route;
 }

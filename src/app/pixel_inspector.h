@@ -28,7 +28,7 @@ struct TracedPixel {
   std::string problem{};  ///< why there are no rays; "" if there are
 
   const RayTree& tree() const { return explanation.tree; }
-  const Scene& scene() const { return session->scene(); }
+  const Scene& scene() const { return session->sceneOf(tree()); }
   RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
 };
 

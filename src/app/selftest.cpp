@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/session.h"
+#include "image/srgb.h"
 #include "scene/picture_size.h"
 #include "shading/fresnel.h"
 #include "shading/optics.h"
@@ -157,7 +158,39 @@ double afterAStop() {
   return differentPixels(pictureOf(kMixture), rest->picture());
 }
 
+/// A room of three colours under a lamp, with a box: four bounces of light.
+constexpr const char* kSmallRoom = R"(
+settings { integrator = path; width = 8; height = 8; spp = 1024; depth = 4; sampling = random; }
+camera { position = (0.5, -1.35, 0.5); viewdir = (0, 1, 0); updir = (0, 0, 1); fov = 40; }
+material = { name = "white"; diffuse = (0.73, 0.73, 0.73); };
+translate(0.5, 0.5, 0, square { material = "white"; })
+translate(0.5, 0.5, 1, rotate(1, 0, 0, 3.141592653589793, square { material = "white"; }))
+translate(0.5, 1, 0.5, rotate(1, 0, 0, 1.5707963267948966, square { material = "white"; }))
+translate(0, 0.5, 0.5, rotate(0, 1, 0, 1.5707963267948966, square { material = { diffuse = (0.63, 0.065, 0.05); } }))
+translate(1, 0.5, 0.5, rotate(0, 1, 0, -1.5707963267948966, square { material = { diffuse = (0.14, 0.45, 0.09); } }))
+translate(0.5, 0.5, 0.999, rotate(1, 0, 0, 3.141592653589793, scale(0.3, 0.3, 1, square { material = { emissive = (17, 17, 17); diffuse = (0, 0, 0); } })))
+translate(0.6, 0.6, 0.25, scale(0.3, 0.3, 0.5, box { material = "white"; }))
+)";
+
+/// The squared error of that room's pixels by a generator, relative to that of independent samples, both
+/// beside independent ones that are eight times as many.
+double errorBesideRandom(const char* sampling) {
+  static const Picture wanted = pictureOf(kSmallRoom, {{"spp", "8192", {}}, {"seed", "3", {}}});
+  const auto squares = [](const Picture& found) {
+    double sum = 0;
+    for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
+      const double off = luminanceOf(found.pixels[i]) - luminanceOf(wanted.pixels[i]);
+      sum += off * off / std::pow(luminanceOf(wanted.pixels[i]), 2);
+    }
+    return sum;
+  };
+  static const double random = squares(pictureOf(kSmallRoom));
+  return squares(pictureOf(kSmallRoom, {{"sampling", sampling, {}}})) / random;
+}
+
 constexpr double kDegree = kPi / 180;
+
+constexpr const char* kNoMoreThanRandom = "at most 1 of independent samples'";
 
 constexpr std::array kChecks{
     SelfCheck{"volume of a ball", "4 pi / 3", 4.18879, 0.01, [] { return volumeOf("sphere { }"); }},
@@ -224,6 +257,18 @@ constexpr std::array kChecks{
                     "sphere { material = { transmissive = (1, 1, 1); reflective = (1, 1, 1); "
                     "index = 1.5; } }\n"));
               }},
+    SelfCheck{"sampling grid: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("grid"); }},
+    SelfCheck{"sampling jittered: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("jittered"); }},
+    SelfCheck{"sampling stratified: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("stratified"); }},
+    SelfCheck{"sampling halton: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("halton"); }},
+    SelfCheck{"sampling sobol: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("sobol"); }},
+    SelfCheck{"sampling blue: error in a room", kNoMoreThanRandom, 0.5, 0.6,
+              [] { return errorBesideRandom("blue"); }},
     SelfCheck{"caustics: light behind a pane", "12 / 13 of it, Fresnel", 12.0 / 13, 0.03,
               [] {
                 return mean(pictureOf(
@@ -242,5 +287,29 @@ constexpr std::array kChecks{
 }  // namespace
 
 std::span<const SelfCheck> selfChecks() { return kChecks; }
+
+SelftestTime::SelftestTime() : shorts_{0, selfChecks().size()}, longs_{0, longSelfChecks().size()} {
+  // How many times as long as the probe one check takes on the average, in processor time.
+  constexpr double kShort = 0.5, kLong = 37;
+  const auto begin = std::chrono::steady_clock::now();
+  pictureOf(kMixture, {{"spp", "16", {}}});
+  const double probe = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  shorts_.known = kShort * probe;
+  longs_.known = kLong * probe;
+}
+
+void SelftestTime::note(bool isLong, double seconds) {
+  Table& table = isLong ? longs_ : shorts_;
+  ++table.done;
+  table.seconds += seconds;
+}
+
+double SelftestTime::left() const {
+  const auto of = [](const Table& table) {
+    const double each = (kKnown * table.known + table.seconds) / (kKnown + static_cast<double>(table.done));
+    return each * static_cast<double>(table.checks - table.done);
+  };
+  return of(shorts_) + of(longs_);
+}
 
 }  // namespace trace

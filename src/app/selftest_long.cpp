@@ -127,11 +127,11 @@ Choices choices(std::initializer_list<std::pair<const char*, const char*>> pairs
 const Choices kPath = choices({{"integrator", "path"}, {"spp", "96"}});
 const Choices kBdpt = choices({{"integrator", "bdpt"}, {"spp", "32"}});
 const Choices kMlt =
-    choices({{"integrator", "mlt"}, {"chains", "path"}, {"spp", "96"}, {"chain-starts", "400000"}});
+    choices({{"integrator", "mlt"}, {"chains", "path"}, {"spp", "96"}, {"chain-starts", "200000"}});
 const Choices kMltBdpt =
-    choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "400000"}});
+    choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "200000"}});
 const Choices kMltVeach =
-    choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "400000"}});
+    choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "50000"}});
 // Photons have bounces of their own: only without an end are both the same.
 const Choices kPathDeep = choices({{"integrator", "path"}, {"spp", "96"}, {"depth", "20"}});
 const Choices kBdptDeep = choices({{"integrator", "bdpt"}, {"spp", "64"}, {"depth", "20"}});

@@ -8,7 +8,6 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "formats/ray/ray_format.h"
 #include "image/denoise.h"
 #include "render/passes.h"
 #include "render/photon_map.h"
@@ -98,15 +97,18 @@ void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesP
                                      : "choose a smaller --width, or a larger --max-memory");
 }
 
-Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
-                           Messages& messages, Real& time) {
-  time = resolve({choices}).time;
-  Scene scene = readScene(file, bytes, messages, time);
-  const Real chosen = resolve({scene.choices, choices}).time;
-  if (chosen == time) return scene;
-  time = chosen;
-  messages = {};
-  return readScene(file, bytes, messages, time);
+SceneAtMoment readSceneAtItsMoment(const std::string& file, std::string_view bytes,
+                                   std::span<const Choice> choices, Messages& messages) {
+  const auto readAt = [&](Real seconds) {
+    messages = {};
+    SceneTime time(seconds);
+    Scene scene = readScene(file, bytes, messages, time);
+    return SceneAtMoment{std::move(scene), seconds, time.changesScene()};
+  };
+  SceneAtMoment read = readAt(resolve({choices}).time);
+  if (const Real chosen = resolve({read.scene.choices, choices}).time; chosen != read.time)
+    read = readAt(chosen);
+  return read;
 }
 
 void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
@@ -117,12 +119,12 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   strict_ = strict;
   messages_ = {};
   const std::string bytes = readFile(file);
-  Real time = 0;
-  scene_ = readSceneAtItsMoment(file, bytes, choices, messages_, time);
+  SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
+  scene_ = std::move(read.scene);
   settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
   sceneAt_ = nullptr;
-  if (changesWithTime(file, bytes))
+  if (read.changesWithTime)
     sceneAt_ = [file, bytes](Real moment) {
       Messages known;  // they were told of the scene
       return readScene(file, bytes, known, moment);
@@ -167,6 +169,7 @@ void Session::build(const Session* before) {
 
 void Session::buildMoments() {
   moments_.clear();
+  scenes_.clear();
   worlds_.clear();
   integrators_.clear();
   const auto add = [&](const World& world, const Settings& settings) {
@@ -179,26 +182,20 @@ void Session::buildMoments() {
                    "docs/animation.md tells how things move");
   if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
   Work work("building the moments of the shutter", settings_.moments);
-  Scene before = scene_;
+  const Scene* before = &scene_;
   const World* built = &*world_;
   bool moves = false;
   Settings own = settings_;  // each moment has a part of the passes of photons, and sends others
   own.photonPasses = std::max(1, own.photonPasses / own.moments);
   for (int moment = 0; moment < settings_.moments; ++moment) {
-    Scene scene = sceneAt_(timeOfMoment(settings_, moment));
-    if (scene.objects.size() != scene_.objects.size() || scene.lights.size() != scene_.lights.size())
-      throw Error(Fault::scene,
-                  "while the shutter is open the scene has " + counted(scene.objects.size(), "object") +
-                      " and " + counted(scene.lights.size(), "light") + ", before " +
-                      std::to_string(scene_.objects.size()) + " and " + std::to_string(scene_.lights.size()),
-                  "a key(...) changes how many there are; only what is there all the time can be blurred");
+    Scene& scene = scenes_.emplace_back(sceneAt_(timeOfMoment(settings_, moment)));
     moves = moves || !isSameAs(scene, scene_);
     Messages known;
     readSurroundings(scene, settings_, pictureLimits(settings_), known, &scene_.surroundings);
-    const Compiled earlier{before, settings_, *built};
+    const Compiled earlier{*before, settings_, *built};
     worlds_.push_back(compile(scene, settings_, known, &earlier));
     built = &worlds_.back();
-    before = std::move(scene);
+    before = &scene;
     own.seed = settings_.seed ^ (moment << 16);
     add(*built, own);
     work.reached(moment + 1);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <iterator>
 #include <list>
 #include <memory>
 #include <optional>
@@ -29,10 +30,15 @@ struct Phase {
   double wall = 0, cpu = 0;
 };
 
+struct SceneAtMoment {
+  Scene scene;
+  Real time = 0;                 ///< the moment, in seconds
+  bool changesWithTime = false;  ///< at another one it may be another scene
+};
 /// The scene at the moment that the choices name, or else its own settings: it is read again if these choose
-/// another one than it was first read at. Sets `time` to the moment, in seconds. Throws as readScene().
-Scene readSceneAtItsMoment(const std::string& file, std::string_view bytes, std::span<const Choice> choices,
-                           Messages& messages, Real& time);
+/// another one than it was first read at. Throws as readScene().
+SceneAtMoment readSceneAtItsMoment(const std::string& file, std::string_view bytes,
+                                   std::span<const Choice> choices, Messages& messages);
 
 /// Reads the scene once more, as it is at a time.
 using SceneAt = std::function<Scene(Real time)>;
@@ -61,6 +67,10 @@ class Session {
   /// The world of the moment that a tree of rays was traced at.
   const World& worldOf(const RayTree& tree) const {
     return tree.moment < 0 ? *world_ : *moments_[static_cast<std::size_t>(tree.moment)].world;
+  }
+  /// The scene of that moment: it may have other objects than scene().
+  const Scene& sceneOf(const RayTree& tree) const {
+    return tree.moment < 0 ? scene_ : *std::next(scenes_.begin(), tree.moment);
   }
 
   /// Traces the picture; blocks. Others may watch and stop it through job() and picture().
@@ -106,7 +116,8 @@ class Session {
   bool strict_ = false;
   std::optional<World> world_;
   std::vector<Moment> moments_;
-  std::list<World> worlds_;  // of the moments, if they are several
+  std::list<Scene> scenes_;  // of the moments, if they are several
+  std::list<World> worlds_;
   std::list<std::unique_ptr<const Integrator>> integrators_;
   std::unique_ptr<Film> film_;
   Job job_;

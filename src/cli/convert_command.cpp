@@ -94,12 +94,12 @@ Scene sceneToConvert(const std::string& in, const Conversion& conversion, Messag
   const Work work("reading the scene");
   const std::string bytes = readFile(in);
   if (conversion.revolve) return revolvedScene(in, bytes, conversion.steps, conversion.picture, messages);
-  Real time = 0;
-  Scene scene = readSceneAtItsMoment(in, bytes, {}, messages, time);
-  if (changesWithTime(in, bytes))
-    messages.warn(Place{.file = in}, "what changes with time is written as it is at " + toText(time) + " s",
+  SceneAtMoment read = readSceneAtItsMoment(in, bytes, {}, messages);
+  if (read.changesWithTime)
+    messages.warn(Place{.file = in},
+                  "what changes with time is written as it is at " + toText(read.time) + " s",
                   "settings { time = ...; } in the scene chooses another moment");
-  return scene;
+  return std::move(read.scene);
 }
 
 /// Returns the last line.

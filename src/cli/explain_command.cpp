@@ -135,8 +135,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     light = lightLandings(session, whole.settings().region, x, y, job);
   }
   const Size size = session.size();
-  const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, session.scene());
-  const PixelFacts facts{session.scene(),
+  const Scene& scene = session.sceneOf(explanation.tree);
+  const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, scene);
+  const PixelFacts facts{scene,
                          explanation,
                          rays,
                          size.width,
@@ -148,7 +149,8 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   const int code = facts.agrees() ? kDone : kFailed;
 
   const auto drawing = [&] {
-    return drawRays(session.scene(), session.settings(), session.worldOf(explanation.tree), explanation.tree);
+    return drawRays(session.sceneOf(explanation.tree), session.settings(), session.worldOf(explanation.tree),
+                    explanation.tree);
   };
   if (format == "png") {
     writePicture(arguments.output, toPicture(drawing()), Rounding::nearest);

@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/render_steps.h"
-#include "formats/ray/ray_format.h"
+#include "formats/format.h"
 #include "image/codec.h"
 
 namespace trace::cli {
@@ -83,10 +83,16 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       throw Error(Fault::usage, "--frames and --time cannot be given together",
                   "a frame shows the moment of its number divided by --fps");
   const std::string& scene = arguments.files[0];
-  if (arguments.frames.size() > 1 && !changesWithTime(scene, readFile(scene)))
+  const auto neverChanges = [&] {
+    Messages toldLater;
+    SceneTime time(arguments.frames.front() / arguments.framesPerSecond);
+    readScene(scene, readFile(scene), toldLater, time);
+    return !time.changesScene();
+  };
+  if (arguments.frames.size() > 1 && neverChanges())
     console.line(LogLevel::warning, "warning: nothing in " + scene +
-                                        " changes with time, so all frames are the same picture; key(...) in "
-                                        "the scene makes a value change (docs/animation.md)");
+                                        " changes with time, so all frames are the same picture; key(...) and "
+                                        "particles in the scene change (docs/animation.md)");
   if (arguments.frames.size() > 1 && pattern.find('#') == std::string::npos)
     throw Error(Fault::usage,
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",

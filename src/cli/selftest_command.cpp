@@ -6,6 +6,7 @@
 #include <string>
 
 #include "accel/bvh_kernel.h"
+#include "app/remaining_time.h"
 #include "app/selftest.h"
 #include "app/version.h"
 #include "base/file.h"
@@ -17,7 +18,7 @@ namespace {
 
 std::string lineOf(const SelfCheck& check, double found, bool holds, double seconds) {
   char text[300];
-  std::snprintf(text, sizeof text, "%-6s %-47s %-9.6g within %-7.2g of %-9.6g %s, %.1f s\n",
+  std::snprintf(text, sizeof text, "%-6s %-47s %-9.6g within %-7.2g of %-9.6g %s, %.1f s",
                 holds ? "ok" : "WRONG", std::string(check.name).c_str(), found, check.tolerance,
                 check.expected, std::string(check.known).c_str(), seconds);
   return text;
@@ -42,7 +43,10 @@ int selftestCommand(const Arguments& arguments, const Console&) {
   printResult(certificate);
   int held = 0, done = 0;
   const auto all = static_cast<int>(selfChecks().size() + longSelfChecks().size());
-  const auto look = [&](const SelfCheck& check) {
+  SelftestTime time;
+  printResult(std::to_string(all) + " checks, in about " + durationText(time.left()) +
+              " on this machine as busy as it is\n");
+  const auto look = [&](const SelfCheck& check, bool isLong) {
     const Clock::time_point begin = Clock::now();
     double found = std::nan("");
     std::string why;
@@ -53,13 +57,16 @@ int selftestCommand(const Arguments& arguments, const Console&) {
     }
     const bool holds = check.holds(found);
     held += holds;
-    const std::string line = lineOf(check, found, holds, since(begin)) + why;
+    const std::string line = lineOf(check, found, holds, since(begin));
     ++done;
-    printResult(std::to_string(done) + "/" + std::to_string(all) + (done < 10 ? "  " : " ") + line);
-    certificate += line;
+    time.note(isLong, since(begin));
+    std::string left = done < all ? "; " + durationText(time.left()) + " left" : "";
+    printResult(std::to_string(done) + "/" + std::to_string(all) + (done < 10 ? "  " : " ") + line + left +
+                "\n" + why);
+    certificate += line + "\n" + why;
   };
-  for (const SelfCheck& check : selfChecks()) look(check);
-  for (const SelfCheck& check : longSelfChecks()) look(check);
+  for (const SelfCheck& check : selfChecks()) look(check, false);
+  for (const SelfCheck& check : longSelfChecks()) look(check, true);
   char text[100];
   std::snprintf(text, sizeof text, "%d of %d hold, in %.0f s\n", held, all, since(start));
   printResult(text);

@@ -179,6 +179,23 @@ Scene readScene(const std::string& file, Messages& messages, Real time) {
 }
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
+  SceneTime moment(time);
+  return readScene(file, bytes, messages, moment);
+}
+
+bool changesWithTime(const std::string& file, std::string_view bytes) {
+  Messages unheard;
+  SceneTime time;
+  try {
+    readScene(file, bytes, unheard, time);
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    return false;
+  }
+  return time.changesScene();
+}
+
+Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time) {
   const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
   Scene scene = withinMemory(file, bytes, [&] {
     if (format.readAt) return format.readAt(file, bytes, messages, time);

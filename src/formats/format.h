@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "formats/model.h"
+#include "formats/scene_time.h"
 #include "scene/scene.h"
 
 namespace trace {
@@ -56,8 +57,9 @@ struct SceneFormat {
   bool (*recognises)(std::string_view bytes);
   /// Repairs what it can with warnings. Throws Error(Fault::scene) for the rest.
   Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
-  /// The same at a moment, in seconds, if the format knows time.
-  Scene (*readAt)(const std::string& file, std::string_view bytes, Messages& messages, Real time) = nullptr;
+  /// The same at a moment, if the format knows time.
+  Scene (*readAt)(const std::string& file, std::string_view bytes, Messages& messages,
+                  SceneTime& time) = nullptr;
   Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
   /// The scene as `file`, and what belongs beside it, as pictures. Warns of what the format cannot hold;
   /// throws Error(Fault::scene) if nothing is left.
@@ -75,6 +77,12 @@ std::span<const SceneFormat> sceneFormats();
 /// when no format fits or the content is wrong.
 Scene readScene(const std::string& file, Messages& messages, Real time = 0);
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
+/// The same; `time` then knows whether the scene changes with it.
+Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time);
+
+/// Whether the scene in the bytes may be another one at another moment: it is read to find out. False if it
+/// cannot be read.
+bool changesWithTime(const std::string& file, std::string_view bytes);
 
 /// The meshes in the bytes of a file of a format with `readModel`. Throws as readScene().
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages);

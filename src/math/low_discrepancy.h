@@ -117,9 +117,47 @@ inline Real radicalInverse(std::uint32_t i, std::uint32_t base, std::uint64_t se
   return value < 1 ? value : 1 - 0x1p-53;
 }
 
-/// Point i of Halton's sequence (1960) in bases 2 and 3.
+/// i, less than kBase^digits, with its digits in that base permuted, each by a hash of those above it and of
+/// the seed: the first kBase^n numbers stay together, in an order of the seed's own. `permute(digit, prefix)`
+/// permutes 0, 1, ... kBase - 1.
+template <std::uint32_t kBase, class Permute>
+constexpr std::uint64_t shuffledDigits(std::uint64_t i, int digits, std::uint64_t seed,
+                                       const Permute& permute) {
+  std::uint64_t place = 1, shuffled = 0, prefix = seed;
+  for (int digit = 1; digit < digits; ++digit) place *= kBase;
+  for (; place > 0; place /= kBase) {
+    const auto own = static_cast<std::uint32_t>(i / place % kBase);
+    shuffled = shuffled * kBase + permute(own, prefix);
+    prefix = mixBits(prefix ^ (own + 1));
+  }
+  return shuffled;
+}
+
+/// Where i goes in a random order of 0, 1, ... kCount - 1, all orders equally likely (Fisher and Yates 1938).
+template <std::uint32_t kCount>
+constexpr std::uint32_t permutedOf(std::uint32_t i, std::uint64_t seed) {
+  std::uint32_t order[kCount] = {};
+  std::uint64_t chance = mixBits(seed);
+  for (std::uint32_t n = 0; n < kCount; ++n) {
+    const auto other = static_cast<std::uint32_t>(chance % (n + 1));
+    chance /= n + 1;
+    order[n] = order[other];
+    order[other] = n;
+  }
+  return order[i];
+}
+
+/// Point i of Halton's sequence (1960) in bases 2 and 3, in an order and with scrambling of the seed's own:
+/// points of different seeds have nothing to do with each other. Of 2^n 3^n points that begin at a multiple
+/// one lies in each box of 2^-n by 3^-n.
 inline Vec2 haltonPoint(std::uint32_t i, std::uint64_t seed) {
-  return {radicalInverse(i, 2, mixBits(seed ^ 1)), radicalInverse(i, 3, mixBits(seed ^ 2))};
+  // Digits of base 6 are those of bases 2 and 3 together. Without an order of its own, two seeds would have
+  // both their points in one half of their squares, or never, and their product a wrong mean.
+  constexpr int kDigits = 12;  // 6^12 numbers: more than samples are counted
+  const auto k = static_cast<std::uint32_t>(shuffledDigits<6>(
+      i, kDigits, mixBits(seed ^ 3),
+      [](std::uint32_t digit, std::uint64_t prefix) { return permutedOf<6>(digit, prefix); }));
+  return {radicalInverse(k, 2, mixBits(seed ^ 1)), radicalInverse(k, 3, mixBits(seed ^ 2))};
 }
 
 /// Where i goes in a random order of 0, 1, ... count - 1 (Kensler, Correlated Multi-Jittered Sampling, 2013,

@@ -47,6 +47,10 @@ class Integrator {
 
   /// The radiance that arrives along the camera ray, which is the one cast last.
   virtual Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const = 0;
+
+  /// What the sample throws at other places of the picture, to the same bits as radiance() with
+  /// CameraRay::thrown, without the path from the camera.
+  virtual void throwLight(Tracer&, const Sampler&, std::vector<Thrown>&) const {}
 };
 
 /// What a camera ray looks at: the world at one moment, and the integrator that was prepared for it. A render

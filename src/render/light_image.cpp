@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <list>
-#include <memory>
 #include <mutex>
 #include <tuple>
 
@@ -54,29 +52,21 @@ LightImagePixel lightImageAt(std::span<const Moment> moments, const Settings& se
   if (!rowOf(settings).throws || rowOf(settings).byChains || subdivides(settings)) return {};
   const Tile area = areaOf(settings.region, size);
   if (x < area.x0 || x >= area.x1 || y < area.y0 || y >= area.y1) return {};
-  Settings landing = settings;
-  if (landing.cameraVertices >= 0 && landing.cameraVertices != 1) return {};
-  landing.cameraVertices = 1;
-  std::list<std::unique_ptr<const Integrator>> integrators;
-  std::vector<Moment> lit;
-  for (const Moment& moment : moments) {
-    integrators.push_back(makeIntegrator(*moment.world, landing, job));
-    lit.push_back({moment.world, integrators.back().get()});
-  }
-  const int samples = PixelTracer(lit, landing, size).samples();
+  if (settings.cameraVertices >= 0 && settings.cameraVertices != 1) return {};
+  const int samples = PixelTracer(moments, settings, size).samples();
   Landings landings;
-  Work work("following paths from the lights", area.y1 - area.y0);
+  Work work("following paths from the lights", size.height);
   std::atomic<std::int64_t> rows{0};
-  parallelChunks(area.y1 - area.y0, settings.threads, job, [&](std::int64_t row, int) {
-    PixelTracer tracer(lit, landing, size);
+  parallelChunks(size.height, settings.threads, job, [&](std::int64_t row, int) {
+    PixelTracer tracer(moments, settings, size);
     std::vector<Splat> splats;
     tracer.collect(&splats);
     std::vector<Landing> here;
-    const int v = area.y0 + static_cast<int>(row);
-    for (int u = area.x0; u < area.x1; ++u)
+    const int v = static_cast<int>(row);
+    for (int u = 0; u < size.width; ++u)
       for (int k = 0; k < samples; ++k) {
         splats.clear();
-        tracer.sample(u, v, k);
+        tracer.throwLight(u, v, k);
         if (std::none_of(splats.begin(), splats.end(),
                          [&](const Splat& splat) { return splat.x == x && splat.y == y; }))
           continue;
@@ -85,7 +75,7 @@ LightImagePixel lightImageAt(std::span<const Moment> moments, const Settings& se
             if (splat.x == x && splat.y == y) here.push_back({u, v, k, thrown.light, splat.value});
           });
       }
-    landings.add(here, std::int64_t{area.x1 - area.x0} * samples);
+    landings.add(here, std::int64_t{size.width} * samples);
     work.reached(++rows);
   });
   return landings.result();

@@ -25,9 +25,10 @@ struct LightImagePixel {
   std::vector<Landing> brightest;      ///< at most kMostShown of them, the brightest first
 };
 
-/// Follows the light's end of all samples of the picture, or of the region in the settings: about half of a
-/// render. Black where the integrator throws nothing, or pixels are divided. A noise target is not heeded: a
-/// picture that has one has fewer paths. Once `job` is cancelled what was found so far is returned.
+/// Follows the light's end of all samples of the picture, about half of a render. Black where the integrator
+/// throws nothing, pixels are divided, or (x, y) lies outside the region in the settings. A noise target is
+/// not heeded: a picture that has one has fewer paths. Once `job` is cancelled what was found so far is
+/// returned.
 LightImagePixel lightImageAt(std::span<const Moment> moments, const Settings& settings, const Size& size,
                              int x, int y, Job& job);
 

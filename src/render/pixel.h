@@ -60,6 +60,14 @@ class PixelTracer {
     const Sampler sampler(rules_, place);
     return follow(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}, look);
   }
+  /// Collects what sample k throws at other places, and takes nothing else of it.
+  void throwLight(int x, int y, int k) {
+    const Sampler sampler(rules_, x, y, k);
+    Tracer& tracer = this->tracer(momentOf(sampler));
+    thrown_.clear();
+    moments_[now_].integrator->throwLight(tracer, sampler, thrown_);
+    spreadThrown();
+  }
   /// The camera ray alone.
   template <class Look>
   void look(int x, int y, int k, Look&& look) {
@@ -113,9 +121,7 @@ class PixelTracer {
   template <class Use>
   std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,
                                                                 const FilmSample& drawn, const Use& use) {
-    now_ = momentOf(sampler);
-    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
-    Tracer& tracer = tracers_[now_];
+    Tracer& tracer = this->tracer(momentOf(sampler));
     const World& world = tracer.world();
     const CameraFrame& frame = world.camera();
     const Vec2 place = frame.inEyeOf(middle, drawn.place);
@@ -135,11 +141,14 @@ class PixelTracer {
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
     thrown_.clear();
     const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
-    for (const Thrown& t : thrown_)  // it is a part of the sample, which is as bad as that
-      if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y))
-        return Color(std::numeric_limits<Real>::quiet_NaN());
+    return spreadThrown() ? radiance : Color(std::numeric_limits<Real>::quiet_NaN());
+  }
+  /// False if something thrown is not finite: it is a part of the sample, which is as bad as that.
+  bool spreadThrown() {
+    for (const Thrown& t : thrown_)
+      if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y)) return false;
     for (const Thrown& t : thrown_) spread(t, [&](const Splat& splat) { splats_->push_back(splat); });
-    return radiance;
+    return true;
   }
 
   /// The moment that a sample sees.

@@ -23,6 +23,13 @@ Tile intersection(const Tile& a, const Tile& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
+std::int64_t pixelsIn(const Tile& area) {
+  return std::int64_t{std::max(0, area.x1 - area.x0)} * std::max(0, area.y1 - area.y0);
+}
+bool isIn(const Tile& area, int x, int y) {
+  return x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
+}
+
 /// Takes the samples of tiles; what a worker does.
 class TileRenderer {
  public:
@@ -47,7 +54,7 @@ class TileRenderer {
                         .layers = std::vector<std::vector<Color>>(passes_.size())};
     chains_           ? takeChain(tile, wave, samples)
     : film_.corners() ? takeCorners(wave, samples)
-                      : takePixels(wave, samples);
+                      : takePixels(tile, wave, samples);
     const bool isFirstJudged = wave.first < PixelSum::kFewest && wave.end >= PixelSum::kFewest;
     if (isFirstJudged && film_.noiseTarget() > 0) lookBeside(tile, wave, samples);
     return samples;
@@ -62,10 +69,9 @@ class TileRenderer {
   std::vector<BadSample>& badSamples() { return bad_; }
 
  private:
-  void takePixels(const Wave& wave, TileSamples& samples) {
+  void takePixels(std::int64_t tile, const Wave& wave, TileSamples& samples) {
     const Tile& area = samples.area;
-    const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
-    samples.colors.reserve(static_cast<std::size_t>(pixels * wave.count()));
+    samples.colors.reserve(static_cast<std::size_t>(pixelsIn(area) * wave.count()));
     tracer_.collect(throws_ ? &samples.splats : nullptr);
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) {
@@ -83,9 +89,19 @@ class TileRenderer {
           if (!isFinite(color)) noteBad({x, y, k});
         }
       }
-    std::erase_if(samples.splats, [&](const Splat& s) {
-      return s.x < area_.x0 || s.x >= area_.x1 || s.y < area_.y0 || s.y >= area_.y1;
-    });
+    if (throws_) throwFromBeside(film_.tile(tile), wave, samples);
+    std::erase_if(samples.splats, [&](const Splat& s) { return !isIn(area_, s.x, s.y); });
+  }
+
+  /// Light that samples of the tile's pixels beside the area bring into it, so that what is seen there is the
+  /// same as in the whole picture.
+  void throwFromBeside(const Tile& tile, const Wave& wave, TileSamples& samples) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (isIn(area_, x, y)) continue;
+        for (int k = wave.first; k < wave.end; ++k) tracer_.throwLight(x, y, k);
+        samples.paths += wave.count();
+      }
   }
 
   /// Pixels of the tile that lie beside the area, so that those in it stop as they do in the whole picture.
@@ -96,7 +112,7 @@ class TileRenderer {
     tracer_.collect(nullptr);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        if (x >= area_.x0 && x < area_.x1 && y >= area_.y0 && y < area_.y1) continue;
+        if (isIn(area_, x, y)) continue;
         samples.beside.push_back({x, y, firstErrorOf(tracer_, x, y, wave.end)});
       }
   }
@@ -131,8 +147,7 @@ class TileRenderer {
   /// One chain of as many samples; of the tile's own pixels only the passes are seen.
   void takeChain(std::int64_t tile, const Wave& wave, TileSamples& samples) {
     const Tile& area = samples.area;
-    const int pixels = std::max(0, area.x1 - area.x0) * std::max(0, area.y1 - area.y0);
-    samples.paths = std::int64_t{pixels} * wave.count();
+    samples.paths = pixelsIn(area) * wave.count();
     samples.colors.assign(static_cast<std::size_t>(samples.paths), Color(0));
     const std::uint64_t number = Metropolis::numberOf(tile, wave.first);
     samples.splats = chains_->chain(*chainTracer_, number, samples.paths);

@@ -17,9 +17,19 @@ Vec2 randomPair(const Draw& d) {
   return {unitFromBits(bits), unitFromBits(mixBits(bits))};
 }
 
+/// Which of count cells the sample has, in an order of the draw's own. Of few cells Kensler's hash knows but
+/// a few orders, in which two draws would keep the same samples together.
+std::uint32_t cellOf(const Draw& d, std::uint32_t count) {
+  switch (count) {
+    case 4: return permutedOf<4>(number(d.k), d.pixel);
+    case 9: return permutedOf<9>(number(d.k), d.pixel);
+    default: return permuted(number(d.k), count, d.pixel);
+  }
+}
+
 /// One in each cell of a grid, the cells in an order of their own.
 Vec2 jitteredPair(const Draw& d) {
-  const std::uint32_t n = number(d.rules.grid()), cell = permuted(number(d.k), n * n, d.pixel);
+  const std::uint32_t n = number(d.rules.grid()), cell = cellOf(d, n * n);
   const Vec2 within = randomPair(d);
   return {(cell % n + within.x) / n, (cell / n + within.y) / n};
 }
@@ -27,7 +37,7 @@ Vec2 jitteredPair(const Draw& d) {
 /// Kensler, Correlated Multi-Jittered Sampling, 2013: the same, and of n x n samples one lies in each of n x
 /// n columns and rows.
 Vec2 multiJitteredPair(const Draw& d) {
-  const std::uint32_t n = number(d.rules.grid()), cell = permuted(number(d.k), n * n, d.pixel);
+  const std::uint32_t n = number(d.rules.grid()), cell = cellOf(d, n * n);
   const std::uint32_t column = permuted(cell % n, n, d.pixel ^ 1), row = permuted(cell / n, n, d.pixel ^ 2);
   const Vec2 within = randomPair(d);
   return {(cell % n + (row + within.x) / n) / n, (cell / n + (column + within.y) / n) / n};
@@ -55,12 +65,9 @@ Vec2 bluePair(const Draw& d) {
   while ((std::int64_t{1} << (2 * digits)) < d.rules.samples()) ++digits;
   const std::uint64_t place = std::uint64_t{spread(number(d.x)) | spread(number(d.y)) << 1} << (2 * digits);
   const std::uint64_t index = place | number(d.k);
-  std::uint64_t shuffled = 0, prefix = d.branch;
-  for (int digit = 15 + digits; digit >= 0; --digit) {
-    const auto own = static_cast<std::uint32_t>(index >> (2 * digit) & 3);
-    shuffled = shuffled << 2 | permuted(own, 4, prefix);
-    prefix = mixBits(prefix ^ (own + 1));
-  }
+  const std::uint64_t shuffled =
+      shuffledDigits<4>(index, 16 + digits, d.branch,
+                        [](std::uint32_t digit, std::uint64_t prefix) { return permuted(digit, 4, prefix); });
   return sobolPoint(static_cast<std::uint32_t>(shuffled), d.branch);
 }
 

@@ -149,6 +149,10 @@ TEST_F(Frames, SayThatNothingMovesOrThatTheTimeIsTheirs) {
   EXPECT_EQ(still.code, 0) << still.err;
   EXPECT_TRUE(contains(still.err, "nothing in still.ray changes with time")) << still.err;
   EXPECT_FALSE(contains(render().err, "changes with time"));
+  write("rain.ray", "SBT-raytracer 1.0\nparticles { velocity = (0, 0, -4); }");
+  const Run rain = run({"rain.ray", "-w", "8", "--frames", "12-13", "-o", "r.#.png"});
+  EXPECT_EQ(rain.code, 0) << rain.err;
+  EXPECT_FALSE(contains(rain.err, "changes with time")) << rain.err;
   const Run timed = run({"still.ray", "-w", "8", "--frames", "0-1", "--time", "2", "-o", "s.#.png"});
   EXPECT_EQ(timed.code, 2);
   EXPECT_TRUE(contains(timed.err, "--frames and --time cannot be given together")) << timed.err;

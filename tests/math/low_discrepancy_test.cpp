@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <set>
 
 namespace trace {
@@ -58,14 +59,47 @@ TEST(LowDiscrepancy, ScramblingKeepsWhatLiesInABoxTogether) {
 
 TEST(LowDiscrepancy, HaltonPointsFillTheirBoxes) {
   for (const std::uint64_t seed : {1u, 9u}) {
-    std::set<std::pair<int, int>> boxes;  // 4 x 9
-    for (std::uint32_t i = 0; i < 36; ++i) {
-      const Vec2 p = haltonPoint(i, seed);
-      EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-      boxes.emplace(static_cast<int>(p.x * 4), static_cast<int>(p.y * 9));
+    for (const std::uint32_t first : {0u, 36u, 4320u, 2147483628u}) {
+      std::set<std::pair<int, int>> boxes;  // 4 x 9
+      for (std::uint32_t i = first; i < first + 36; ++i) {
+        const Vec2 p = haltonPoint(i, seed);
+        EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+        boxes.emplace(static_cast<int>(p.x * 4), static_cast<int>(p.y * 9));
+      }
+      EXPECT_EQ(boxes.size(), 36u) << first;
     }
-    EXPECT_EQ(boxes.size(), 36u);
   }
+}
+
+TEST(LowDiscrepancy, ShuffledDigitsKeepWhatLiesInABlockTogether) {
+  const auto shuffled = [](std::uint64_t i) {
+    return shuffledDigits<6>(
+        i, 12, 5, [](std::uint32_t digit, std::uint64_t prefix) { return permutedOf<6>(digit, prefix); });
+  };
+  for (const std::uint64_t block : {6u, 36u, 216u})
+    for (std::uint64_t first = 0; first < 3 * block; first += block) {
+      std::set<std::uint64_t> seen, blocks;
+      for (std::uint64_t i = first; i < first + block; ++i) {
+        seen.insert(shuffled(i));
+        blocks.insert(shuffled(i) / block);
+      }
+      EXPECT_EQ(seen.size(), block);
+      EXPECT_EQ(blocks.size(), 1u);
+    }
+}
+
+TEST(LowDiscrepancy, AllOrdersAreEquallyLikely) {
+  constexpr int kSeeds = 24'000;
+  std::map<std::array<std::uint32_t, 4>, int> counts;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    std::array<std::uint32_t, 4> order;
+    for (std::uint32_t i = 0; i < 4; ++i) order[i] = permutedOf<4>(i, seed);
+    ++counts[order];
+  }
+  ASSERT_EQ(counts.size(), 24u);
+  double chiSquare = 0;
+  for (const auto& [order, count] : counts) chiSquare += (count - 1000.0) * (count - 1000.0) / 1000;
+  EXPECT_LT(chiSquare, 60);  // of 23 degrees of freedom one in 25,000 is more
 }
 
 TEST(LowDiscrepancy, PermutationsAreWhole) {

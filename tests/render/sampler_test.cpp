@@ -166,6 +166,113 @@ TEST(Sampler, FourTimesTheSamplesAreMoreThanTwiceAsExact) {
   }
 }
 
+/// Two pairs of numbers that a sample draws in different places.
+struct TwoDraws {
+  const char* name;
+  std::pair<Vec2, Vec2> (*draw)(const Sampler& sample);
+};
+const std::array kTwoDraws{
+    TwoDraws{"of two branches",
+             [](const Sampler& s) { return std::pair(s.branch(3).next2(), s.branch(9).next2()); }},
+    TwoDraws{"of a branch and one below it",
+             [](const Sampler& s) { return std::pair(s.branch(3).next2(), s.branch(3).branch(3).next2()); }},
+    TwoDraws{"of one branch, one after the other",
+             [](const Sampler& s) {
+               Sampler branch = s.branch(3);
+               const Vec2 first = branch.next2();
+               return std::pair(first, branch.next2());
+             }},
+    TwoDraws{"the second pairs of two branches",
+             [](const Sampler& s) { return std::pair(s.branch(3).second2(), s.branch(9).second2()); }},
+    TwoDraws{"the second pair of one branch and the first of another",
+             [](const Sampler& s) { return std::pair(s.branch(3).second2(), s.branch(9).next2()); }},
+    TwoDraws{"single numbers of two branches",
+             [](const Sampler& s) {
+               Sampler a = s.branch(3), b = s.branch(9);
+               const Real x = a.next(), x2 = b.next(), y = a.next();
+               return std::pair(Vec2{x, y}, Vec2{x2, b.next()});
+             }},
+};
+
+/// The mean squares of the errors of means that samples estimate, times their number: the variances of one
+/// sample, if they are independent. `values(sample)` have to have means of 0.
+template <std::size_t kValues, class Values>
+std::array<Real, kValues> variancesOf(const GeneratorRow& row, int samples, const Values& values) {
+  const int trials = samples > 1000 ? 80 : 200;
+  std::array<Real, kValues> squares{};
+  for (int trial = 0; trial < trials; ++trial) {
+    Settings settings = with(row, samples);
+    settings.seed = trial;  // "blue" scrambles all pixels of a branch alike
+    const SampleRules rules(settings, {1000, 1});
+    std::array<Real, kValues> sums{};
+    for (int k = 0; k < rules.samples(); ++k) {
+      const std::array<Real, kValues> found = values(Sampler(rules, 7 * trial % 1000, 0, k));
+      for (std::size_t i = 0; i < kValues; ++i) sums[i] += found[i];
+    }
+    for (std::size_t i = 0; i < kValues; ++i) squares[i] += sums[i] * sums[i] / rules.samples() / trials;
+  }
+  return squares;
+}
+
+constexpr std::array kNumbersOfSamples{4, 9, 16, 64, 256, 1024, 4096};
+
+// Of a product of two factors of mean 0 nothing can be told from one of them: pairs of two draws have to meet
+// as by chance. An order that is shuffled digit by digit (Owen 1995) has a variance of b / (b - 1) times
+// chance's in base b, at most; the same order in two draws has one that grows with the number of samples.
+TEST(Sampler, TheProductOfTwoDrawsConvergesAsFastAsChance) {
+  constexpr Real kBase2 = 2, kNoise = 1.7;
+  constexpr std::array kProducts{"x x'", "y y'", "x y'", "waves", "brightness"};
+  constexpr std::array<Real, 5> kVariances{1, 1, 1, 0.25, 7.0 / 144};
+  const auto products = [](const Vec2& a, const Vec2& b) {
+    const auto sign = [](Real u) { return u < 0.5 ? -1.0 : 1.0; };
+    return std::array<Real, 5>{sign(a.x) * sign(b.x), sign(a.y) * sign(b.y), sign(a.x) * sign(b.y),
+                               std::cos(2 * kPi * (3 * a.y + a.x)) * std::cos(2 * kPi * (3 * b.y - b.x)),
+                               a.x * b.x - 0.25};
+  };
+  for (const GeneratorRow& row : generators())
+    for (const TwoDraws& two : kTwoDraws)
+      for (const int samples : kNumbersOfSamples) {
+        if (samples > 1000 && &two != &kTwoDraws.front() && &two != &kTwoDraws[2]) continue;
+        const auto found = variancesOf<5>(row, samples, [&](const Sampler& sample) {
+          const auto [a, b] = two.draw(sample);
+          return products(a, b);
+        });
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          // The last has a mean, which each factor tells alone better than by chance.
+          const bool known = i == 4 && row.kind != SampleKind::random;
+          EXPECT_LT(found[i], kNoise * kVariances[i] * (known ? 0.5 : kBase2))
+              << row.name << ", " << kProducts[i] << " " << two.name << ", " << samples << " samples";
+        }
+      }
+}
+
+// A path of four bounces: at each a direction, of which one half is darker, and the place on a lamp, a part
+// of which is hidden.
+TEST(Sampler, APathOfFourBouncesConvergesAsFastAsChance) {
+  constexpr int kBounces = 4;
+  constexpr Real kSquare = 1 + 0.64 / 2 + 0.25 * 0.25;  // the mean square of a factor below
+  const Real variance = std::pow(kSquare, kBounces) - 1;
+  const auto light = [](const Sampler& sample) {
+    Real brings = 1;
+    Sampler at = sample;
+    for (int bounce = 0; bounce < kBounces; ++bounce) {
+      const Vec2 direction = at.branch(0x80000003u).next2(), lamp = at.branch(0x80000000u).next2();
+      brings *= 1 + 0.8 * std::cos(2 * kPi * direction.x) * (direction.y < 0.5 ? -1 : 1) +
+                0.25 * (lamp.x + lamp.y < 1 ? -1 : 1);
+      at = at.branch(0x80000003u);
+    }
+    return std::array{brings - 1};
+  };
+  for (const GeneratorRow& row : generators())
+    for (const int samples : kNumbersOfSamples) {
+      const Real found = variancesOf<1>(row, samples, light)[0];
+      EXPECT_LT(found, 1.5 * variance) << row.name << ", " << samples << " samples";
+      if (row.kind == SampleKind::random && samples < 1000) {
+        EXPECT_GT(found, variance / 2);
+      }
+    }
+}
+
 // checks.md, E3: of as many samples as there are strata, each has one.
 TEST(Sampler, OneSampleInEachStratum) {
   const auto fills = [](const GeneratorRow& row, int across, int up) {

@@ -35,7 +35,7 @@ constexpr double kNewestVersion = 1.1;
 
 class Reader {
  public:
-  Reader(const Syntax& syntax, Scene& scene, Messages& messages, Real time, Notes* notes)
+  Reader(const Syntax& syntax, Scene& scene, Messages& messages, SceneTime& time, Notes* notes)
       : syntax_(syntax),
         scene_(scene),
         messages_(messages),
@@ -124,8 +124,9 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
   Scene scene;
   scene.file = syntax.file();
   scene.format = "ray";
-  settleKeys(syntax, time);
-  Reader(syntax, scene, messages, time, &notes).read();
+  SceneTime moment(time);
+  settleKeys(syntax, moment);
+  Reader(syntax, scene, messages, moment, &notes).read();
   return scene;
 }
 
@@ -133,12 +134,12 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
 
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
 
-bool changesWithTime(const std::string& file, std::string_view bytes) {
-  const bool mayHave = bytes.find(rayfile::Syntax::kKey) != bytes.npos;  // the look is cheap, the syntax not
-  return mayHave && recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
+  SceneTime moment(time);
+  return readRay(file, bytes, messages, moment);
 }
 
-Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time) {
   Scene scene;
   scene.file = file;
   scene.format = "ray";
@@ -153,8 +154,9 @@ std::vector<Texture> readNamedTextures(const std::string& file, std::string_view
   Scene scene;
   scene.file = file;
   rayfile::Syntax syntax(file, bytes);
-  rayfile::settleKeys(syntax, time);
-  rayfile::Reader reader(syntax, scene, messages, time, nullptr);
+  SceneTime moment(time);
+  rayfile::settleKeys(syntax, moment);
+  rayfile::Reader reader(syntax, scene, messages, moment, nullptr);
   reader.read();
   Scene shown;  // of one material for each texture
   shown.file = file;

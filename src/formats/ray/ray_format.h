@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/scene_time.h"
 #include "scene/scene.h"
 
 namespace trace {
@@ -16,11 +17,9 @@ inline constexpr std::string_view kInheritsGlass = "this material inherits the t
 /// Does the content begin, after white space and comments, with the word SBT-raytracer?
 bool recognisesRay(std::string_view bytes);
 
-/// Whether it holds values that change with time, of which a Scene has those of one moment.
-bool changesWithTime(const std::string& file, std::string_view bytes);
-
-/// The scene at `time`, in seconds (ray_keys.h). Throws Error(Fault::scene) with up to twenty errors; one, if
+/// The scene at `time`, in seconds: that of its `key(...)` (ray_keys.h) and of its particles. Throws Error(Fault::scene) with up to twenty errors; one, if
 /// the syntax is wrong.
+Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time);
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
 
 /// The textures of the file that have names, used or not, with their pictures loaded. Throws as readRay().

@@ -121,8 +121,8 @@ class Settler {
 
 }  // namespace
 
-void settleKeys(Syntax& syntax, Real time) {
-  if (syntax.hasKeys()) syntax.replace(Settler(syntax, time).settled());
+void settleKeys(Syntax& syntax, SceneTime& time) {
+  if (syntax.hasKeys()) syntax.replace(Settler(syntax, time.now()).settled());
 }
 
 }  // namespace trace::rayfile

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "formats/ray/ray_syntax.h"
-#include "math/vec.h"
+#include "formats/scene_time.h"
 
 namespace trace::rayfile {
 
-/// Replaces every `key(...)` of the tree by its value at `time`, in seconds. Throws Error(Fault::scene) where
-/// one is not of its form. Linear in the tree; free when there is none.
-void settleKeys(Syntax& syntax, Real time);
+/// Replaces every `key(...)` of the tree by its value at `time`. Throws Error(Fault::scene) where one is not of
+/// its form. Linear in the tree; free when there is none.
+void settleKeys(Syntax& syntax, SceneTime& time);
 
 }  // namespace trace::rayfile

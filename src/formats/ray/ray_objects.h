@@ -11,6 +11,7 @@
 #include "formats/ray/ray_mesh.h"
 #include "formats/ray/ray_mesh_file.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/scene_time.h"
 #include "geometry/shapes/csg_tree.h"
 #include "math/transform.h"
 #include "scene/scene.h"
@@ -23,8 +24,8 @@ std::vector<std::string_view> knownWords();
 /// Adds objects to the scene of the findings.
 class ObjectReader {
  public:
-  /// `time` is that of the frame.
-  ObjectReader(Findings& findings, Materials& materials, Real time)
+  /// `time` is that of the frame; it must outlive the reader.
+  ObjectReader(Findings& findings, Materials& materials, SceneTime& time)
       : syntax_(findings.syntax()),
         time_(time),
         scene_(findings.scene()),
@@ -82,7 +83,7 @@ class ObjectReader {
   void rows(const Item& call, const Affine& worldFromObject);
 
   const Syntax& syntax_;
-  Real time_;
+  SceneTime& time_;
   Scene& scene_;
   Findings& findings_;
   Materials& materials_;

@@ -43,7 +43,7 @@ void ObjectReader::particles(const Item& call, const Affine& worldFromObject) {
   }
   std::vector<Particle> alive;
   try {
-    alive = particlesAt(system, time_);
+    alive = particlesAt(system, time_.now());
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     return findings_.error(call, error.messages().front().what, error.messages().front().hint);

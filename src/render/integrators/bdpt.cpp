@@ -57,10 +57,21 @@ Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
   return {s, places - s, all / likely(places) * places};
 }
 
-Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
+Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const {
   Sampler spectrum = sampler.branch(kSpectrum);
   Sample sample{spectrum.next(), spectrum.next(), waysOf(sampler)};
-  sample.thrown = camera.thrown;
+  sample.thrown = thrown;
+  return sample;
+}
+
+void Bidirectional::throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const {
+  Sample sample = sampleOf(sampler, &thrown);
+  if (!lands_ || (sample.ways.camera >= 0 && sample.ways.camera != 1)) return;
+  walkFromLight(tracer, sampler.branch(kLightPath), sample);
+}
+
+Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
+  Sample sample = sampleOf(sampler, camera.thrown);
   walkFromLight(tracer, sampler.branch(kLightPath), sample);
   if (sample.ways.camera == 1) return Gather(tracer, 0).radiance();
   Path path;

@@ -48,6 +48,7 @@ class Bidirectional : public Integrator {
   explicit Bidirectional(bool multiplexed = false) : multiplexed_(multiplexed) {}
   void prepare(const World& world, const Settings& settings, Job& job) override;
   Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const override;
+  void throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const override;
 
  private:
   // integrators/bdpt_paths.h
@@ -66,6 +67,7 @@ class Bidirectional : public Integrator {
     bool shows(int s, int t) const { return (light < 0 || light == s) && (camera < 0 || camera == t); }
   };
   Ways waysOf(const Sampler& sampler) const;
+  Sample sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const;
   Real share(int s, int t, Real others, const Sample& sample) const;
   bool allows(const Counts& whole, Last last) const;
   bool comesFromLights(const Path& path) const;
