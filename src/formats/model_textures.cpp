@@ -8,7 +8,7 @@
 #include <fstream>
 #include <utility>
 
-#include "base/file.h"
+#include "base/read_scope.h"
 
 namespace trace {
 namespace {
@@ -43,11 +43,11 @@ PictureKind kindOfJpeg(std::string_view bytes) {
   return {};
 }
 
-/// Its first bytes; none of what is no regular file, which may have no end.
+/// Its first bytes; none of what may not be read, or is no regular file, which may have no end.
 std::string headOf(const std::string& path) {
   constexpr std::size_t kHead = 1 << 16;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return {};
+  if (!mayRead(path) || !std::filesystem::is_regular_file(path, ignored)) return {};
   std::ifstream stream(path, std::ios::binary);
   std::string head(kHead, '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));

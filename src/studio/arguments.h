@@ -14,6 +14,7 @@ struct Arguments {
   std::string script;           ///< --script; may be empty
   int width = 0, height = 0;    ///< --window; 0: as it was last
   std::vector<Choice> choices;  ///< of options; they hold for every scene that is opened
+  std::vector<std::string> allowRead;  ///< --allow-read: folders that scenes may read besides their own
   bool help = false, version = false;
 };
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/read_scope.h"
 #include "formats/ray/ray_background.h"
 #include "formats/ray/ray_camera.h"
 #include "formats/ray/ray_findings.h"
@@ -22,7 +23,9 @@
 #include "formats/ray/ray_objects.h"
 #include "formats/ray/ray_settings.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/text_front.h"
 #include "formats/textures.h"
+#include "formats/words.h"
 
 namespace trace {
 namespace rayfile {
@@ -60,7 +63,7 @@ class Reader {
 
   /// Leaves `item` after the header.
   void readHeader(Item::Iterator& item, const Item::Iterator& end) {
-    if (item == end || !(*item).is(Kind::word) || (*item).text() != kMagic)
+    if (item == end || !(*item).is(Kind::word) || !sameWord((*item).text(), kMagic))
       throw Error(Fault::scene, syntax_.place(item == end ? 0 : (*item).offset()),
                   "expected SBT-raytracer 1.0");
     const Item magic = *item;
@@ -131,11 +134,15 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
 
 }  // namespace rayfile
 
-bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
+bool recognisesRay(std::string_view bytes) {
+  return sameWord(rayfile::skipBlanks(bytes).substr(0, rayfile::kMagic.size()), rayfile::kMagic);
+}
 
 bool changesWithTime(const std::string& file, std::string_view bytes) {
-  const bool mayHave = bytes.find(rayfile::Syntax::kKey) != bytes.npos;  // the look is cheap, the syntax not
-  return mayHave && recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+  const TextFront front(file, bytes);
+  const std::string_view text = front.text();
+  const bool mayHave = text.find(rayfile::Syntax::kKey) != text.npos;  // the look is cheap, the syntax not
+  return mayHave && recognisesRay(text) && rayfile::Syntax(file, text).hasKeys();
 }
 
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
@@ -150,9 +157,11 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
 
 std::vector<Texture> readNamedTextures(const std::string& file, std::string_view bytes, Messages& messages,
                                        Real time) {
+  const ReadScope scope = ReadScope::ofScene(file);
+  const TextFront front(file, bytes, messages);
   Scene scene;
   scene.file = file;
-  rayfile::Syntax syntax(file, bytes);
+  rayfile::Syntax syntax(file, front.text());
   rayfile::settleKeys(syntax, time);
   rayfile::Reader reader(syntax, scene, messages, time, nullptr);
   reader.read();
