@@ -175,7 +175,6 @@ TEST_F(Reading, EveryReaderAsksAtTheOneDoor) {
       {"texture.ray", ray("sphere { material = { diffuse = map(\"../secret/a.ppm\"); } }")},
       {"heights.ray", ray("height_field { file = \"../secret/a.ppm\"; }")},
       {"through.ray", ray("mesh { file = \"inside.obj\"; }")},
-      {"photometry.ray", ray("photometric_light { file = \"../secret/a.ies\"; }\nsphere { }")},
       {"materials.obj", kSquare + "mtllib ../secret/a.mtl\nusemtl m\nf 1 2 3\n"},
       {"buffer.gltf", buffer},
       {"inline.wrl", "#VRML V2.0 utf8\nInline { url \"../secret/a.wrl\" }\n"},
