@@ -90,7 +90,8 @@ std::string entryOfAnyCase(const fs::path& folder, const std::string& name) {
 std::optional<fs::path> inAnyCase(fs::path folder, const fs::path& path) {
   for (const fs::path& part : path) {
     std::error_code ignored;
-    if (part == "." || part == ".." || (mayRead((folder / part).string()) && fs::exists(folder / part, ignored))) {
+    if (part == "." || part == ".." ||
+        (mayRead((folder / part).string()) && fs::exists(folder / part, ignored))) {
       folder /= part;
       continue;
     }
@@ -119,8 +120,8 @@ bool around(const fs::path& home, const fs::path& name, const Visit& visit) {
   return false;
 }
 
-/// The end of the name, of as many parts as fit; then its last part in the folders of the name, from the innermost
-/// to that of the scene, though some may not be there.
+/// The end of the name, of as many parts as fit; then its last part in the folders of the name, from the
+/// innermost to that of the scene, though some may not be there.
 bool byLastPart(const fs::path& home, const fs::path& name, const Visit& visit) {
   constexpr int kMostFolders = 20;
   const fs::path last = name.filename();

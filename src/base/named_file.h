@@ -13,8 +13,8 @@ struct NamedFile {
 /// The file that the file `from` means by `name`: the first that exists and may be read (base/read_scope.h).
 /// Looked for are, with `name` as it is, without quotation marks, with backslashes as slashes and with its
 /// percent signs decoded: the file beside `from`; in the current folder; in one of three folders above; by
-/// the end of the name, and by its last part in the folders that it names; and all these with letters of the other case,
-/// which is remarked. besideFile() if there is none.
+/// the end of the name, and by its last part in the folders that it names; and all these with letters of the
+/// other case, which is remarked. besideFile() if there is none.
 NamedFile namedFile(const std::string& from, const std::string& name);
 
 /// Does namedFile() find one?

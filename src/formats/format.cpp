@@ -252,8 +252,8 @@ Model readModel(const std::string& file, std::string_view bytes, Messages& messa
   const ReadScope scope = ReadScope::ofScene(file);
   return withinMemory(file, bytes, [&] {
     const TextFront front(file, bytes, messages);
-    const FoundFormat format =
-        formatOf(file, front.text(), "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
+    const FoundFormat format = formatOf(file, front.text(), "a mesh",
+                                        [](const SceneFormat& row) { return row.readModel != nullptr; });
     return asNamed(format, [&] { return format.row.readModel(file, front.text(), messages); });
   });
 }

@@ -83,12 +83,12 @@ void MeshRepairs::dropInfinite(MeshData& mesh, const Place& place) {
   kept.polygons.clear();
   for (std::size_t i = 0; i < before; ++i) {
     const auto& t = mesh.triangles[i];
-    const bool good = std::none_of(std::begin(t), std::end(t), [&](std::uint32_t p) { return isOdd(mesh.points[p]); });
+    const bool good =
+        std::none_of(std::begin(t), std::end(t), [&](std::uint32_t p) { return isOdd(mesh.points[p]); });
     if (good) kept.triangles.push_back(t);
   }
   if (before > 0 && kept.triangles.empty())
-    throw Error(Fault::scene, place,
-                "point " + number + ": expected three finite numbers of at most 3.4e38");
+    throw Error(Fault::scene, place, "point " + number + ": expected three finite numbers of at most 3.4e38");
   const auto good = std::find_if_not(kept.points.begin(), kept.points.end(), isOdd);
   const Vec3f stand = good == kept.points.end() ? Vec3f{} : *good;  // so that bounds stay what is seen
   for (Vec3f& point : kept.points)

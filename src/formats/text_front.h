@@ -3,9 +3,9 @@
 //
 // Taken away or translated are gzip's compression (which VRML, X3D and Inventor allow), UTF-16 and UTF-32,
 // byte order marks, the DOS end of file (0x1A) and zeros behind the text, and a carriage return alone at the
-// end of a line. So a reader sees UTF-8 (or what the file has) with lines that end in \n or \r\n, and lines and
-// columns are those an editor shows. Binary files pass as they are, but for gzip.
-// Sources: RFC 1952; The Unicode Standard, section 3.10.
+// end of a line. So a reader sees UTF-8 (or what the file has) with lines that end in \n or \r\n, and lines
+// and columns are those an editor shows. Binary files pass as they are, but for gzip. Sources: RFC 1952; The
+// Unicode Standard, section 3.10.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ namespace trace {
 
 class TextFront {
  public:
-  /// Refers to the bytes where nothing has to change. Throws Error(Fault::scene) for compressed bytes that are
-  /// damaged, Error(Fault::limit) if they stand for more than 2 GiB.
+  /// Refers to the bytes where nothing has to change. Throws Error(Fault::scene) for compressed bytes that
+  /// are damaged, Error(Fault::limit) if they stand for more than 2 GiB.
   TextFront(const std::string& file, std::string_view bytes);
   /// Warns of what is cut off, too.
   TextFront(const std::string& file, std::string_view bytes, Messages& messages);

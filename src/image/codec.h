@@ -42,7 +42,8 @@ struct PictureFormat {
   Raster (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
-  /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to say.
+  /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to
+  /// say.
   std::string (*remark)(std::string_view bytes);
 };
 

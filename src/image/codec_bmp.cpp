@@ -1,4 +1,5 @@
-// BMP, read here: stb knows neither its run-length codes nor all of its heads. One station of codec.cpp's table.
+// BMP, read here: stb knows neither its run-length codes nor all of its heads. One station of codec.cpp's
+// table.
 //
 // Source: Microsoft, Windows GDI, "Bitmap Storage" and "Bitmap Compression"; IBM, OS/2 Presentation Manager
 // (heads of 12, 16 and 64 bytes). Read are 1, 2, 4, 8, 16, 24 and 32 bits, masks, RLE4, RLE8 and RLE24, rows
@@ -82,9 +83,10 @@ class BmpReader {
     packing_ = headSize_ >= 20 ? number(30, 4) : 0;
     const bool isOs2 = headSize_ == 64 || headSize_ == 16;
     if (isOs2 && packing_ == 3) throw std::runtime_error("Huffman codes of OS/2 are not read");
-    const bool known = bits_ == 1 || bits_ == 2 || bits_ == 4 || bits_ == 8 || bits_ == 16 || bits_ == 24 ||
-                       bits_ == 32;
-    if (!known) throw std::runtime_error("1 to 32 bits a pixel were expected, found " + std::to_string(bits_));
+    const bool known =
+        bits_ == 1 || bits_ == 2 || bits_ == 4 || bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32;
+    if (!known)
+      throw std::runtime_error("1 to 32 bits a pixel were expected, found " + std::to_string(bits_));
     const bool fits = packing_ == none || (packing_ == rle8 && bits_ == 8) ||
                       (packing_ == rle4 && bits_ == 4) || (packing_ == rle24 && bits_ == 24 && isOs2) ||
                       ((packing_ == fields || packing_ == alphaFields) && bits_ >= 16);
@@ -138,7 +140,8 @@ class BmpReader {
   }
 
   void readRow(int row) {
-    const std::size_t stride = (static_cast<std::size_t>(width_) * static_cast<std::size_t>(bits_) + 31) / 32 * 4;
+    const std::size_t stride =
+        (static_cast<std::size_t>(width_) * static_cast<std::size_t>(bits_) + 31) / 32 * 4;
     const std::size_t used = (static_cast<std::size_t>(width_) * static_cast<std::size_t>(bits_) + 7) / 8;
     if (at_ + used > bytes_.size()) failAtEnd();
     for (int x = 0; x < width_; ++x) {

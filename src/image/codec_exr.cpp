@@ -1,9 +1,8 @@
 // EXR through OpenEXR, the only file that sees it; in memory, so that all writing goes through base/file.h.
-// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G, B,
-// luminance and chroma, or a grey, and A, of any sample type and any primaries; the display window is the picture,
-// in which colours are multiplied by A.
-// Source: "OpenEXR File Layout" and "Reading and Writing OpenEXR Image Files" (openexr.com). No threads are
-// started.
+// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G,
+// B, luminance and chroma, or a grey, and A, of any sample type and any primaries; the display window is the
+// picture, in which colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing
+// OpenEXR Image Files" (openexr.com). No threads are started.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -121,7 +120,8 @@ ShownChannels shownChannels(const Imf::ChannelList& channels) {
     names.emplace_back(c.name());
     const size_t dot = names.back().rfind('.');
     if (dot == std::string::npos) continue;
-    if (const std::string layer = names.back().substr(0, dot + 1); layer != layers.back()) layers.push_back(layer);
+    if (const std::string layer = names.back().substr(0, dot + 1); layer != layers.back())
+      layers.push_back(layer);
   }
   if (names.empty()) throw std::runtime_error("it has no channel");
   const auto has = [&](const std::string& name) {
@@ -161,7 +161,8 @@ ShownChannels shownChannels(const Imf::ChannelList& channels) {
 std::vector<float> readValues(Imf::InputFile& input, const Extent& stored, const ShownChannels& names) {
   const Imath::Box2i& data = input.header().dataWindow();
   const size_t channels = names.shown.size();
-  std::vector<float> values(channels * static_cast<size_t>(stored.width) * static_cast<size_t>(stored.height));
+  std::vector<float> values(channels * static_cast<size_t>(stored.width) *
+                            static_cast<size_t>(stored.height));
   Imf::FrameBuffer target;
   for (size_t i = 0; i < channels; ++i) {
     if (names.shown[i].empty()) continue;
@@ -186,8 +187,9 @@ struct SparseChannel {
                  v = std::min(static_cast<double>(y) / ySampling, height - 1.0);
     const int i = static_cast<int>(u), j = static_cast<int>(v);
     const auto sample = [&](int column, int row) {
-      return static_cast<double>(samples[static_cast<size_t>(std::min(row, height - 1)) * static_cast<size_t>(width) +
-                                         static_cast<size_t>(std::min(column, width - 1))]);
+      return static_cast<double>(
+          samples[static_cast<size_t>(std::min(row, height - 1)) * static_cast<size_t>(width) +
+                  static_cast<size_t>(std::min(column, width - 1))]);
     };
     const double s = u - i, t = v - j;
     return (1 - t) * ((1 - s) * sample(i, j) + s * sample(i + 1, j)) +
@@ -335,7 +337,8 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
   Imf::InputFile input(stream, kNoThreads);
   const ShownChannels names = shownChannels(input.header().channels());
   const size_t channels = names.shown.size();
-  std::vector<float> values = names.isChroma ? readChroma(input, stored, names) : readValues(input, stored, names);
+  std::vector<float> values =
+      names.isChroma ? readChroma(input, stored, names) : readValues(input, stored, names);
   toRec709(header, channels, values);
 
   Raster raster(shown.width, shown.height, static_cast<int>(channels), 1);

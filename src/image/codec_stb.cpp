@@ -1,6 +1,6 @@
-// PNG, TGA and JPEG, and BMP to be written, through stb_image and stb_image_write, the only file that sees them. PNG files are
-// packed by zlib, where stb lets us: in a third of the time and to three quarters of the size.
-// One station of codec.cpp's table. Source: Sean Barrett's public-domain headers, stb_image 2.27 and
+// PNG, TGA and JPEG, and BMP to be written, through stb_image and stb_image_write, the only file that sees
+// them. PNG files are packed by zlib, where stb lets us: in a third of the time and to three quarters of the
+// size. One station of codec.cpp's table. Source: Sean Barrett's public-domain headers, stb_image 2.27 and
 // stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
 // source below notices, so that a truncated file is refused.
 #include <zlib.h>
@@ -179,8 +179,7 @@ Raster decodeAs(std::string_view bytes, double most,
 bool fourthIsUnused(std::string_view bytes) {
   constexpr std::size_t kDescriptor = 17;
   constexpr int kAlphaBits = 15;
-  const bool isTga =
-      bytes.size() > kDescriptor && bytes[0] != '\x89' && bytes[0] != '\xFF';
+  const bool isTga = bytes.size() > kDescriptor && bytes[0] != '\x89' && bytes[0] != '\xFF';
   return isTga && (bytes[kDescriptor] & kAlphaBits) == 0;
 }
 

@@ -14,11 +14,11 @@
 
 #include "base/text.h"
 #include "formats/composer/composer_file.h"
-#include "formats/words.h"
 #include "formats/directions.h"
 #include "formats/model.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
+#include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/sphere.h"
@@ -295,7 +295,8 @@ bool recognisesComposer(std::string_view bytes) {
 
 Scene readComposer(const std::string& file, std::string_view bytes, Messages& messages) {
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  const std::string_view line = bytes.substr(first, std::min<std::size_t>(bytes.find('\n', first) - first, 80));
+  const std::string_view line =
+      bytes.substr(first, std::min<std::size_t>(bytes.find('\n', first) - first, 80));
   const Place place = placeAt(file, bytes, std::min(first + kMagic.size(), bytes.size()));
   const auto version = parseNumber(line.substr(std::min(kMagic.size() + 1, line.size())));
   if (!version || !(version->value > 0 && version->value <= 2.1))

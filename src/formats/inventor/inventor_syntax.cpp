@@ -24,7 +24,7 @@ Document::Version versionOf(const std::string& file, std::string_view line) {
   if (begins("#VRML V2.0") || begins("#X3D")) return Document::Version::vrml2;
   throw Error(Fault::scene, Place{file, 1, 1, std::string(line)},
               isBinary ? "binary Open Inventor is not read"
-                     : "expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8",
+                       : "expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8",
               isBinary ? "Inventor's ivcat, or any program that writes VRML, makes a text file of it" : "");
 }
 
@@ -295,7 +295,8 @@ const Proto* Parser::protoOf(const std::string& file, const std::string& proto) 
     std::string text = readTextBeside(document_.file(), file, document_.inputs_, messages_);
     if (!hasHeader(text)) throw Error(Fault::scene, Place{.file = path}, path + " is no VRML file");
     // The map may grow meanwhile, and its elements stay where they are.
-    known->second = std::make_shared<const ProtoFile>(path, std::move(text), messages_, document_.protoFiles_);
+    known->second =
+        std::make_shared<const ProtoFile>(path, std::move(text), messages_, document_.protoFiles_);
     document_.inputs_.note(known->second->document.inputs());
   }
   if (!known->second) throw Error(Fault::scene, path + " holds itself");
@@ -312,8 +313,7 @@ Place Document::place(const Token& token) const {
   return tokens_.place(token);
 }
 
-Document::Document(std::string file, std::string_view bytes, Messages& messages,
-                   ProtoFiles* protoFiles)
+Document::Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles)
     : version_(versionOf(file, firstLine(bytes))),
       tokens_(std::move(file), bytes, kInventorTokens),
       ownFiles_(protoFiles ? nullptr : std::make_unique<ProtoFiles>()),

@@ -58,8 +58,7 @@ class Document {
   enum class Version { inventor, vrml1, vrml2 };
 
   /// Throws Error(Fault::scene), and ReadDenied for a file of PROTOs that may not be read.
-  Document(std::string file, std::string_view bytes, Messages& messages,
-           ProtoFiles* protoFiles = nullptr);
+  Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles = nullptr);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 

@@ -65,7 +65,8 @@ class GltfElements {
  private:
   static constexpr std::size_t kMostZeros = std::size_t{1} << 24;
 
-  /// Where `count` elements of `size` bytes begin in a buffer view. `stride` becomes that of the view, if it has one.
+  /// Where `count` elements of `size` bytes begin in a buffer view. `stride` becomes that of the view, if it
+  /// has one.
   template <class Fail>
   static const unsigned char* elements(const tinygltf::Model& model, int bufferView, std::size_t offset,
                                        std::size_t count, std::size_t size, std::size_t& stride,

@@ -23,15 +23,15 @@ struct GltfList {
 constexpr std::array<GltfList, 10> kLists{{
     {"nodes", {"children", "nodes", "-"}, "{}"},
     {"meshes", {"mesh", "-", "-"}, R"({"primitives": []})"},
-    {"cameras", {"camera", "-", "-"},
-     R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
+    {"cameras", {"camera", "-", "-"}, R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
     {"materials", {"material", "-", "-"}, "{}"},
     {"accessors", {"indices", "attribute", "-"}, R"({"componentType": 5126, "count": 1, "type": "SCALAR"})"},
     {"textures", {"index", "-", "-"}, "{}"},
     {"images", {"source", "-", "-"}, R"({"uri": "data:image/png;base64,AA=="})"},
     {"samplers", {"sampler", "-", "-"}, "{}"},
     {"bufferViews", {"bufferView", "-", "-"}, R"({"buffer": 0, "byteLength": 1})"},
-    {"buffers", {"buffer", "-", "-"},
+    {"buffers",
+     {"buffer", "-", "-"},
      R"({"byteLength": 1, "uri": "data:application/octet-stream;base64,AA=="})"},
 }};
 
@@ -46,7 +46,8 @@ class UseWalk {
       useAll("nodes");
     } else {
       const auto chosen = root_.find("scene");
-      const std::size_t scene = chosen != root_.end() && chosen->is_number_unsigned() ? chosen->get<std::size_t>() : 0;
+      const std::size_t scene =
+          chosen != root_.end() && chosen->is_number_unsigned() ? chosen->get<std::size_t>() : 0;
       if (scene < scenes->size()) look((*scenes)[scene], "");
     }
     while (!waiting_.empty()) {

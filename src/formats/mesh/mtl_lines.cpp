@@ -88,7 +88,8 @@ std::string quoted(std::string_view word) { return "\"" + std::string(word.subst
 /// What an option of a single word can be told.
 bool isOptionValue(std::string_view word) {
   constexpr std::array<std::string_view, 19> kValues{
-      "on", "off", "r", "g", "b", "m", "l", "z", "sRGB", "srgb", "linear", "sphere", "cube_top", "cube_bottom",
+      "on",         "off",       "r",         "g",          "b",      "m",        "l",
+      "z",          "sRGB",      "srgb",      "linear",     "sphere", "cube_top", "cube_bottom",
       "cube_front", "cube_back", "cube_left", "cube_right", "Linear"};
   return isFloat(word) || listed(kValues, word);
 }
@@ -312,7 +313,7 @@ class MtlCheck {
   UnusedTextures& textures_;
   std::map<std::string, Place, std::less<>>& pictures_;
   WarningsByKind& warnings_;
-  std::set<std::string_view> given_;  ///< keywords of the material so far
+  std::set<std::string_view> given_;               ///< keywords of the material so far
   std::optional<double> dissolve_, transparency_;  ///< d and Tr
   std::string_view opacityAt_;                     ///< the last of them
   bool inMaterial_ = false;

@@ -1,6 +1,6 @@
-// The lines of an OBJ, read once: corners become points, and faces triangles, as they come. What is wrong in a
-// line costs the faces that use it, and no more.
-// Source: the Object Files of Wavefront's Advanced Visualizer, appendix B1.
+// The lines of an OBJ, read once: corners become points, and faces triangles, as they come. What is wrong in
+// a line costs the faces that use it, and no more. Source: the Object Files of Wavefront's Advanced
+// Visualizer, appendix B1.
 #include "formats/mesh/obj_format.h"
 
 #include <algorithm>
@@ -62,10 +62,11 @@ float whiteOf(const std::vector<Vec3f>& colors) {
 /// Keywords of the format, in lower case.
 constexpr std::array<std::string_view, 2> kThin{"l", "p"};
 constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
-/// What belongs to curves and surfaces, which are reported by themselves, or says nothing that a picture shows.
+/// What belongs to curves and surfaces, which are reported by themselves, or says nothing that a picture
+/// shows.
 constexpr std::array<std::string_view, 26> kSilent{
-    "s",         "vp",        "cstype", "deg",   "bmat",   "step",   "parm",     "trim",     "hole",
-    "scrv",      "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",
+    "s",          "vp",        "cstype", "deg",   "bmat",   "step",   "parm",     "trim",     "hole",
+    "scrv",       "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",
     "shadow_obj", "trace_obj", "ctech",  "stech", "maplib", "usemap", "csh",      "call"};
 
 /// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
@@ -274,8 +275,9 @@ class ObjReader {
       if (word.ends_with(';')) word.remove_suffix(1);
       const std::optional<CornerNumbers> corner = cornerOf(word);
       if (!corner)
-        return lose(word, "expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"" +
-                              std::string(word.substr(0, 40)) + "\"",
+        return lose(word,
+                    "expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"" +
+                        std::string(word.substr(0, 40)) + "\"",
                     "the face is left out", {}, "corner");
       corners_.push_back(*corner);
       cornerWords_.push_back(word);
@@ -304,8 +306,8 @@ class ObjReader {
       const auto point = absolute(corner.point, points_.size());
       if (!point)
         return lose(words[i],
-                    "the face uses point " + std::string(words[i].substr(0, std::min(words[i].find('/'), 40ul))) +
-                        ", but there " +
+                    "the face uses point " +
+                        std::string(words[i].substr(0, std::min(words[i].find('/'), 40ul))) + ", but there " +
                         (points_.size() == 1 ? "is " : "are ") + counted(points_.size(), "point"),
                     "it is left out", "points are counted from 1, or backwards from -1", "point");
       const Vec3f& p = points_[static_cast<std::size_t>(*point)];

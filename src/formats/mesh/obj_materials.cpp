@@ -54,8 +54,8 @@ void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
   std::set<std::string> names;
   for (const tinyobj::material_t& material : materials_)
     if (!names.insert(material.name).second)
-      warnings_.warn(place, "several materials of " + name + " are called \"" + material.name +
-                                "\"; the last counts");
+      warnings_.warn(
+          place, "several materials of " + name + " are called \"" + material.name + "\"; the last counts");
   for (const tinyobj::material_t& material : materials_) notePictures(material, path);
   const MtlPictures pictures{
       [&](const std::string& picture) { return placeOf(picture, path); },

@@ -110,8 +110,8 @@ class OffReader {
       model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
   }
 
-  /// Numbers until the end of the line: red, green and blue, perhaps with an opacity, from 0 to 1, or from 0 to
-  /// 255 if they are whole numbers. One alone is a place in a table that nobody has.
+  /// Numbers until the end of the line: red, green and blue, perhaps with an opacity, from 0 to 1, or from 0
+  /// to 255 if they are whole numbers. One alone is a place in a table that nobody has.
   std::optional<Vec3f> readFaceColor(std::size_t face) {
     std::string_view rest = words_.line();
     rest = rest.substr(0, rest.find('#'));
@@ -165,7 +165,8 @@ class OffReader {
 
   /// Each triangle gets points of its own, with its colour.
   void paintFaces() {
-    if (!mesh_.materials.empty()) return warn("colours of faces are left out: their points have some", "faces");
+    if (!mesh_.materials.empty())
+      return warn("colours of faces are left out: their points have some", "faces");
     struct Painted {
       std::uint32_t point, color;
     };

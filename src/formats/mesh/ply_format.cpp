@@ -50,8 +50,8 @@ class PlyReader {
       } else {
         body_.skip(element);
         if (element.count > 0)
-          warnings_.warn(place(), "elements \"" + element.name.substr(0, 40) + "\" are not shown: " +
-                                      std::to_string(element.count));
+          warnings_.warn(place(), "elements \"" + element.name.substr(0, 40) +
+                                      "\" are not shown: " + std::to_string(element.count));
       }
     }
     if (!hasVertices_) fail("expected an element \"vertex\"");
@@ -139,7 +139,8 @@ class PlyReader {
   void want(int property, Column column) { columns_[static_cast<std::size_t>(property)] = column; }
 
   using Names = std::array<std::vector<std::string_view>, 3>;
-  const Names kColors{{{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}}};
+  const Names kColors{
+      {{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}}};
 
   bool wantVector(const Element& element, const Names& names, float* to) {
     int found[3];
@@ -179,8 +180,8 @@ class PlyReader {
     const float most = type == Type::uint8 ? 255 : type == Type::uint16 ? 65535 : 1;
     const auto clear = std::count_if(alpha.begin(), alpha.end(), [&](float a) { return a < most; });
     if (clear > 0)
-      warnings_.warn(place(), "the transparency of elements \"" + element.name + "\" is left out: " +
-                                  std::to_string(clear));
+      warnings_.warn(place(), "the transparency of elements \"" + element.name +
+                                  "\" is left out: " + std::to_string(clear));
   }
 
   // --- faces ---
@@ -229,8 +230,8 @@ class PlyReader {
     if (unusable_ > 0)
       messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
     if (hasFaceColors_) {
-      faceColors_ = palette(
-          colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
+      faceColors_ =
+          palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
       if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
     }
   }
@@ -269,7 +270,8 @@ class PlyReader {
       warnings_.warn(place(), "colours of faces are left out: their points have some");
     }
     if (!hasFaceUvs_ && !hasFaceColors_) {
-      for (const Face& face : faces_) appendPolygon(mesh_, std::span(corners_).subspan(face.first, face.count));
+      for (const Face& face : faces_)
+        appendPolygon(mesh_, std::span(corners_).subspan(face.first, face.count));
       return;
     }
     MeshData split;
@@ -280,10 +282,11 @@ class PlyReader {
       for (std::size_t i = face.first; i < face.first + face.count; ++i) {
         const std::uint32_t point = corners_[i];
         const Vec2 uv = hasFaceUvs_ ? cornerUvs_[i] : mesh_.uvs.empty() ? Vec2{} : mesh_.uvs[point];
-        const std::uint32_t color = hasFaceColors_           ? faceColors_[face.number]
+        const std::uint32_t color = hasFaceColors_            ? faceColors_[face.number]
                                     : mesh_.materials.empty() ? 0
                                                               : mesh_.materials[point];
-        const std::uint32_t number = corners.number({point, color, static_cast<float>(uv.x), static_cast<float>(uv.y)});
+        const std::uint32_t number =
+            corners.number({point, color, static_cast<float>(uv.x), static_cast<float>(uv.y)});
         polygon.push_back(number);
         if (number < split.points.size()) continue;
         split.points.push_back(mesh_.points[point]);
@@ -352,9 +355,7 @@ class PlyReader {
 
 }  // namespace
 
-bool recognisesPly(std::string_view bytes) {
-  return beginsWithWord(bytes, "ply");
-}
+bool recognisesPly(std::string_view bytes) { return beginsWithWord(bytes, "ply"); }
 
 Model readPly(const std::string& file, std::string_view bytes, Messages& messages) {
   return PlyReader(file, bytes, messages).read();

@@ -80,7 +80,8 @@ class HeaderReader {
   HeaderReader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
   Header read() {
-    while (nextLine() && words_.empty()) {}
+    while (nextLine() && words_.empty()) {
+    }
     if (words_.empty() || !is(0, "ply")) fail("expected \"ply\"");
     bool format = false;
     for (;;) {

@@ -74,8 +74,8 @@ class Body {
     int items, numbers = -1;
     std::span<const Column> columns{};
   };
-  /// Calls visit(items, numbers) for each row. An item that is no whole number, or negative, comes as 2^32 - 1
-  /// or near it.
+  /// Calls visit(items, numbers) for each row. An item that is no whole number, or negative, comes as 2^32 -
+  /// 1 or near it.
   using VisitList = std::function<void(std::span<const std::uint32_t>, std::span<const float>)>;
   void readLists(const Element& element, const Lists& lists, const VisitList& visit);
 

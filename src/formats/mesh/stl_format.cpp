@@ -184,9 +184,9 @@ bool mayBeStl(std::string_view bytes) {
 Model readStl(const std::string& file, std::string_view bytes, Messages& messages) {
   const Place place{file, 0, 0, {}};
   MeshRepairs repairs;
-  Model model =
-      isBinary(bytes) || (mayBeStl(bytes) && !isText(bytes)) ? readBinary(place, bytes, repairs, messages)
-                                                             : TextReader(place, bytes, repairs, messages).read();
+  Model model = isBinary(bytes) || (mayBeStl(bytes) && !isText(bytes))
+                    ? readBinary(place, bytes, repairs, messages)
+                    : TextReader(place, bytes, repairs, messages).read();
   repairs.report(place, messages);
   return model;
 }
