@@ -12,6 +12,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/read_scope.h"
+
 namespace trace {
 
 /// Asked now and then by a long job; true: nobody wants the answer any more.
@@ -43,7 +45,10 @@ class BackgroundTask {
     {
       const std::lock_guard lock(mutex_);
       if (!all_) waiting_.clear();
-      waiting_.push_back(std::move(work));
+      waiting_.push_back([work = std::move(work), rules = ReadScope::current()](const Cancelled& cancelled) {
+        const ReadScope scope(rules);
+        return work(cancelled);
+      });
     }
     wake_.notify_all();
   }

@@ -5,6 +5,7 @@
 #include "app/output.h"
 #include "app/read_back.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/ray/ray_format.h"
@@ -211,7 +212,9 @@ bool Document::chosenHere(const std::string& option) const {
 SceneAt Document::sceneAt() const {
   if (!changesWithTime_) return nullptr;
   const Edition& now = editions_[current_];
-  return [text = now.text, scene = now.scene, edited = std::string()](Real time) mutable {
+  return [text = now.text, scene = now.scene, edited = std::string(),
+          rules = ReadScope::current()](Real time) mutable {
+    const ReadScope scope(rules);
     Messages known;  // they were told when the scene was read
     if (edited.empty() && !(*scene == *text->scene))
       edited = writeEdited(*text, *scene, text->file, known).files.front().bytes;

@@ -10,6 +10,7 @@
 #include "app/session.h"
 #include "base/budget.h"
 #include "base/parallel.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "image/codec.h"
 
@@ -37,6 +38,18 @@ InputFiles filesOf(const GradeTask& task, const Grades& grades) {
   }
   for (const std::string& name : grades.extra) note(task.folder, name);
   return files;
+}
+
+/// What no scene may read: the folder of the references, or, if the scenes lie in it, the pictures there.
+std::vector<std::string> hiddenFiles(const GradeTask& task, const FolderFiles& references) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(task.folder, error),
+                 reference = fs::weakly_canonical(task.reference, error);
+  const fs::path between = folder.lexically_relative(reference);
+  if (between.empty() || *between.begin() == "..") return {task.reference};
+  std::vector<std::string> hidden;
+  for (const fs::path& picture : references.files) hidden.push_back((task.reference / picture).string());
+  return hidden;
 }
 
 LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
@@ -227,6 +240,7 @@ Grades grade(const GradeTask& task) {
   Work work("comparing pictures", static_cast<std::int64_t>(grades.pairs.size()));
   const int threads = resolve({task.choices}).threads;
   std::vector<char> reached(grades.pairs.size());
+  const ReadScope scope({}, hiddenFiles(task, references));
   try {
     parallelChunks(static_cast<std::int64_t>(grades.pairs.size()), task.renderScenes ? 1 : threads, job,
                    [&](std::int64_t i, int) {

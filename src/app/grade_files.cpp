@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/format.h"
+#include "formats/text_front.h"
 #include "image/codec.h"
 
 namespace trace {
@@ -97,8 +98,9 @@ FileKind sceneKind(const fs::path& file) {
   if (!fs::is_regular_file(file, ignored)) return FileKind::perhaps;
   try {
     const std::string bytes = readFile(file.string());
+    const TextFront front(file.string(), bytes);
     for (const SceneFormat& format : sceneFormats())
-      if (format.recognises(bytes)) return FileKind::wanted;
+      if (format.recognises(front.text())) return FileKind::wanted;
   } catch (const Error&) {  // whoever reads it as a scene is told why
     lookAtBudget();
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/read_scope.h"
 #include "formats/ray/ray_same.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/height_field.h"
@@ -89,6 +90,9 @@ Scene readBack(const std::vector<NamedBytes>& files, const Scene& wanted, Real t
   const NamedBytes& first = files.front();
   Messages messages;
   Scene back;
+  std::vector<std::string> allowed;  // what the scene was made of, though its file may now lie elsewhere
+  for (const InputFile& input : wanted.inputs.all()) allowed.push_back(input.path);
+  const ReadScope scope(allowed);
   try {
     back = readScene(first.file, first.bytes, messages, time);
     messages.throwIfFailed();

@@ -7,6 +7,7 @@
 #include "app/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "image/denoise.h"
 #include "render/passes.h"
@@ -125,7 +126,8 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
   sceneAt_ = nullptr;
   if (read.changesWithTime)
-    sceneAt_ = [file, bytes](Real moment) {
+    sceneAt_ = [file, bytes, rules = ReadScope::current()](Real moment) {
+      const ReadScope scope(rules);
       Messages known;  // they were told of the scene
       return readScene(file, bytes, known, moment);
     };

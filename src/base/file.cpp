@@ -4,11 +4,13 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/read_scope.h"
 
 namespace trace {
 namespace fs = std::filesystem;
 std::string readBeside(const std::string& from, const std::string& name) {
   const std::string path = besideFile(from, name);
+  checkMayRead(path);
   std::error_code ignored;
   if (fs::exists(path, ignored) && !isOrdinaryFile(path))
     throw Error(Fault::io, "cannot read \"" + path + "\": it is no ordinary file");
@@ -18,16 +20,6 @@ std::string readBeside(const std::string& from, const std::string& name) {
 std::string besideFile(const std::string& from, const std::string& name) {
   const fs::path path(name);
   return path.is_absolute() ? name : (fs::path(from).parent_path() / path).string();
-}
-
-std::string findFile(const std::string& from, const std::string& name) {
-  constexpr int kFoldersAbove = 3;
-  std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return name;
-  fs::path folder = fs::path(from).parent_path();
-  for (int i = 0; i <= kFoldersAbove; ++i, folder /= "..")
-    if (const fs::path path = folder / name; fs::is_regular_file(path, ignored)) return path.string();
-  return besideFile(from, name);
 }
 
 }  // namespace trace

@@ -18,8 +18,8 @@ std::string readStart(const std::string& path, std::size_t most);
 /// Leads the name to a file that is there, and is no folder, device, pipe or socket?
 bool isOrdinaryFile(const std::string& path);
 
-/// The bytes of a file that the file `from` names: besideFile(from, name). Throws as readFile(), and for what
-/// is no regular file, which may have no end.
+/// The bytes of a file that the file `from` names: besideFile(from, name). Throws as readFile(), for what is
+/// no regular file, which may have no end, and ReadDenied for what may not be read (base/read_scope.h).
 std::string readBeside(const std::string& from, const std::string& name);
 
 /// Writes beside `path`, then puts the file in its place, so that nobody ever sees a part of it. A file that
@@ -41,9 +41,5 @@ std::string makeOwnFolder();
 
 /// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
 std::string besideFile(const std::string& from, const std::string& name);
-
-/// Where `name`, which the file `from` mentions, exists: in the current folder, in the folder of `from`, or
-/// in one of the few above it. `besideFile()` if nowhere.
-std::string findFile(const std::string& from, const std::string& name);
 
 }  // namespace trace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/budget.h"
+#include "base/read_scope.h"
 
 namespace trace {
 
@@ -22,8 +23,10 @@ void parallelChunks(std::int64_t chunks, int threads, Job& job,
   std::mutex mutex;
   std::exception_ptr failure;
   const BudgetOfThread budget = budgetOfThread;
+  const std::shared_ptr<const ReadRules> reading = ReadScope::current();
   const auto pull = [&](int worker) {
     const BudgetScope scope(budget);
+    const ReadScope mayRead(reading);
     try {
       while (!job.cancel) {
         const std::int64_t chunk = next.fetch_add(1);

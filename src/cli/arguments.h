@@ -53,9 +53,10 @@ struct Conversion {
 };
 
 struct Arguments {
-  std::vector<std::string> files;  ///< words that are no flags, in order
-  std::vector<Choice> choices;     ///< of options, in order
-  std::string output;              ///< --output; may be empty
+  std::vector<std::string> files;      ///< words that are no flags, in order
+  std::vector<Choice> choices;         ///< of options, in order
+  std::vector<std::string> allowRead;  ///< --allow-read: folders and files that a scene may read
+  std::string output;                  ///< --output; may be empty
   ProgressStyle progress = ProgressStyle::automatic;
   LogLevel logLevel = LogLevel::info;
   StatsStyle stats = StatsStyle::none;

@@ -11,6 +11,7 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "cli/help.h"
 #include "cli/memory_limit.h"
@@ -69,6 +70,14 @@ int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
   return command.failed ? command.failed(arguments) : static_cast<int>(fault);
 }
 
+/// What scenes may read besides their own folders: what the command line names.
+std::vector<std::string> allowedFiles(const Arguments& arguments) {
+  std::vector<std::string> allowed = arguments.allowRead;
+  for (const Choice& choice : arguments.choices)
+    if (findOption(choice.option).kind == Option::Kind::file) allowed.push_back(choice.value);
+  return allowed;
+}
+
 /// Within the limits of memory and time that the command line gives.
 int runLimited(const Command& command, const Arguments& arguments, const Console& console, Budget& budget) {
   if (command.verb == Verb::gui) return command.run(arguments, console);  // has no end of its own
@@ -76,6 +85,7 @@ int runLimited(const Command& command, const Arguments& arguments, const Console
   limitMemory(allowedMemory(given), given.threads > 0 ? given.threads : hardwareThreads());
   budget.limitTime(given.timeLimit);
   const BudgetScope scope(&budget);
+  const ReadScope reading(allowedFiles(arguments));
   const Overseer overseer(budget, console, arguments.progress,
                           {codeOf(command, arguments, Fault::limit), command.writes});
   return command.run(arguments, console);

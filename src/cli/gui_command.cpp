@@ -29,6 +29,7 @@ int guiCommand(const Arguments& arguments, const Console&) {
   std::vector<std::string> words{studio};
   words.insert(words.end(), arguments.files.begin(), arguments.files.end());
   for (const Choice& choice : arguments.choices) words.push_back("--" + choice.option + "=" + choice.value);
+  for (const std::string& folder : arguments.allowRead) words.push_back("--allow-read=" + folder);
   becomeProgram(words);
 }
 

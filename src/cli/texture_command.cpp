@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_format.h"
+#include "formats/text_front.h"
 #include "image/codec.h"
 #include "shading/texture.h"
 
@@ -105,7 +106,7 @@ Texture ofKind(const std::string& keyword) {
 Texture ofScene(const std::string& file, const std::string& name, const Console& console) {
   const Work work("reading the textures");
   const std::string bytes = readFile(file);
-  if (!recognisesRay(bytes))
+  if (!recognisesRay(TextFront(file, bytes).text()))
     throw Error(Fault::scene, Place{.file = file}, "expected a .ray file, which has textures with names");
   Messages messages;
   const std::vector<Texture> textures = readNamedTextures(file, bytes, messages);

@@ -11,6 +11,7 @@
 
 #include "base/budget.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "formats/composer/composer_format.h"
 #include "formats/inventor/inventor_format.h"
 #include "formats/mesh/gltf_format.h"
@@ -22,6 +23,7 @@
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_writer.h"
+#include "formats/text_front.h"
 #include "formats/textures.h"
 #include "formats/ubc/ubc_format.h"
 
@@ -66,16 +68,19 @@ constexpr std::array kFormats{
                 .suffixes = kOff,
                 .help = "OFF meshes, text",
                 .recognises = recognisesOff,
+                .mayBe = mayBeOff,
                 .readModel = readOff},
     SceneFormat{.name = "stl",
                 .suffixes = kStl,
                 .help = "STL triangles, text and binary",
                 .recognises = recognisesStl,
+                .mayBe = mayBeStl,
                 .readModel = readStl},
     SceneFormat{.name = "obj",
                 .suffixes = kObj,
                 .help = "Wavefront OBJ meshes with MTL materials",
                 .recognises = recognisesObj,
+                .mayBe = mayBeObj,
                 .readModel = readObj,
                 .write = writeObj},
     SceneFormat{.name = "gltf",
@@ -87,7 +92,7 @@ constexpr std::array kFormats{
 
 /// What bytes that are no scene look like.
 std::string kindOf(std::string_view bytes) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kBeginnings{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
       {"\xff\xd8\xff", "a JPEG picture"},
       {"BM", "a BMP picture"},
@@ -99,7 +104,6 @@ std::string kindOf(std::string_view bytes) {
       {"\x7f"
        "ELF",
        "a program"},
-      {"\x1f\x8b", "a gzip archive"},
   }};
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return std::string(kind);
@@ -119,19 +123,61 @@ std::string sizeText(std::size_t bytes) {
   return std::to_string(bytes / (kKilo * kKilo)) + " MB";
 }
 
+std::string lowerSuffix(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix;
+}
+
+/// The suffix in lower case, of what is compressed the one before ".gz".
+std::string suffixOf(const std::string& file) {
+  const std::string suffix = lowerSuffix(file);
+  return suffix == ".gz" ? lowerSuffix(std::filesystem::path(file).stem()) : suffix;
+}
+
+bool hasSuffix(const SceneFormat& format, const std::string& suffix) {
+  return std::find(format.suffixes.begin(), format.suffixes.end(), suffix) != format.suffixes.end();
+}
+
+/// The row for a file.
+struct FoundFormat {
+  const SceneFormat& row;
+  std::string byName{};  ///< "named .stl, but ", if only the name tells
+};
+
 /// The row that fits, of those that `wanted` accepts. Throws Error(Fault::scene).
 template <class Wanted>
-const SceneFormat& formatOf(const std::string& file, std::string_view bytes, const char* expected,
-                            Wanted&& wanted) {
+FoundFormat formatOf(const std::string& file, std::string_view bytes, const char* expected, Wanted&& wanted) {
+  const std::string suffix = suffixOf(file), named = "named " + suffix + ", but ";
   std::string known;
+  bool isNamed = false;
   for (const SceneFormat& format : sceneFormats()) {
     if (!wanted(format)) continue;
-    if (format.recognises(bytes)) return format;
+    if (format.recognises(bytes)) return {format};
+    isNamed = isNamed || hasSuffix(format, suffix);
     known += (known.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
   }
-  throw Error(Fault::scene, Place{file, 0, 0, {}},
-              "expected " + std::string(expected) + ", found " + kindOf(bytes),
-              "formats Trace reads: " + known);
+  for (const SceneFormat& format : sceneFormats())
+    if (wanted(format) && format.mayBe && hasSuffix(format, suffix) && format.mayBe(bytes))
+      return {format, named};
+  const std::string found = isNamed ? named + "holds " : "expected " + std::string(expected) + ", found ";
+  throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kindOf(bytes), "formats Trace reads: " + known);
+}
+
+/// read(); if only the name told the format, errors say so.
+template <class Read>
+auto asNamed(const FoundFormat& format, Read&& read) {
+  if (format.byName.empty()) return read();
+  try {
+    return read();
+  } catch (const ReadDenied&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.fault() != Fault::scene) throw;
+    Message message = error.messages().front();
+    message.what = format.byName + message.what;
+    throw Error(error.fault(), {message});
+  }
 }
 
 /// Calls use(text) for what stands between quotation marks, which may be the name of a file.
@@ -196,11 +242,16 @@ bool changesWithTime(const std::string& file, std::string_view bytes) {
 }
 
 Scene readScene(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time) {
-  const SceneFormat& format = formatOf(file, bytes, "a scene", [](const SceneFormat&) { return true; });
+  const ReadScope scope = ReadScope::ofScene(file);
   Scene scene = withinMemory(file, bytes, [&] {
-    if (format.readAt) return format.readAt(file, bytes, messages, time);
-    if (format.read) return format.read(file, bytes, messages);
-    return sceneOf(format.readModel(file, bytes, messages), file, format.name);
+    const TextFront front(file, bytes, messages);
+    const std::string_view text = front.text();
+    const FoundFormat format = formatOf(file, text, "a scene", [](const SceneFormat&) { return true; });
+    return asNamed(format, [&] {
+      if (format.row.readAt) return format.row.readAt(file, text, messages, time);
+      if (format.row.read) return format.row.read(file, text, messages);
+      return sceneOf(format.row.readModel(file, text, messages), file, format.row.name);
+    });
   });
   InputFiles inputs;
   inputs.noteRead(file, bytes);
@@ -215,14 +266,18 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
 }
 
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
-  const SceneFormat& format =
-      formatOf(file, bytes, "a mesh", [](const SceneFormat& row) { return row.readModel != nullptr; });
-  return withinMemory(file, bytes, [&] { return format.readModel(file, bytes, messages); });
+  const ReadScope scope = ReadScope::ofScene(file);
+  return withinMemory(file, bytes, [&] {
+    const TextFront front(file, bytes, messages);
+    const FoundFormat format = formatOf(file, front.text(), "a mesh",
+                                        [](const SceneFormat& row) { return row.readModel != nullptr; });
+    return asNamed(format, [&] { return format.row.readModel(file, front.text(), messages); });
+  });
 }
 
 const SceneFormat& writableFormatFor(const std::string& file) {
-  std::string suffix = std::filesystem::path(file).extension().string(), known;
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string suffix = lowerSuffix(file);
+  std::string known;
   for (const SceneFormat& format : sceneFormats()) {
     if (!format.write) continue;
     for (std::string_view own : format.suffixes) {
@@ -236,8 +291,13 @@ const SceneFormat& writableFormatFor(const std::string& file) {
 Rewritten writeEdited(const SceneText& read, const Scene& edited, const std::string& file,
                       Messages& messages) {
   const SceneFormat& format = writableFormatFor(file);
-  if (format.rewrite && read.scene && read.scene->format == format.name)
-    return format.rewrite(read, edited, file, messages);
+  if (format.rewrite && read.scene && read.scene->format == format.name) {
+    const TextFront front(read.file, *read.bytes);
+    if (!front.wasEncoded() && !front.wasCut()) return format.rewrite(read, edited, file, messages);
+    SceneText plain = read;
+    plain.bytes = std::make_shared<const std::string>(front.text());
+    return format.rewrite(plain, edited, file, messages);
+  }
   return {format.write(edited, file, {}, messages)};
 }
 

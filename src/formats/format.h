@@ -1,5 +1,5 @@
-// THE table of scene formats, and reading and writing any of them. A format is recognised by its content;
-// what is written follows from the file's name.
+// THE table of scene formats, and reading and writing any of them. A format is recognised by its content, and
+// where that leaves it open by the file's name; what is written follows from the name.
 #pragma once
 
 #include <memory>
@@ -55,6 +55,8 @@ struct SceneFormat {
   std::span<const std::string_view> suffixes;  ///< lower case with the dot, the usual one first
   std::string_view help;                       ///< one sentence, no full stop
   bool (*recognises)(std::string_view bytes);
+  /// Whether a file with its suffix that no format recognises can be one; null where none can.
+  bool (*mayBe)(std::string_view bytes) = nullptr;
   /// Repairs what it can with warnings. Throws Error(Fault::scene) for the rest.
   Scene (*read)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
   /// The same at a moment, if the format knows time.

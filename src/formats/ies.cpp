@@ -8,6 +8,7 @@
 
 #include "base/budget.h"
 #include "base/text.h"
+#include "formats/text_front.h"
 #include "formats/words.h"
 
 namespace trace {
@@ -180,7 +181,8 @@ class IesReader {
 }  // namespace
 
 Photometry readIes(const std::string& file, std::string_view bytes, Messages& messages) {
-  return IesReader(file, bytes, messages).read();
+  const TextFront front(file, bytes, messages);
+  return IesReader(file, front.text(), messages).read();
 }
 
 }  // namespace trace

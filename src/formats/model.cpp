@@ -55,10 +55,7 @@ Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& bas
 }  // namespace
 
 void MeshRepairs::check(MeshData& mesh, const Place& place) {
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-    if (!isFinite(mesh.points[i]))
-      throw Error(Fault::scene, place,
-                  "point " + std::to_string(i) + ": expected three finite numbers of at most 3.4e38");
+  dropInfinite(mesh, place);
   for (Vec3f& normal : mesh.normals)
     if (!isFinite(normal)) {
       normal = {};
@@ -75,10 +72,40 @@ void MeshRepairs::check(MeshData& mesh, const Place& place) {
   triangles_ += mesh.triangles.size();
 }
 
+void MeshRepairs::dropInfinite(MeshData& mesh, const Place& place) {
+  const auto isOdd = [&](const Vec3f& point) { return !isFinite(point); };
+  const auto first = std::find_if(mesh.points.begin(), mesh.points.end(), isOdd);
+  if (first == mesh.points.end()) return;
+  const auto number = std::to_string(first - mesh.points.begin());
+  const std::size_t before = mesh.triangles.size();
+  MeshData kept = mesh;
+  kept.triangles.clear();
+  kept.polygons.clear();
+  for (std::size_t i = 0; i < before; ++i) {
+    const auto& t = mesh.triangles[i];
+    const bool good =
+        std::none_of(std::begin(t), std::end(t), [&](std::uint32_t p) { return isOdd(mesh.points[p]); });
+    if (good) kept.triangles.push_back(t);
+  }
+  if (before > 0 && kept.triangles.empty())
+    throw Error(Fault::scene, place, "point " + number + ": expected three finite numbers of at most 3.4e38");
+  const auto good = std::find_if_not(kept.points.begin(), kept.points.end(), isOdd);
+  const Vec3f stand = good == kept.points.end() ? Vec3f{} : *good;  // so that bounds stay what is seen
+  for (Vec3f& point : kept.points)
+    if (isOdd(point)) {
+      point = stand;
+      ++infinitePoints_;
+    }
+  lostTriangles_ += before - kept.triangles.size();
+  mesh = std::move(kept);
+}
+
 void MeshRepairs::report(const Place& place, Messages& messages) const {
   const auto warn = [&](std::string_view what, std::size_t count) {
     if (count > 0) messages.warn(place, std::string(what) + ": " + std::to_string(count));
   };
+  warn("points that are not three finite numbers of at most 3.4e38", infinitePoints_);
+  warn("triangles that use such points are left out", lostTriangles_);
   warn("normals or uv that are not finite are replaced", notFinite_);
   warn(kWithoutArea, degenerate_);
   warn("normals of length 0 are taken from the faces", zeroNormals_);

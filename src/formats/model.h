@@ -34,13 +34,18 @@ struct Model {
 /// What every reader checks in its meshes, and how often it had to repair them.
 class MeshRepairs {
  public:
-  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) for a point that is not finite.
+  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) if each triangle uses a point that is
+  /// not finite.
   void check(MeshData& mesh, const Place& place);
   /// Warns of what all meshes so far had.
   void report(const Place& place, Messages& messages) const;
 
  private:
-  std::size_t notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0, triangles_ = 0;
+  /// Without the triangles whose points are not finite.
+  void dropInfinite(MeshData& mesh, const Place& place);
+
+  std::size_t infinitePoints_ = 0, lostTriangles_ = 0, notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0,
+              triangles_ = 0;
 };
 
 /// Adds the mesh of a file that holds just one, repaired with warnings. Throws as MeshRepairs::check().

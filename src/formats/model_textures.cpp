@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/file.h"
+#include "base/read_scope.h"
 
 namespace trace {
 namespace {
@@ -42,9 +42,10 @@ PictureKind kindOfJpeg(std::string_view bytes) {
   return {};
 }
 
-/// Its first bytes; none of what is no ordinary file, which may have no end.
+/// Its first bytes; none of what may not be read, or is no ordinary file, which may have no end.
 std::string headOf(const std::string& path) {
   constexpr std::size_t kHead = 1 << 16;
+  if (!mayRead(path)) return {};
   try {
     return readStart(path, kHead);
   } catch (const Error&) {

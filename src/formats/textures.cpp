@@ -1,14 +1,16 @@
 #include "formats/textures.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/named_file.h"
 #include "base/parallel.h"
+#include "base/read_scope.h"
+#include "image/codec.h"
+#include "scene/input_files.h"
 
 namespace trace {
 namespace {
@@ -19,12 +21,18 @@ struct Loaded {
   Place place;        ///< where the scene names it first
   InputFiles inputs;  ///< it, read or not
   std::shared_ptr<const MipMap> map;
+  std::string remark;   ///< what is odd about its name
   std::string failure;  ///< why there is no map
 };
 
 void load(const std::string& path, Loaded& loaded) {
   try {
-    loaded.map = MipMap::decode(readBeside("", path, loaded.inputs), path);
+    const std::string bytes = readBeside("", path, loaded.inputs);
+    loaded.map = MipMap::decode(bytes, path);
+    if (const std::string remark = pictureRemark(bytes); !remark.empty())
+      loaded.remark += (loaded.remark.empty() ? "\"" + loaded.name + "\": " : "; ") + remark;
+  } catch (const ReadDenied& denied) {
+    denied.at(loaded.place);
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     loaded.failure = error.messages().front().what;
@@ -32,11 +40,6 @@ void load(const std::string& path, Loaded& loaded) {
 }
 
 constexpr std::size_t kMostNamed = 3, kLongName = 80;
-
-bool isFile(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
 
 }  // namespace
 
@@ -51,22 +54,7 @@ std::shared_ptr<const MipMap> missingPicture() {
 }
 
 std::string pictureFile(const std::string& from, const std::string& name) {
-  const std::string beside = besideFile(from, name);
-  if (isFile(beside)) return beside;
-  if (const std::string found = findFile(from, name); isFile(found)) return found;
-  std::string plain = name;
-  std::replace(plain.begin(), plain.end(), '\\', '/');
-  if (const std::string here = besideFile(from, plain); isFile(here)) return here;
-  // In the folders of the name, from the innermost to that of the scene, though some may not be there.
-  const std::filesystem::path path(plain), last = path.filename();
-  if (last.empty()) return beside;
-  constexpr int kMostFolders = 20;
-  std::filesystem::path folder = path.is_absolute() ? std::filesystem::path() : path.parent_path();
-  for (int i = 0; i < kMostFolders; ++i, folder = folder.parent_path()) {
-    if (const std::string here = besideFile(from, (folder / last).string()); isFile(here)) return here;
-    if (folder.empty()) break;
-  }
-  return beside;
+  return namedFile(from, name).path;
 }
 
 void loadTextures(Scene& scene, Messages& messages) {
@@ -74,13 +62,16 @@ void loadTextures(Scene& scene, Messages& messages) {
   std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
   changePixels(scene, [&](Pixels& pixels) {
     if (pixels.map || pixels.file.empty()) return;
-    const auto [found, fresh] = byPath.try_emplace(pictureFile(scene.file, pixels.file));
+    const NamedFile named = namedFile(scene.file, pixels.file);
+    const auto [found, fresh] = byPath.try_emplace(named.path);
     if (!fresh) return;
     found->second.name = pixels.file;
-    found->second.place = pixels.place;
+    found->second.remark = named.remark;
+    found->second.place = pixels.place.file.empty() ? Place{.file = scene.file} : pixels.place;
     files.push_back(&*found);
   });
   if (files.empty()) return;
+  const ReadScope scope = ReadScope::ofScene(scene.file);
   const Work work("reading the textures", std::ssize(files));
   Job job;
   parallelChunks(std::ssize(files), 0, job, [&](std::int64_t i, int) {
@@ -93,10 +84,11 @@ void loadTextures(Scene& scene, Messages& messages) {
   for (auto* file : files) {
     auto& [path, loaded] = *file;
     scene.inputs.note(loaded.inputs);
+    if (!loaded.remark.empty()) messages.warn(loaded.place, loaded.remark);
     if (loaded.map) continue;
     loaded.map = missingPicture();
     if (unread.empty()) reason = loaded.failure;
-    unread.note(loaded.name, loaded.place.file.empty() ? Place{.file = scene.file} : loaded.place);
+    unread.note(loaded.name, loaded.place);
   }
   unread.reportUnread(messages, reason);
   changePixels(scene, [&](Pixels& pixels) {

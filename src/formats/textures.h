@@ -18,12 +18,10 @@ namespace trace {
 
 /// Reads the pictures of the scene's textures and background, each file once, and notes them in
 /// Scene::inputs. One that is missing or broken is a warning, and a checker in its place. Throws
-/// Error(Fault::limit) where memory lacks.
+/// Error(Fault::limit) where memory lacks, and ReadDenied for one that may not be read (base/read_scope.h).
 void loadTextures(Scene& scene, Messages& messages);
 
-/// The path of a picture that the scene file `from` names: beside it, or where else findFile() looks. Names
-/// of other systems, with backslashes, and of folders that are not here are looked for by their last part.
-/// The place beside the scene if there is none.
+/// The path of namedFile() (base/named_file.h).
 std::string pictureFile(const std::string& from, const std::string& name);
 
 /// What nobody takes for the surface that was meant: a checker of magenta and black.

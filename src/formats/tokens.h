@@ -65,6 +65,10 @@ class Tokens {
   /// With the line of text if it is not very long.
   Place place(const Token& token) const;
   const std::string& file() const { return file_; }
+  /// Is it a token of this text?
+  bool holds(const Token& token) const {
+    return token.text.data() >= source_.data() && token.text.data() <= source_.data() + source_.size();
+  }
 
  private:
   void advance();

@@ -11,6 +11,20 @@
 
 namespace trace {
 
+/// Are they the same, in letters of any case?
+inline bool sameWord(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Does the text have it somewhere, in letters of any case?
+inline bool hasWord(std::string_view text, std::string_view word) {
+  for (std::size_t i = 0; i + word.size() <= text.size(); ++i)
+    if (sameWord(text.substr(i, word.size()), word)) return true;
+  return false;
+}
+
 class Words {
  public:
   /// `comment` starts one that ends with the line; '\0' for none.

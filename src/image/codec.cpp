@@ -54,7 +54,7 @@ bool isPpm(std::string_view b) {
          (b[2] == '#' || b[2] == ' ' || (b[2] >= '\t' && b[2] <= '\r'));
 }
 bool isJpeg(std::string_view b) { return beginsWith(b, "\xFF\xD8\xFF"); }
-bool isHdr(std::string_view b) { return beginsWith(b, "#?RADIANCE\n") || beginsWith(b, "#?RGBE\n"); }
+bool isHdr(std::string_view b) { return beginsWith(b, "#?"); }
 bool isExr(std::string_view b) { return beginsWith(b, "\x76\x2f\x31\x01"); }
 bool isTga(std::string_view b) {
   if (b.size() < 18) return false;
@@ -93,6 +93,7 @@ Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   return decodeByStb(bytes, limits);
 }
 Metadata noMetadata(std::string_view) { return {}; }
+std::string noRemark(std::string_view) { return {}; }
 
 constexpr std::string_view kPng[] = {".png"}, kBmp[] = {".bmp"}, kPpm[] = {".ppm", ".pnm"},
                            kJpeg[] = {".jpg", ".jpeg"}, kHdr[] = {".hdr"}, kExr[] = {".exr"},
@@ -103,19 +104,19 @@ constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max() / siz
 // Reading tries them in this order.
 constexpr PictureFormat kFormats[] = {
     {"PNG", kPng, "8 bits a channel, compressed without loss; carries the render's settings", false, true,
-     INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText},
+     INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText, noRemark},
     {"BMP", kBmp, "8 bits a channel, uncompressed; what the courses hand in", false, true, INT_MAX,
-     kMostStbPixels, encodeBmp, isBmp, decodeByStb, noMetadata},
+     kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, noRemark},
     {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
-     encodePpm, isPpm, decodePpm, commentLines},
+     encodePpm, isPpm, decodePpm, commentLines, noRemark},
     {"JPEG", kJpeg, "8 bits a channel, small, with visible loss", false, false, 65535, kMostStbPixels,
-     encodeJpeg, isJpeg, decodeByStb, jpegComments},
+     encodeJpeg, isJpeg, decodeJpeg, jpegComments, jpegRemark},
     {"HDR", kHdr, "Radiance RGBE, keeps values above 1 to one part in 256 of the brightest channel", true,
-     false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines},
+     false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines, hdrRemark},
     {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
-     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata},
+     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark},
     {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,
-     decodeByStb, noMetadata},
+     decodeTga, noMetadata, noRemark},
 };
 
 std::string lowerCase(std::string_view text) {
@@ -223,6 +224,10 @@ Picture decodePicture(std::string_view bytes, const std::string& name, const Pic
 
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
   return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes, limits); });
+}
+
+std::string pictureRemark(std::string_view bytes) {
+  return withFormatOf(bytes, "", [&](const PictureFormat& format) { return format.remark(bytes); });
 }
 
 Picture toPicture(const Raster& raster) {

@@ -42,6 +42,9 @@ struct PictureFormat {
   Raster (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
+  /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to
+  /// say.
+  std::string (*remark)(std::string_view bytes);
 };
 
 std::span<const PictureFormat> pictureFormats();
@@ -74,6 +77,9 @@ Picture decodePicture(std::string_view bytes, const std::string& name, const Pic
 
 /// The same as the file has it, with transparency. Throws as decodePicture().
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
+
+/// A warning about a picture that decodeRaster() has read, such as of layers that are not shown; "" for none.
+std::string pictureRemark(std::string_view bytes);
 
 /// decodePicture() of a file. Throws Error.
 Picture readPicture(const std::string& path, const PictureLimits& limits = {});

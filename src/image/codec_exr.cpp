@@ -1,12 +1,14 @@
 // EXR through OpenEXR, the only file that sees it; in memory, so that all writing goes through base/file.h.
-// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G, B
-// or Y, and A, of any sample type; the display window is the picture, in which colours are multiplied by A.
-// Source: "OpenEXR File Layout" and "Reading and Writing OpenEXR Image Files" (openexr.com). No threads are
-// started.
+// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G,
+// B, luminance and chroma, or a grey, and A, of any sample type and any primaries; the display window is the
+// picture, in which colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing
+// OpenEXR Image Files" (openexr.com). No threads are started.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,11 +24,15 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #endif
 #include <ImfChannelList.h>
+#include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfRgbaYca.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
 #if defined(__GNUC__)
@@ -99,6 +105,157 @@ Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const Picture
   const Extent extent{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
   checkClaimedSize(extent.width, extent.height, fileBytes, kPackedPixelsPerByte, limits);
   return extent;
+}
+
+/// Which channels of a file are the picture.
+struct ShownChannels {
+  std::vector<std::string> shown;  ///< red, green, blue or a grey, then alpha; "" for one that is black
+  bool isChroma = false;           ///< Y, RY and BY stand for red, green and blue
+  std::string remark;              ///< of what is not shown
+};
+
+/// R, G and B, or Y with RY and BY, or Y; or those of the first layer; or the first channel, as a grey.
+ShownChannels shownChannels(const Imf::ChannelList& channels) {
+  std::vector<std::string> names, layers{""};
+  for (auto c = channels.begin(); c != channels.end(); ++c) {
+    names.emplace_back(c.name());
+    const size_t dot = names.back().rfind('.');
+    if (dot == std::string::npos) continue;
+    if (const std::string layer = names.back().substr(0, dot + 1); layer != layers.back())
+      layers.push_back(layer);
+  }
+  if (names.empty()) throw std::runtime_error("it has no channel");
+  const auto has = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const auto isPart = [](const std::string& name, const std::string& layer) {
+    return name.starts_with(layer) && name.find('.', layer.size()) == std::string::npos;
+  };
+  ShownChannels found;
+  for (const std::string& layer : layers) {
+    const int colors = has(layer + "R") + has(layer + "G") + has(layer + "B");
+    found.isChroma = colors == 0 && has(layer + "Y") && has(layer + "RY") && has(layer + "BY");
+    if (colors >= 2 || found.isChroma)
+      for (const char* name : {"R", "G", "B"})
+        found.shown.push_back(found.isChroma || has(layer + name) ? layer + name : "");
+    else if (has(layer + "Y"))
+      found.shown.push_back(layer + "Y");
+    if (found.shown.empty()) continue;
+    if (has(layer + "A")) found.shown.push_back(layer + "A");
+    if (!layer.empty())
+      found.remark = "the layer \"" + layer.substr(0, layer.size() - 1) + "\" is shown, and no other";
+    else if (const auto others = std::count_if(names.begin(), names.end(),
+                                               [&](const std::string& name) { return !isPart(name, ""); });
+             others > 0)
+      found.remark = "its layers are not shown";
+    return found;
+  }
+  const auto first = std::find_if(names.begin(), names.end(), [](const std::string& n) { return n != "A"; });
+  found.shown.push_back(first == names.end() ? names[0] : *first);
+  if (has("A") && found.shown[0] != "A") found.shown.emplace_back("A");
+  if (names.size() > found.shown.size())
+    found.remark = "of its channels only \"" + found.shown[0] + "\" is shown, as a grey";
+  return found;
+}
+
+/// The channels side by side, of the pixels that the file stores.
+std::vector<float> readValues(Imf::InputFile& input, const Extent& stored, const ShownChannels& names) {
+  const Imath::Box2i& data = input.header().dataWindow();
+  const size_t channels = names.shown.size();
+  std::vector<float> values(channels * static_cast<size_t>(stored.width) *
+                            static_cast<size_t>(stored.height));
+  Imf::FrameBuffer target;
+  for (size_t i = 0; i < channels; ++i) {
+    if (names.shown[i].empty()) continue;
+    const Imf::Channel& channel = input.header().channels()[names.shown[i].c_str()];
+    if (channel.xSampling != 1 || channel.ySampling != 1)
+      throw std::runtime_error("channels stored at lower resolution are not read");
+    target.insert(names.shown[i], Imf::Slice::Make(Imf::FLOAT, values.data() + i, data.min, stored.width,
+                                                   stored.height, channels * sizeof(float)));
+  }
+  input.setFrameBuffer(target);
+  input.readPixels(data.min.y, data.max.y);
+  return values;
+}
+
+/// A channel that may have fewer samples than the picture has pixels, looked up between them.
+struct SparseChannel {
+  std::vector<float> samples;
+  int width = 0, height = 0, xSampling = 1, ySampling = 1;
+
+  double at(int x, int y) const {
+    const double u = std::min(static_cast<double>(x) / xSampling, width - 1.0),
+                 v = std::min(static_cast<double>(y) / ySampling, height - 1.0);
+    const int i = static_cast<int>(u), j = static_cast<int>(v);
+    const auto sample = [&](int column, int row) {
+      return static_cast<double>(
+          samples[static_cast<size_t>(std::min(row, height - 1)) * static_cast<size_t>(width) +
+                  static_cast<size_t>(std::min(column, width - 1))]);
+    };
+    const double s = u - i, t = v - j;
+    return (1 - t) * ((1 - s) * sample(i, j) + s * sample(i + 1, j)) +
+           t * ((1 - s) * sample(i, j + 1) + s * sample(i + 1, j + 1));
+  }
+};
+
+/// Colours of a luminance Y and RY = (R - Y) / Y, BY = (B - Y) / Y.
+std::vector<float> readChroma(Imf::InputFile& input, const Extent& stored, const ShownChannels& names) {
+  const Imath::Box2i& data = input.header().dataWindow();
+  const std::string layer = names.shown[0].substr(0, names.shown[0].size() - 1);
+  const bool alpha = names.shown.size() > 3;
+  std::vector<std::string> wanted{layer + "Y", layer + "RY", layer + "BY"};
+  if (alpha) wanted.push_back(layer + "A");
+  std::vector<SparseChannel> parts(wanted.size());
+  Imf::FrameBuffer target;
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    const Imf::Channel& channel = input.header().channels()[wanted[i].c_str()];
+    SparseChannel& part = parts[i];
+    part.xSampling = std::max(channel.xSampling, 1);
+    part.ySampling = std::max(channel.ySampling, 1);
+    part.width = std::max(stored.width / part.xSampling, 1);
+    part.height = std::max(stored.height / part.ySampling, 1);
+    part.samples.resize(static_cast<size_t>(part.width) * static_cast<size_t>(part.height));
+    target.insert(wanted[i],
+                  Imf::Slice::Make(Imf::FLOAT, part.samples.data(), data.min, stored.width, stored.height,
+                                   sizeof(float), static_cast<size_t>(part.width) * sizeof(float),
+                                   part.xSampling, part.ySampling));
+  }
+  input.setFrameBuffer(target);
+  input.readPixels(data.min.y, data.max.y);
+  const Imf::Chromaticities primaries =
+      Imf::hasChromaticities(input.header()) ? Imf::chromaticities(input.header()) : Imf::Chromaticities();
+  const Imath::V3f weights = Imf::RgbaYca::computeYw(primaries);
+  std::vector<float> values;
+  values.reserve(names.shown.size() * static_cast<size_t>(stored.width) * static_cast<size_t>(stored.height));
+  for (int y = 0; y < stored.height; ++y)
+    for (int x = 0; x < stored.width; ++x) {
+      const double luminance = parts[0].at(x, y);
+      const double red = (parts[1].at(x, y) + 1) * luminance, blue = (parts[2].at(x, y) + 1) * luminance;
+      const double green = (luminance - red * weights.x - blue * weights.z) / weights.y;
+      for (double channel : {red, green, blue}) values.push_back(static_cast<float>(channel));
+      if (alpha) values.push_back(static_cast<float>(parts[3].at(x, y)));
+    }
+  return values;
+}
+
+/// Colours of other primaries than Rec. 709's, if the file names them, become those.
+void toRec709(const Imf::Header& header, size_t channels, std::vector<float>& values) {
+  if (channels < 3 || !Imf::hasChromaticities(header)) return;
+  const Imf::Chromaticities &given = Imf::chromaticities(header), rec709;
+  const auto same = [](const Imath::V2f& a, const Imath::V2f& b) {
+    constexpr float kClose = 1e-3f;
+    return std::abs(a.x - b.x) < kClose && std::abs(a.y - b.y) < kClose;
+  };
+  if (same(given.red, rec709.red) && same(given.green, rec709.green) && same(given.blue, rec709.blue) &&
+      same(given.white, rec709.white))
+    return;
+  const Imath::M44f matrix = Imf::RGBtoXYZ(given, 1) * Imf::XYZtoRGB(rec709, 1);
+  for (size_t i = 0; i + 2 < values.size(); i += channels) {
+    const Imath::V3f color = Imath::V3f(values[i], values[i + 1], values[i + 2]) * matrix;
+    values[i] = color.x;
+    values[i + 1] = color.y;
+    values[i + 2] = color.z;
+  }
 }
 
 /// The layout of the part that is read.
@@ -181,25 +338,15 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
   const bool tiled = header.hasTileDescription() && (headers.tiled || headers.several);
   checkExrBlocks(bytes, headers, layoutOf(header, tiled));
 
+  if (header.hasType() && Imf::isDeepData(header.type()))
+    throw std::runtime_error("deep pictures, of several samples a pixel, are not read");
   MemoryInput stream(bytes);
   Imf::InputFile input(stream, kNoThreads);
-  const bool grey = !input.header().channels().findChannel("R") && input.header().channels().findChannel("Y");
-  std::vector<const char*> names = grey ? std::vector{"Y"} : std::vector{"R", "G", "B"};
-  if (input.header().channels().findChannel("A")) names.push_back("A");
-  const size_t channels = names.size();
-  std::vector<float> values(channels * static_cast<size_t>(stored.width) *
-                            static_cast<size_t>(stored.height));
-  Imf::FrameBuffer target;
-  for (size_t i = 0; i < channels; ++i) {
-    const Imf::Channel* channel = input.header().channels().findChannel(names[i]);
-    if (!channel) throw std::runtime_error("it has neither channels R, G, B nor Y");
-    if (channel->xSampling != 1 || channel->ySampling != 1)
-      throw std::runtime_error("channels stored at lower resolution are not read");
-    target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, values.data() + i, data.min, stored.width,
-                                             stored.height, channels * sizeof(float)));
-  }
-  input.setFrameBuffer(target);
-  input.readPixels(data.min.y, data.max.y);
+  const ShownChannels names = shownChannels(input.header().channels());
+  const size_t channels = names.shown.size();
+  std::vector<float> values =
+      names.isChroma ? readChroma(input, stored, names) : readValues(input, stored, names);
+  toRec709(header, channels, values);
 
   Raster raster(shown.width, shown.height, static_cast<int>(channels), 1);
   raster.premultiplied = true;
@@ -218,6 +365,12 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
     }
   raster.samples = std::move(samples);
   return raster;
+}
+
+std::string exrRemark(std::string_view bytes) {
+  const ExrHeaders headers = exrHeaders(bytes);
+  const ShownChannels names = shownChannels(headerOf(bytes).channels());
+  return headers.several && names.remark.empty() ? "only the first of its parts is shown" : names.remark;
 }
 
 Metadata exrMetadata(std::string_view bytes) {

@@ -41,17 +41,24 @@ std::string pngChunk(const std::string& type, const std::string& data);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);
-/// PNG, BMP, TGA or JPEG.
+/// PNG, TGA or JPEG.
 Raster decodeByStb(std::string_view bytes, const PictureLimits& limits);
+/// As EXIF's orientation says. A JPEG may lack its end marker.
+Raster decodeJpeg(std::string_view bytes, const PictureLimits& limits);
+std::string jpegRemark(std::string_view bytes);
+Raster decodeTga(std::string_view bytes, const PictureLimits& limits);
+Raster decodeBmp(std::string_view bytes, const PictureLimits& limits);
 
 std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
 /// P2, P3, P5 or P6.
 Raster decodePpm(std::string_view bytes, const PictureLimits& limits);
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);
 Raster decodeHdr(std::string_view bytes, const PictureLimits& limits);
+std::string hdrRemark(std::string_view bytes);
 
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
+std::string exrRemark(std::string_view bytes);
 Metadata exrMetadata(std::string_view bytes);
 
 }  // namespace trace

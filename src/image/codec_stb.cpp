@@ -1,6 +1,6 @@
-// PNG, BMP, TGA and JPEG through stb_image and stb_image_write, the only file that sees them. PNG files are
-// written elsewhere (codec_png.cpp).
-// One station of codec.cpp's table. Source: Sean Barrett's public-domain headers, stb_image 2.27 and
+// PNG, TGA and JPEG, and BMP to be written, through stb_image and stb_image_write, the only file that sees
+// them. PNG files are written elsewhere (codec_png.cpp). One station of codec.cpp's table. Source: Sean Barrett's
+// public-domain headers, stb_image 2.27 and
 // stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
 // source below notices, so that a truncated file is refused.
 #include <algorithm>
@@ -17,12 +17,12 @@
 #include "base/budget.h"
 #include "image/codec.h"
 #include "image/codec_parts.h"
+#include "image/orientation.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
-#define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_ONLY_JPEG
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -129,9 +129,8 @@ void checkJpegTables(std::string_view jpeg) {
   }
 }
 
-/// BMP holds 1 bit a pixel or more, TGA runs of 128 pixels.
+/// TGA holds runs of 128 pixels.
 double mostPixelsPerByte(std::string_view bytes) {
-  if (bytes.substr(0, 2) == "BM") return 8;
   const bool packs = bytes.substr(0, 4) == "\x89PNG" || bytes.substr(0, 2) == "\xFF\xD8";
   return packs ? kPackedPixelsPerByte : 128;
 }
@@ -156,9 +155,42 @@ Raster decodeAs(std::string_view bytes, double most,
 bool fourthIsUnused(std::string_view bytes) {
   constexpr std::size_t kDescriptor = 17;
   constexpr int kAlphaBits = 15;
-  const bool isTga =
-      bytes.size() > kDescriptor && bytes.substr(0, 2) != "BM" && bytes[0] != '\x89' && bytes[0] != '\xFF';
+  const bool isTga = bytes.size() > kDescriptor && bytes[0] != '\x89' && bytes[0] != '\xFF';
   return isTga && (bytes[kDescriptor] & kAlphaBits) == 0;
+}
+
+/// The orientation that the EXIF part of a JPEG says; upright if it says none.
+Orientation exifOrientation(std::string_view jpeg) {
+  using namespace std::string_view_literals;
+  const auto at = [](std::string_view bytes, std::size_t i) {
+    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
+  };
+  for (std::size_t i = 2; i + 4 <= jpeg.size() && at(jpeg, i) == 0xFF && at(jpeg, i + 1) != 0xDA;) {
+    const std::size_t length = at(jpeg, i + 2) << 8 | at(jpeg, i + 3);
+    std::string_view exif = jpeg.substr(std::min(i + 4, jpeg.size()), length > 2 ? length - 2 : 0);
+    if (at(jpeg, i + 1) == 0xE1 && exif.starts_with("Exif\0\0"sv)) {
+      exif.remove_prefix(6);
+      const bool big = exif.starts_with("MM");
+      const auto number = [&](std::size_t from, std::size_t size) {
+        std::size_t value = 0;
+        for (std::size_t k = 0; k < size; ++k) value = value << 8 | at(exif, from + (big ? k : size - 1 - k));
+        return value;
+      };
+      const std::size_t directory = number(4, 4), entries = number(directory, 2);
+      for (std::size_t k = 0; k < std::min<std::size_t>(entries, 100); ++k) {
+        const std::size_t entry = directory + 2 + 12 * k, value = number(entry + 8, 2);
+        if (number(entry, 2) == 0x0112 && value >= 1 && value <= 8) return static_cast<Orientation>(value);
+      }
+    }
+    i += 2 + length;
+  }
+  return Orientation::upright;
+}
+
+/// Whether a JPEG ends in its marker, perhaps with zeros or other padding behind that.
+bool endsInMarker(std::string_view jpeg) {
+  constexpr std::size_t kPadding = 4096;
+  return jpeg.substr(jpeg.size() - std::min(jpeg.size(), kPadding)).rfind("\xFF\xD9") != jpeg.npos;
 }
 
 /// Without its last channel.
@@ -194,6 +226,29 @@ std::string encodeJpegByStb(const Bytes& b) {
   });
 }
 
+Raster decodeJpeg(std::string_view bytes, const PictureLimits& limits) {
+  const Orientation orientation = exifOrientation(bytes);
+  if (endsInMarker(bytes)) return oriented(decodeByStb(bytes, limits), orientation);
+  // Only if what is missing says nothing of the picture, whatever stands in its place makes the same one.
+  const std::string marker("\xFF\xD9");
+  Raster raster = decodeByStb(std::string(bytes) + marker, limits);
+  const Raster other = decodeByStb(std::string(bytes) + std::string(64, '\x55') + marker, limits);
+  if (raster.samples != other.samples) failAtEnd();
+  return oriented(std::move(raster), orientation);
+}
+
+std::string jpegRemark(std::string_view bytes) {
+  return endsInMarker(bytes) ? "" : "the JPEG lacks its end marker";
+}
+
+Raster decodeTga(std::string_view bytes, const PictureLimits& limits) {
+  constexpr std::size_t kDescriptor = 17;
+  constexpr int kFromRight = 16;
+  Raster raster = decodeByStb(bytes, limits);
+  const bool mirrored = bytes.size() > kDescriptor && (bytes[kDescriptor] & kFromRight) != 0;
+  return oriented(std::move(raster), mirrored ? Orientation::mirrored : Orientation::upright);
+}
+
 Raster decodeByStb(std::string_view bytes, const PictureLimits& limits) {
   if (bytes.size() > INT_MAX) throw std::runtime_error("files above 2 GiB are not read");
   if (bytes.substr(0, 2) == "\xFF\xD8") checkJpegTables(bytes);
@@ -201,8 +256,6 @@ Raster decodeByStb(std::string_view bytes, const PictureLimits& limits) {
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(start, size, &width, &height, &channels)) failAsStbSays();
-  // The height of a BMP is negative where its rows go from the top down.
-  if (height < 0 && height > -INT_MAX) height = -height;
   checkClaimedSize(width, height, bytes.size(), mostPixelsPerByte(bytes), limits);
   if (stbi_is_16_bit_from_memory(start, size))
     return decodeAs<stbi_us>(bytes, 65535, stbi_load_16_from_callbacks);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/named_file.h"
 
 namespace trace {
 
@@ -36,9 +37,9 @@ std::string InputFiles::fingerprint() const {
 }
 
 std::string readBeside(const std::string& from, const std::string& name, InputFiles& inputs) {
-  const std::string path = besideFile(from, name);
+  const std::string path = namedFile(from, name).path;
   try {
-    std::string bytes = readBeside(from, name);
+    std::string bytes = readBeside("", path);
     inputs.noteRead(path, bytes);
     return bytes;
   } catch (const Error&) {

@@ -8,6 +8,7 @@
 
 #include "base/budget.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "scene/scene.h"
 
 namespace trace {
@@ -40,6 +41,7 @@ class Reader {
   }
 
   EnvironmentMap environment(const std::string& path, EnvironmentKind kind) {
+    checkMayRead(path);
     std::error_code ignored;
     const bool folder = fs::is_directory(path, ignored);
     if (folder || (kind != EnvironmentKind::latLong && kind != EnvironmentKind::angular)) {
@@ -117,13 +119,15 @@ class Reader {
 template <class Make, class Instead>
 auto madeOr(const Scene& scene, const Option& option, const Settings& settings, Messages& messages, Make make,
             Instead instead) {
+  const bool byScene = option.get(resolve({scene.choices})) == option.get(settings);
   try {
+    if (!byScene) return make();
+    const ReadScope scope = ReadScope::ofScene(scene.file);
     return make();
   } catch (const Error& error) {
     if (error.fault() == Fault::limit) throw;
     Message message = error.messages().front();
     message.what = std::string(option.name) + ": " + message.what;
-    const bool byScene = option.get(resolve({scene.choices})) == option.get(settings);
     if (!byScene) {
       message.what = "--" + message.what;
       if (message.hint.empty())
@@ -133,6 +137,10 @@ auto madeOr(const Scene& scene, const Option& option, const Settings& settings, 
     Place place{.file = scene.file};
     for (const Choice& choice : scene.choices)
       if (choice.option == option.name) place = choice.place;
+    if (dynamic_cast<const ReadDenied*>(&error)) {
+      message.place = place;
+      throw ReadDenied(error.fault(), {message});
+    }
     messages.warn(place, message.what, "a checker of magenta and black shows instead");
     return instead();
   }

@@ -80,13 +80,15 @@ class Parser {
   }
 
   void takeValue(const std::string& name, const std::optional<std::string>& given) {
-    const bool ours = name == "script" || name == "reference" || name == "window";
+    const bool ours = name == "script" || name == "reference" || name == "window" || name == "allow-read";
     if (!ours) findOption(name);  // one that is unknown is told before its value lacks
     const std::string value = given ? *given : valueAfter("--" + name);
     if (!ours)
       choose(name, value);
     else if (name == "window")
       sizeWindow(value);
+    else if (name == "allow-read")
+      arguments_.allowRead.push_back(value);
     else
       (name == "script" ? arguments_.script : arguments_.reference) = value;
   }
@@ -144,6 +146,7 @@ std::string helpText() {
          "                            is opened in this window\n"
          "  --reference PICTURE       a picture to compare with\n"
          "  --window WIDTHxHEIGHT     size of the window; 1280x800 at first, then as it was left\n"
+         "  --allow-read DIR          also let scenes read the files below this folder\n"
          "  --script FILE             do what the file says, one command a line, then close the window\n"
          "  -h, --help                this text\n"
          "  --version                 print the version\n\n"

@@ -9,11 +9,12 @@
 namespace trace::studio {
 
 struct Arguments {
-  std::string scene;            ///< may be empty
-  std::string reference;        ///< --reference; may be empty
-  std::string script;           ///< --script; may be empty
-  int width = 0, height = 0;    ///< --window; 0: as it was last
-  std::vector<Choice> choices;  ///< of options; they hold for every scene that is opened
+  std::string scene;                   ///< may be empty
+  std::string reference;               ///< --reference; may be empty
+  std::string script;                  ///< --script; may be empty
+  int width = 0, height = 0;           ///< --window; 0: as it was last
+  std::vector<Choice> choices;         ///< of options; they hold for every scene that is opened
+  std::vector<std::string> allowRead;  ///< --allow-read: folders that scenes may read besides their own
   bool help = false, version = false;
 };
 

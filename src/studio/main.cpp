@@ -9,6 +9,7 @@
 #include "app/version.h"
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/read_scope.h"
 #include "base/streams.h"
 #include "image/codec.h"
 #include "studio/actions.h"
@@ -98,6 +99,10 @@ void sizeWindow(Studio& studio, const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
+  std::vector<std::string> allowed = arguments.allowRead;
+  for (const Choice& choice : arguments.choices)
+    if (findOption(choice.option).kind == Option::Kind::file) allowed.push_back(choice.value);
+  const ReadScope reading(allowed);
   std::optional<Script> script;
   if (!arguments.script.empty()) script.emplace(arguments.script, resolve({arguments.choices}).timeLimit);
   if (script) keepLandmarks();

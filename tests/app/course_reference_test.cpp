@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/session.h"
+#include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"
 #include "render/passes.h"
@@ -56,6 +57,7 @@ Pair compareWithCourse(const std::string& scene, const std::string& reference,
 }
 
 TEST(CourseReference, MontrealsPicturesAreRepeated) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/ubc");
   for (const char* name : {"triangle", "cube"}) {
     const Pair pair =
@@ -73,6 +75,7 @@ TEST(CourseReference, MontrealsPicturesAreRepeated) {
 
 /// They took one random sample for each pixel, so that silhouettes differ by a pixel here and there.
 TEST(CourseReference, BritishColumbiasPicturesAreRepeatedButForSilhouettes) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/ubc");
   for (const char* name : {"basic", "cube"}) {
     const Pair pair = compareWithCourse(std::string("ubc2016/") + name + ".ray",
@@ -109,6 +112,7 @@ TEST(CourseReference, TheDepthBesideThePictureHasTheNameOfTheHandout) {
 
 /// Their pictures are JPEGs; the RMSE that a fit of their formula reaches, and a little more.
 TEST(CourseReference, ComposerPicturesAreRepeated) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/composer");
   struct Case {
     const char* name;
@@ -135,6 +139,7 @@ TEST(CourseReference, ComposerPicturesAreRepeated) {
 }
 
 TEST(CourseReference, TextAndBinaryTwinsAreTheSamePicture) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("scenes/composer");
   for (const char* set : {"set1", "set2"})
     for (const char* name : {"test1", "test2", "test4"}) {
@@ -155,6 +160,7 @@ TEST(CourseReference, TextAndBinaryTwinsAreTheSamePicture) {
 }
 
 TEST(CourseReference, EverySceneLoadsAndRenders) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("scenes/ubc");
   int rendered = 0;
   for (const auto& [folder, suffix] : {std::pair{"ubc", ".ray"},

@@ -10,6 +10,7 @@
 #include "app/ray_segments.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "render/visited_boxes.h"
 #include "support/folder.h"
 #include "support/paths.h"
@@ -120,6 +121,7 @@ TEST(Explain, EverySampleSumsToThePictureUnderEveryOption) {
 }
 
 TEST(Explain, EverySampleOfTheCoursesScenesSumsToThePicture) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("scenes/uw");
   const std::vector<std::string> all = filesUnder(test::sharedFolder() + "/scenes/uw", ".ray");
   int explained = 0;

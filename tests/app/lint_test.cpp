@@ -9,6 +9,7 @@
 #include "app/coplanar.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/cube.h"
@@ -428,6 +429,7 @@ TEST(Lint, FindsAnglesInDegreesOnce) {
 
 // What lint says of the courses' own scenes is to be true; these two checks once said it of six wrongly.
 TEST(Lint, IsSilentAboutTheGlassOfTheCourses) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("scenes/uw");
   for (const char* folder : {"uw2005/simple", "uw2005", "manitoba-a1", "uw2001-hkust"})
     for (const std::string& scene : filesUnder(test::sharedFolder() + "/scenes/uw/" + folder, ".ray")) {
@@ -463,6 +465,7 @@ TEST(Lint, TheDepthItProposesIsEnough) {
 }
 
 TEST(Lint, IsQuickOnAMeshOfSeventyThousandTriangles) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   if (kSanitized) GTEST_SKIP() << "SKIPPED: the sanitizers are slow";
   TRACE_NEEDS_SHARED("scenes/uw/uw2005/polymesh");
   const std::clock_t start = std::clock();  // of the processor, which other programs do not use up

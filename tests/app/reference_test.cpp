@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/session.h"
+#include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"
 #include "support/paths.h"
@@ -50,6 +51,7 @@ double renderAndCompare(const std::string& scene, const std::string& reference,
 const std::map<std::string, double> kExceptions{{"polymesh_easy3b", 0.998}};
 
 TEST(Reference, AustinsPicturesAreRepeated) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/uw");
   int compared = 0;
   for (const std::string& picture : filesUnder(kReferencePictures + "ut-w400-r5", ".png")) {
@@ -69,6 +71,7 @@ TEST(Reference, AustinsPicturesAreRepeated) {
 }
 
 TEST(Reference, AustinsPicturesOfEachDepthAreRepeated) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/uw");
   for (const std::string& picture : filesUnder(kReferencePictures + "ut-w200-depth-series", ".png")) {
     const std::string stem = fs::path(picture).stem().string();
@@ -82,6 +85,7 @@ TEST(Reference, AustinsPicturesOfEachDepthAreRepeated) {
 
 /// A folder of six faces around the scene, seen directly and in mirrors.
 TEST(Reference, AustinsPicturesWithCubeMapsAreRepeated) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("reference/uw");
   const std::string maps = test::sharedFolder() + "/scenes/uw/textures/cubemaps/";
   int compared = 0;
@@ -99,6 +103,7 @@ TEST(Reference, AustinsPicturesWithCubeMapsAreRepeated) {
 }
 
 TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   // Opaque scenes without `specular`; the camera's axes are the one rule left to match.
   TRACE_NEEDS_SHARED("reference/uw");
   int compared = 0;
@@ -117,6 +122,7 @@ TEST(Reference, TheDefaultRulesAgreeWhereTheyDoNotDiffer) {
 }
 
 TEST(Reference, EverySceneLoadsAndRenders) {
+  const ReadScope allowed({test::sharedFolder() + "/scenes"});
   TRACE_NEEDS_SHARED("scenes/uw");
   int rendered = 0, refused = 0;
   for (const std::string& scene : filesUnder(test::sharedFolder() + "/scenes/uw", ".ray")) {

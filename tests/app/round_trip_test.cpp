@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/match.h"
+#include "base/read_scope.h"
 #include "formats/format.h"
 #include "support/folder.h"
 #include "support/gltf.h"
@@ -54,12 +55,14 @@ void expectSamePicture(const std::string& file, Broken broken) {
 constexpr const char* kSuffixes[] = {".ray", ".out", ".ascii", ".scene", ".iv", ".wrl"};
 
 TEST(RoundTrip, ExamplesLookTheSame) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   for (const char* suffix : kSuffixes)
     for (const std::string& file : test::filesUnder(test::sourceFolder() + "/scenes", suffix))
       expectSamePicture(file, Broken::fails);
 }
 
 TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   TRACE_NEEDS_SHARED("scenes/uw");
   for (const char* suffix : kSuffixes)
     for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes", suffix))
@@ -68,6 +71,7 @@ TEST(RoundTrip, ScenesOfTheCoursesLookTheSame) {
 
 /// Pictures that lie inside a file stand beside what it is converted to.
 TEST(RoundTrip, ScenesWithPicturesInsideLookTheSame) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   const test::Folder folder;
   const std::vector<InsideFile> pictures{{"red", test::smallPng(255, 0, 0)},
                                          {"red", test::smallPng(0, 200, 0)},
@@ -110,6 +114,7 @@ TEST(RoundTrip, ScenesWithPicturesInsideLookTheSame) {
 }
 
 TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   for (const std::string& file : test::filesUnder(test::sourceFolder() + "/scenes", ".ray")) {
     Messages messages;
     SceneText read{file, std::make_shared<const std::string>(readFile(file)), 0, {}};

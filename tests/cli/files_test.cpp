@@ -115,7 +115,8 @@ TEST_F(FilesTest, GradeSparesWhatItsScenesRead) {
   fs::create_directories(path("out")), fs::create_directories(path("ref"));
   writeGrey("land.png", 0.5), writeGrey("ref/a.png", 0.5);
   write("out/a.ray", std::string(kWhite) + "height_field { file = \"../land.png\"; }");
-  expectRefused({"grade", "out", "--reference", "ref", "--render", "-w", "8", "-o", "land.png"}, "land.png");
+  expectRefused({"grade", "out", "--reference", "ref", "--render", "--allow-read", ".", "-w", "8", "-o", "land.png"},
+                "land.png");
 }
 
 TEST_F(FilesTest, AReadOnlyPictureIsRefusedBeforeRendering) {

@@ -35,7 +35,7 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
   for (const SceneFormat& format : sceneFormats())
     formats += (formats.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
   for (const auto& [bytes, kind] : cases)
-    EXPECT_EQ(errorsOfFile(bytes), "0:0: expected a scene, found " + std::string(kind) +
+    EXPECT_EQ(errorsOfFile(bytes), "0:0: named .ray, but holds " + std::string(kind) +
                                        " [formats Trace reads: " + formats + "]");
 }
 

@@ -108,8 +108,8 @@ TEST(Obj, SaysWhereANumberIsNone) {
   EXPECT_EQ(error("v 0 0\n"), "1:1: expected 3 numbers after \"v\", found 2");
   EXPECT_EQ(error("v 0 0 1e39 # too far\n"),
             "1:7: expected a finite number of at most 3.4e38, found \"1e39\"");
-  EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3/\n"),
-            "4:7: expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"3/\"");
+  EXPECT_EQ(error("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3/x\n"),
+            "4:7: expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"3/x\"");
   EXPECT_NE(warningsOfFile("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n")
                 .find("4:1: a face of fewer than 3 points is left out"),
             std::string::npos);
@@ -117,7 +117,7 @@ TEST(Obj, SaysWhereANumberIsNone) {
 
 TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
   const test::Folder folder;
-  writeFile(folder / "a.mtl", "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nd 0\n");
+  writeFile(folder / "a.mtl", "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nillum 4\n");
   const std::string triangle = "# a comment that ends in C:\\\nv 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\n";
   const auto read = [&](const std::string& rest) {
     Messages messages;

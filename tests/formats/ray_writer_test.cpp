@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/match.h"
+#include "base/read_scope.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/sphere.h"
@@ -96,6 +97,7 @@ void expectRoundTrip(const Scene& scene, const std::string& name) {
 }
 
 TEST(RayWriter, EveryExampleRoundTrips) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   const auto files = test::filesUnder(test::sourceFolder() + "/scenes", ".ray");
   ASSERT_GE(files.size(), 10u);
   for (const std::string& file : files) {
@@ -105,6 +107,7 @@ TEST(RayWriter, EveryExampleRoundTrips) {
 }
 
 TEST(RayWriter, EverySceneOfTheCoursesRoundTrips) {
+  const ReadScope allowed({test::sharedFolder(), test::sourceFolder()});
   TRACE_NEEDS_SHARED("scenes/uw");
   std::size_t scenes = 0;
   for (const std::string& file : test::filesUnder(test::sharedFolder() + "/scenes/uw", ".ray")) {

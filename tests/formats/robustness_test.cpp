@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "formats/format.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/mesh/mesh.h"
@@ -56,6 +57,7 @@ bool survives(const std::string& file, std::string_view bytes) {
 }
 
 TEST(Robustness, ReadsItsCorpus) {
+  const ReadScope allowed({test::sourceFolder()});
   for (const File& file : corpus()) {
     EXPECT_EQ(survives(file.name, file.bytes), !file.broken) << file.name;
     for (const SceneFormat& format : sceneFormats())
@@ -99,6 +101,7 @@ std::size_t triangles(const Scene& scene) {
 }
 
 TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
+  const ReadScope allowed({test::sourceFolder()});
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.file);
     Messages messages;
@@ -113,6 +116,7 @@ TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
 
 // glTF, VRML and PLY names may hold anything; a writer must not let them become lines of its file.
 TEST(Robustness, NoNameBecomesAStatement) {
+  const ReadScope allowed({test::sourceFolder()});
   const std::string kNames[] = {"a\nv 9 9 9\nf 1 2 3",
                                 "b\r\nend_header",
                                 "c\"\n}\nsphere {\n name \"d",
@@ -165,12 +169,14 @@ TEST(Robustness, NoNameBecomesAStatement) {
 }
 
 TEST(Robustness, SurvivesTruncationAtEveryByte) {
+  const ReadScope allowed({test::sourceFolder()});
   for (const File& file : corpus())
     for (std::size_t length = 0; length < file.bytes.size(); ++length)
       survives(file.name, std::string_view(file.bytes).substr(0, length));
 }
 
 TEST(Robustness, SurvivesMutation) {
+  const ReadScope allowed({test::sourceFolder()});
   static constexpr std::string_view kBits[] = {"0",    "-1",  "1e999",      "nan", "99999999999", "\n", " ",
                                                "\xff", "255", "4000000000", "{",   "]",           "\""};
   const std::vector<File> files = corpus();
@@ -194,6 +200,7 @@ TEST(Robustness, SurvivesMutation) {
 
 // MTL files are read because an OBJ file names them.
 TEST(Robustness, SurvivesDamagedMaterials) {
+  const ReadScope allowed({test::sourceFolder()});
   const test::Folder folder;
   constexpr std::string_view kObject = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
   std::mt19937 random(5);

@@ -18,6 +18,7 @@
 #include "formats/model.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
+#include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/sphere.h"
@@ -286,21 +287,27 @@ class ComposerReader {
 
 }  // namespace
 
-bool recognisesComposer(std::string_view bytes) { return bytes.starts_with(kMagic); }
+/// The magic words are the first of the file, in letters of any case.
+bool recognisesComposer(std::string_view bytes) {
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  return sameWord(bytes.substr(0, kMagic.size()), kMagic);
+}
 
 Scene readComposer(const std::string& file, std::string_view bytes, Messages& messages) {
-  const std::string_view line = bytes.substr(0, std::min<std::size_t>(bytes.find('\n'), 80));
-  const Place place{file, 1, static_cast<int>(kMagic.size()) + 1, std::string(line)};
+  const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  const std::string_view line =
+      bytes.substr(first, std::min<std::size_t>(bytes.find('\n', first) - first, 80));
+  const Place place = placeAt(file, bytes, std::min(first + kMagic.size(), bytes.size()));
   const auto version = parseNumber(line.substr(std::min(kMagic.size() + 1, line.size())));
   if (!version || !(version->value > 0 && version->value <= 2.1))
     throw Error(Fault::scene, place,
                 "expected version 2.1 or older of the format, as in \"Composer format 2.1 ascii\"");
-  const std::size_t start = line.size() == bytes.size() ? line.size() : line.size() + 1;
+  const std::size_t end = first + line.size(), start = end == bytes.size() ? end : end + 1;
   const std::string_view kind = line.substr(std::min(line.size(), kMagic.size() + 1 + version->length));
-  if (kind.find("binary") != std::string_view::npos)
+  if (hasWord(kind, "binary"))
     return ComposerReader(file, cf::readBinary(file, bytes, start, version->value < 2.05, messages), messages)
         .read();
-  if (kind.find("ascii") == std::string_view::npos)
+  if (!hasWord(kind, "ascii"))
     throw Error(Fault::scene, place, "expected \"ascii\" or \"binary\" after the version");
   return ComposerReader(file, cf::readText(file, bytes, start, messages), messages).read();
 }

@@ -2,9 +2,12 @@
 #include <variant>
 
 #include "base/file.h"
+#include "base/named_file.h"
+#include "base/read_scope.h"
 #include "formats/format.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/model.h"
+#include "formats/text_front.h"
 
 namespace trace::inventor {
 
@@ -27,9 +30,11 @@ void Reader::include(const Values& v, State& state) {
   const std::string name(v.word(v.node().type == "Inline" ? "url" : "name", ""));
   if (name.empty())
     return warn(v.node(), std::string(v.node().type) + " names no file: nothing is brought in", "no file");
-  const auto [known, fresh] = library_.try_emplace(besideFile(document_.file(), name));
+  const auto [known, fresh] = library_.try_emplace(namedFile(document_.file(), name).path);
   if (fresh) try {
       known->second = readPart(known->first, name);
+    } catch (const ReadDenied& denied) {
+      denied.at(document_.place(v.node().token));
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
       warn(v.node(), name + " is left out: " + error.messages().front().what, name);
@@ -53,9 +58,10 @@ Scene Reader::readPart(const std::string& path, const std::string& name) {
   if (nesting_ >= kMostFiles)
     throw Error(Fault::scene, "files that name files are read 20 deep, and no deeper");
   const std::string bytes = readBeside(document_.file(), name, scene_.inputs);
+  const TextFront front(path, bytes, messages_);
   Scene part;
-  if (hasHeader(bytes)) {
-    const Document document(path, bytes, messages_);
+  if (hasHeader(front.text())) {
+    const Document document(path, front.text(), messages_);
     part = Reader(document, messages_, library_, nesting_ + 1).readPart();
     scene_.inputs.note(part.inputs);
   } else {

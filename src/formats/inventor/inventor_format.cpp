@@ -9,12 +9,14 @@ namespace trace {
 namespace inventor {
 
 Scene Reader::read() {
+  scene_.inputs.note(document_.inputs());
   walk();
   finish();
   return std::move(scene_);
 }
 
 Scene Reader::readPart() {
+  scene_.inputs.note(document_.inputs());
   walk();
   textures_.report(messages_);
   return std::move(scene_);

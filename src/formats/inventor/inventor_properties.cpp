@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/file.h"
+#include "base/named_file.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/inventor/inventor_transform.h"
 
@@ -185,11 +185,8 @@ std::string Reader::nameOf(const Values& v) const { return fileOf(v, v.has("url"
 
 std::string Reader::fileOf(const Values& v, std::string_view field) const {
   const auto& names = v.words(field);
-  std::error_code ignored;
   for (std::string_view name : names)
-    if (!name.empty() &&
-        std::filesystem::is_regular_file(pictureFile(document_.file(), std::string(name)), ignored))
-      return std::string(name);
+    if (!name.empty() && namesFile(document_.file(), std::string(name))) return std::string(name);
   return names.empty() ? std::string() : std::string(names[0]);
 }
 

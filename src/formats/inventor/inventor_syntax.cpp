@@ -4,7 +4,11 @@
 #include <map>
 #include <utility>
 
+#include "base/named_file.h"
 #include "base/nesting.h"
+#include "base/read_scope.h"
+#include "formats/text_front.h"
+#include "formats/words.h"
 
 namespace trace::inventor {
 namespace {
@@ -13,18 +17,19 @@ constexpr TokenRules kInventorTokens{
     .marks = "[]{}()|~=", .comment = '#', .commasAreBlank = true, .stringEscapes = true};
 
 Document::Version versionOf(const std::string& file, std::string_view line) {
-  const auto begins = [&](std::string_view text) { return line.starts_with(text); };
-  if (begins("#Inventor") && line.find("ascii") != std::string_view::npos) return Document::Version::inventor;
+  const auto begins = [&](std::string_view text) { return sameWord(line.substr(0, text.size()), text); };
+  const bool isBinary = hasWord(line, "binary");
+  if (begins("#Inventor") && hasWord(line, "ascii")) return Document::Version::inventor;
   if (begins("#VRML V1.0")) return Document::Version::vrml1;
   if (begins("#VRML V2.0") || begins("#X3D")) return Document::Version::vrml2;
-  const bool binary = line.find("binary") != std::string_view::npos;
   throw Error(Fault::scene, Place{file, 1, 1, std::string(line)},
-              binary ? "binary Open Inventor is not read"
-                     : "expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8",
-              binary ? "Inventor's ivcat, or any program that writes VRML, makes a text file of it" : "");
+              isBinary ? "binary Open Inventor is not read"
+                       : "expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8",
+              isBinary ? "Inventor's ivcat, or any program that writes VRML, makes a text file of it" : "");
 }
 
 std::string_view firstLine(std::string_view bytes) {
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
   return bytes.substr(0, std::min<std::size_t>(bytes.find_first_of("\r\n"), 100));
 }
 
@@ -56,17 +61,42 @@ class Parser {
       return true;
     }
     if (tokens_.skipWord("EXTERNPROTO")) {
-      const Token name = tokens_.word("EXTERNPROTO");
-      warn(name, "EXTERNPROTO " + std::string(name.text) + " is not read: its nodes are left out");
-      skipBrackets('[', ']');
-      if (tokens_.peek().isMark('['))
-        skipBrackets('[', ']');
-      else if (tokens_.peek().is(Token::Kind::string))
-        tokens_.next();
+      externProto();
       return true;
     }
     return false;
   }
+
+  /// A PROTO of another file, which the first of its names that can be read tells: "shapes.wrl#Ball", or
+  /// "shapes.wrl" for the first PROTO there.
+  void externProto() {
+    const Token name = tokens_.word("EXTERNPROTO");
+    skipBrackets('[', ']');
+    std::vector<std::string> urls;
+    const bool several = tokens_.skipMark('[');
+    while (tokens_.peek().is(Token::Kind::string)) urls.emplace_back(tokens_.next().text);
+    if (several) tokens_.mark(']', "EXTERNPROTO");
+    std::string why = "it names no file";
+    for (const std::string& url : urls) {
+      const std::size_t mark = url.find('#');
+      const std::string file = url.substr(0, mark), proto = mark == url.npos ? "" : url.substr(mark + 1);
+      try {
+        if (const Proto* found = protoOf(file, proto)) {
+          protoByName_[name.text] = found;
+          return;
+        }
+        why = file + " has none of that name";
+      } catch (const ReadDenied& denied) {
+        denied.at(tokens_.place(name));
+      } catch (const Error& error) {
+        if (error.fault() == Fault::limit) throw;
+        why = error.messages().front().what;
+      }
+    }
+    warn(name, "EXTERNPROTO " + std::string(name.text.substr(0, 40)) + ": its nodes are left out: " + why);
+  }
+
+  const Proto* protoOf(const std::string& file, const std::string& proto);
 
   void proto() {
     const Token name = tokens_.word("PROTO");
@@ -250,14 +280,54 @@ class Parser {
   int depth_ = 0, warnings_ = 0;
 };
 
-Document::Document(std::string file, std::string_view bytes, Messages& messages)
-    : version_(versionOf(file, firstLine(bytes))), tokens_(std::move(file), bytes, kInventorTokens) {
-  oldCrease_ = version_ == Version::vrml1 || bytes.starts_with("#Inventor V1");
+struct ProtoFile {
+  ProtoFile(const std::string& file, std::string text, Messages& messages, ProtoFiles* others)
+      : bytes(std::move(text)), document(file, bytes, messages, others) {}
+
+  const std::string bytes;
+  const Document document;
+};
+
+const Proto* Parser::protoOf(const std::string& file, const std::string& proto) {
+  const std::string path = namedFile(document_.file(), file).path;
+  const auto [known, fresh] = document_.protoFiles_->try_emplace(path);
+  if (fresh) {
+    std::string text = readTextBeside(document_.file(), file, document_.inputs_, messages_);
+    if (!hasHeader(text)) throw Error(Fault::scene, Place{.file = path}, path + " is no VRML file");
+    // The map may grow meanwhile, and its elements stay where they are.
+    known->second =
+        std::make_shared<const ProtoFile>(path, std::move(text), messages_, document_.protoFiles_);
+    document_.inputs_.note(known->second->document.inputs());
+  }
+  if (!known->second) throw Error(Fault::scene, path + " holds itself");
+  for (const std::unique_ptr<Proto>& one : known->second->document.protos_)
+    if (proto.empty() || one->name == proto) return one.get();
+  return nullptr;
+}
+
+Place Document::place(const Token& token) const {
+  const auto holds = [&](const Document& document) { return document.tokens_.holds(token); };
+  if (!holds(*this))
+    for (const auto& [path, file] : *protoFiles_)
+      if (file && holds(file->document)) return file->document.tokens_.place(token);
+  return tokens_.place(token);
+}
+
+Document::Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles)
+    : version_(versionOf(file, firstLine(bytes))),
+      tokens_(std::move(file), bytes, kInventorTokens),
+      ownFiles_(protoFiles ? nullptr : std::make_unique<ProtoFiles>()),
+      protoFiles_(protoFiles ? protoFiles : ownFiles_.get()) {
+  protoFiles_->try_emplace(tokens_.file());  // it cannot bring itself
+  oldCrease_ = version_ == Version::vrml1 || firstLine(bytes).starts_with("#Inventor V1");
   Parser(*this, messages).file();
 }
 
 bool hasHeader(std::string_view bytes) {
-  return bytes.starts_with("#Inventor") || bytes.starts_with("#VRML") || bytes.starts_with("#X3D");
+  const std::string_view line = firstLine(bytes);
+  for (std::string_view word : {"#Inventor", "#VRML", "#X3D"})
+    if (sameWord(line.substr(0, word.size()), word)) return true;
+  return false;
 }
 
 }  // namespace trace::inventor

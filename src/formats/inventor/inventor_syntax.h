@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 
 #include "base/error.h"
 #include "formats/tokens.h"
+#include "scene/input_files.h"
 
 namespace trace::inventor {
 
@@ -45,13 +47,18 @@ struct Proto {
   std::vector<const Node*> nodes;
 };
 
+/// A file of PROTOs that others name by EXTERNPROTO, with its text.
+struct ProtoFile;
+/// Those that a scene uses, by path, each read once; null while it is read, or if it cannot be.
+using ProtoFiles = std::map<std::string, std::shared_ptr<const ProtoFile>>;
+
 /// A parsed file; refers to the bytes it was made from.
 class Document {
  public:
   enum class Version { inventor, vrml1, vrml2 };
 
-  /// Throws Error(Fault::scene).
-  Document(std::string file, std::string_view bytes, Messages& messages);
+  /// Throws Error(Fault::scene), and ReadDenied for a file of PROTOs that may not be read.
+  Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles = nullptr);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
@@ -60,7 +67,10 @@ class Document {
   const std::vector<const Node*>& roots() const { return roots_; }
   std::size_t nodeCount() const { return nodes_.size(); }
   const std::string& file() const { return tokens_.file(); }
-  Place place(const Token& token) const { return tokens_.place(token); }
+  /// Of a token of this file, or of one whose PROTOs it uses.
+  Place place(const Token& token) const;
+  /// The files whose PROTOs it names.
+  const InputFiles& inputs() const { return inputs_; }
 
  private:
   friend class Parser;
@@ -71,6 +81,9 @@ class Document {
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<std::unique_ptr<Proto>> protos_;
   std::vector<const Node*> roots_;
+  std::unique_ptr<ProtoFiles> ownFiles_;  ///< of the scene's own file
+  ProtoFiles* protoFiles_;
+  InputFiles inputs_;
 };
 
 /// Does the file begin with the header of one of the text formats?

@@ -3,14 +3,17 @@
 #include "formats/mesh/gltf_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
-#include "base/file.h"
+#include "base/named_file.h"
+#include "base/read_scope.h"
 #include "formats/mesh/gltf_buffers.h"
 #include "formats/mesh/gltf_check.h"
 #include "formats/mesh/gltf_json.h"
 #include "formats/mesh/gltf_tree.h"
+#include "formats/mesh/gltf_unused.h"
 #include "formats/mesh/gltf_upgrade.h"
 
 #define TINYGLTF_IMPLEMENTATION
@@ -47,10 +50,20 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
 struct GltfFiles {
   std::set<std::string> read;
   InputFiles& inputs;
+  const Place& place;
+  Messages& messages;
 
-  static bool exists(const std::string& path, void*) {
+  static bool exists(const std::string& path, void* self) {
+    const GltfFiles& files = *static_cast<GltfFiles*>(self);
+    const std::string real = namedFile("", path).path;
+    if (path.starts_with("./") && !mayRead(real)) return false;  // tinygltf tries the current folder, too
+    try {
+      checkMayRead(real);
+    } catch (const ReadDenied& denied) {
+      denied.at(files.place);
+    }
     std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
+    return std::filesystem::is_regular_file(real, ignored);
   }
   static std::string expand(const std::string& path, void*) { return path; }
   static bool readWhole(std::vector<unsigned char>* to, std::string* error, const std::string& path,
@@ -61,10 +74,13 @@ struct GltfFiles {
       return false;
     }
     try {
-      const std::string bytes = readFile(path);
-      files.inputs.noteRead(path, bytes);
+      const NamedFile named = namedFile("", path);
+      if (!named.remark.empty()) files.messages.warn(files.place, named.remark);
+      const std::string bytes = readBeside("", named.path, files.inputs);
       to->assign(bytes.begin(), bytes.end());
       return true;
+    } catch (const ReadDenied& denied) {
+      denied.at(files.place);
     } catch (const Error& failure) {
       if (failure.fault() == Fault::limit) throw;
       *error = failure.messages().front().what;
@@ -77,19 +93,14 @@ struct GltfFiles {
 
 bool isBinaryGltf(std::string_view bytes) { return bytes.starts_with(kMagic); }
 
-tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const Place& place,
-                           InputFiles& inputs, Messages& messages) {
-  nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
-  std::string upgraded;
-  if (isGltf1(json)) {
-    json = upgradedGltf(json, place);
-    upgraded = upgradedGltfFile(json, bytes);
-    bytes = upgraded;
-  }
+namespace {
+
+tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, const nlohmann::json& json,
+                            const Place& place, InputFiles& inputs, Messages& messages) {
   checkGltf(json, place, messages);
   checkGltfBuffers(json, place);
   checkGltfTree(json, place);
-  GltfFiles files{{}, inputs};
+  GltfFiles files{{}, inputs, place, messages};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({GltfFiles::exists, GltfFiles::expand, GltfFiles::readWhole, nullptr, &files});
   // Only the bytes of a data URI are kept: those in a buffer lie where nobody has looked yet.
@@ -121,6 +132,43 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
   if (!good)
     throw Error(Fault::scene, place, "not a sound glTF file: " + errors.substr(0, errors.find('\n')));
   return model;
+}
+
+}  // namespace
+
+tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const Place& place,
+                           InputFiles& inputs, Messages& messages) {
+  nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
+  std::string changed;
+  if (isGltf1(json)) {
+    json = upgradedGltf(json, place);
+    changed = upgradedGltfFile(json, bytes);
+    bytes = changed;
+  }
+  Messages found;
+  const auto report = [&] {
+    for (const Message& message : found.all()) messages.warn(message.place, message.what, message.hint);
+  };
+  try {
+    tinygltf::Model model = checkedGltf(file, bytes, json, place, inputs, found);
+    report();
+    return model;
+  } catch (const ReadDenied&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.fault() != Fault::scene || dropUnusedGltf(json) == 0) throw;
+    found = {};
+    const std::string without = upgradedGltfFile(json, bytes);
+    std::optional<tinygltf::Model> model;
+    try {
+      model = checkedGltf(file, without, json, place, inputs, found);
+    } catch (const Error&) {
+    }
+    if (!model) throw;  // the first error is of the file as it is
+    messages.warn(place, error.messages().front().what + "; nothing uses it, and it is left out");
+    report();
+    return *std::move(model);
+  }
 }
 
 }  // namespace trace

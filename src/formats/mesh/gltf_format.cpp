@@ -66,6 +66,7 @@ class GltfReader {
       if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
     };
     warn("points and lines are left out", lines_);
+    warn("triangles that use points which are not there are left out", lostTriangles_);
     warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
@@ -76,6 +77,7 @@ class GltfReader {
  private:
   /// Each byte may be used so often, in this many meshes: a small file must not become a huge scene.
   static constexpr std::uint64_t kMostUses = 100;
+  static constexpr std::uint32_t kNoPoint = 0xffffffff;
 
   [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place_, std::move(what)); }
 
@@ -204,8 +206,13 @@ class GltfReader {
     for (std::size_t i = 2; i < corners.size(); i += triangles ? 3 : 1) {
       const bool turned = strip && i % 2 == 1;
       const std::uint32_t a = corners[fan ? 0 : i - 2], b = corners[i - 1], c = corners[i];
-      mesh.triangles.push_back({turned ? b : a, turned ? a : b, c});
+      if (a != kNoPoint && b != kNoPoint && c != kNoPoint)
+        mesh.triangles.push_back({turned ? b : a, turned ? a : b, c});
+      else
+        ++lostTriangles_;
     }
+    if (mesh.triangles.empty() && !wrongCorner_.empty()) fail(wrongCorner_);
+    mesh.twoSided = isTwoSided(primitive.material);
     repairs_.check(mesh, place_);
     return mesh;
   }
@@ -221,11 +228,20 @@ class GltfReader {
     for (std::size_t i = 0; i < from.count(); ++i) {
       const double corner = from.number(i, 0);
       if (!(corner >= 0 && corner < static_cast<double>(points)))
-        fail("a triangle uses point " + toText(corner) + ", but the mesh has " + counted(points, "point") +
-             ", counted from 0");
-      corners.push_back(static_cast<std::uint32_t>(corner));
+        wrongCorner_ = "a triangle uses point " + toText(corner) + ", but the mesh has " +
+                       counted(points, "point") + ", counted from 0";
+      const bool isThere = corner >= 0 && corner < static_cast<double>(points);
+      corners.push_back(isThere ? static_cast<std::uint32_t>(corner) : kNoPoint);
     }
     return corners;
+  }
+
+  /// Both sides of what light passes into are different.
+  bool isTwoSided(int material) const {
+    if (!isIndex(material, gltf_.materials.size())) return false;
+    const tinygltf::Material& of = gltf_.materials[static_cast<std::size_t>(material)];
+    return of.doubleSided && !of.extensions.contains("KHR_materials_transmission") &&
+           !of.extensions.contains("KHR_materials_volume");
   }
 
   void readUvs(const tinygltf::Primitive& primitive, MeshData& mesh) {
@@ -273,6 +289,8 @@ class GltfReader {
   MeshRepairs repairs_;
   GltfLooks looks_;
   std::size_t lines_ = 0;  ///< primitives that are no triangles
+  std::size_t lostTriangles_ = 0;
+  std::string wrongCorner_;  ///< what is wrong with the last triangle that was lost
   std::size_t withoutUvs_ = 0;
   std::size_t leftOver_ = 0;  ///< corners that make no triangle
   std::size_t flat_ = 0;      ///< objects that their transform makes flat

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "base/field.h"
 #include "formats/mesh/obj_words.h"
+#include "formats/words.h"
 
 namespace trace {
 namespace {
@@ -83,32 +85,73 @@ const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
 
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 40)) + "\""; }
 
-/// Calls option(row, word, words) for each option of a map, and returns the name of the picture after them.
+/// What an option of a single word can be told.
+bool isOptionValue(std::string_view word) {
+  constexpr std::array<std::string_view, 19> kValues{
+      "on",         "off",       "r",         "g",          "b",      "m",        "l",
+      "z",          "sRGB",      "srgb",      "linear",     "sphere", "cube_top", "cube_bottom",
+      "cube_front", "cube_back", "cube_left", "cube_right", "Linear"};
+  return isFloat(word) || listed(kValues, word);
+}
+
+/// Calls option(row, word, words) for each of the options that the words begin with, and leaves the rest.
 template <class Visit>
-std::string_view pictureOf(LineWords words, Visit&& visit) {
+void takeOptions(LineWords& words, Visit&& visit) {
   while (words.peek().starts_with('-')) {
     const MapOption* option = rowOf(kMapOptions, words.peek());
-    if (!option) break;
+    if (!option) return;
     const std::string_view key = words.next();
     std::vector<std::string_view> values;
     for (int i = 0; i < option->words && (option->words == 1 || isFloat(words.peek())); ++i)
       values.push_back(words.next());
     visit(*option, key, values);
   }
-  return words.rest();
+}
+
+/// Where the options begin that some programs write after the name: all from there on are options with values
+/// that they can have. The length of the text if there are none.
+std::size_t optionsAfter(std::string_view text) {
+  for (std::size_t at = text.find(" -"); at != text.npos; at = text.find(" -", at + 1)) {
+    LineWords words(text.substr(at));
+    bool good = true;
+    takeOptions(words, [&](const MapOption&, std::string_view, const std::vector<std::string_view>& values) {
+      good = good && !values.empty() && std::all_of(values.begin(), values.end(), isOptionValue);
+    });
+    if (good && words.rest().empty()) return at;
+  }
+  return text.size();
+}
+
+/// Calls option(row, word, words) for each option of a map, and returns the name of the picture between them.
+template <class Visit>
+std::string_view pictureOf(LineWords words, Visit&& visit) {
+  takeOptions(words, visit);
+  const std::string_view rest = words.rest();
+  const std::size_t end = optionsAfter(rest);
+  LineWords after(rest.substr(end));
+  takeOptions(after, visit);
+  return LineWords(rest.substr(0, end)).rest();
 }
 
 class MtlCheck {
  public:
   /// `lines` are the text with continued lines made one.
   MtlCheck(const std::string& file, std::string_view text, std::string_view lines, UnusedTextures& textures,
-           WarningsByKind& warnings)
-      : file_(file), text_(text), lines_(lines), textures_(textures), warnings_(warnings) {}
+           std::map<std::string, Place, std::less<>>& pictures, WarningsByKind& warnings)
+      : file_(file),
+        text_(text),
+        lines_(lines),
+        textures_(textures),
+        pictures_(pictures),
+        warnings_(warnings) {}
 
   void line(std::string_view line) {
-    if (LineWords(line).next() == "newmtl") endMaterial();
-    check(line);
-    plain_ += plainOf(line);
+    LineWords words(line);
+    const std::string_view written = words.next(), key = keyword(written);
+    if (key == "newmtl") endMaterial();
+    check(written, key, words);
+    noteOpacity(written, key, words);
+    plain_ += plainOf(line, key, words);
     plain_ += '\n';
   }
   /// The lines checked so far, for tinyobjloader.
@@ -127,22 +170,61 @@ class MtlCheck {
     for (const auto& [map, constant] : kConstants)
       if (given_.contains(map) && !given_.contains(constant.substr(0, 2))) plain_ += constant;
     given_.clear();
+    endOpacity();
+  }
+
+  /// In the letters of the specification, where it is known in those or others: KD, Map_Kd.
+  static std::string_view keyword(std::string_view written) {
+    if (written.empty() || written[0] == '#' || rowOf(kNumbers, written) || listed(kMaps, written))
+      return written;
+    if (sameWord(written, "newmtl")) return "newmtl";
+    for (const Numbers& row : kNumbers)
+      if (sameWord(row.key, written)) return row.key;
+    for (std::string_view map : kMaps)
+      if (sameWord(map, written)) return map;
+    return written;
+  }
+
+  // --- what light a material lets through ---
+
+  void noteOpacity(std::string_view at, std::string_view key, LineWords words) {
+    if (key != "d" && key != "Tr") return;
+    std::string_view word = words.next();
+    if (word == "-halo") word = words.next();
+    const auto number = parseNumber(word);
+    if (!number) return;
+    (key == "d" ? dissolve_ : transparency_) = number->value;
+    opacityAt_ = at;
+  }
+  /// Programs disagree whether Tr is the transparency or its opposite, and many write d 0 for nothing at all:
+  /// a material that nobody could see is taken to be opaque where its lines leave that open.
+  void endOpacity() {
+    const bool onlyTr = !dissolve_ && transparency_ == 1;
+    const bool contradict = dissolve_ == 0 && transparency_ == 0;
+    if (onlyTr || contradict) {
+      warn(opacityAt_, onlyTr ? "Tr 1 without d would make the material invisible: it is read as opaque"
+                              : "d 0 and Tr 0 contradict each other: the material is read as opaque");
+      plain_ += "d 1\n";
+    } else if (dissolve_ == 0) {
+      warn(opacityAt_, "d 0 lets all light through the material: it is invisible, but for its highlights");
+    }
+    dissolve_.reset();
+    transparency_.reset();
+    opacityAt_ = {};
   }
 
   /// `Kd 0.5` as `Kd 0.5 0.5 0.5`, and so all colours; options of a texture with all their numbers; other
   /// lines as they are.
-  static std::string plainOf(std::string_view line) {
-    LineWords words(line);
-    const std::string_view key = words.next();
+  static std::string plainOf(std::string_view line, std::string_view key, LineWords words) {
     if (listed(kMaps, key)) return plainMap(key, words);
     const Numbers* row = rowOf(kNumbers, key);
+    if (!row && key != "newmtl") return std::string(line);
+    const std::string rest(words.rest());
     const std::string_view first = words.next(), second = words.next();
-    std::string text(line);
-    const bool isOne = row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#');
-    if (isOne)
-      text = std::string(row->key) + ' ' + std::string(first) + ' ' + std::string(first) + ' ' +
+    if (row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#'))
+      return std::string(key) + ' ' + std::string(first) + ' ' + std::string(first) + ' ' +
              std::string(first);
-    return text;
+    return std::string(key) + ' ' + rest;
   }
 
   static std::string plainMap(std::string_view key, const LineWords& words) {
@@ -157,18 +239,17 @@ class MtlCheck {
     return text + ' ' + std::string(picture);
   }
 
-  void check(std::string_view line) {
-    LineWords words(line);
-    const std::string_view key = words.next();
+  /// `key` is the keyword as the specification writes it, `at` as the line does.
+  void check(std::string_view at, std::string_view key, LineWords words) {
     if (key.empty() || key[0] == '#') return;
-    if (key == "newmtl") return newMaterial(key, words);
+    if (key == "newmtl") return newMaterial(at, words);
     given_.insert(key);
     if (!inMaterial_)
-      warn(key, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
-    if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, key, words);
-    if (listed(kMaps, key)) return map(key, words);
+      warn(at, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
+    if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, at, words);
+    if (listed(kMaps, key)) return map(at, key, words);
     if (key == "map_aat") return;
-    warn(key, quoted(key) + " is not known and is skipped");
+    warn(at, quoted(key) + " is not known and is skipped");
   }
 
   void warn(std::string_view at, std::string what, std::string_view kind = {}) {
@@ -184,11 +265,11 @@ class MtlCheck {
   }
 
   void numbers(const Numbers& row, std::string_view key, LineWords words) {
-    const std::string name(key);
+    const std::string name(row.key);
     int count = 0;
     for (std::string_view word = words.next(); !word.empty() && word[0] != '#';
          word = words.next(), ++count) {
-      if (key == "d" && word == "-halo") {
+      if (row.key == "d" && word == "-halo") {
         --count;
         continue;
       }
@@ -210,33 +291,41 @@ class MtlCheck {
            "count of " + name);
   }
 
-  void map(std::string_view key, LineWords words) {
+  void map(std::string_view at, std::string_view key, LineWords words) {
     const std::string_view picture =
         pictureOf(words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>&) {
           if (!listed(kMapOptionsUsed, name))
             warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
         });
-    if (picture.empty()) return warn(key, std::string(key) + ": expected the name of a picture");
+    if (picture.empty()) return warn(at, std::string(key) + ": expected the name of a picture");
+    if (pictures_.find(picture) == pictures_.end()) {
+      Place where = place(picture);
+      where.text.clear();
+      pictures_.emplace(picture, std::move(where));
+    }
     if (listed(kRendered, key)) return;
-    textures_.note(picture, textures_.empty() ? place(key) : Place());
+    textures_.note(picture, textures_.empty() ? place(at) : Place());
   }
 
   const std::string& file_;
   std::string_view text_, lines_;
   std::string plain_;
   UnusedTextures& textures_;
+  std::map<std::string, Place, std::less<>>& pictures_;
   WarningsByKind& warnings_;
-  std::set<std::string_view> given_;  ///< keywords of the material so far
+  std::set<std::string_view> given_;               ///< keywords of the material so far
+  std::optional<double> dissolve_, transparency_;  ///< d and Tr
+  std::string_view opacityAt_;                     ///< the last of them
   bool inMaterial_ = false;
 };
 
 }  // namespace
 
 std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
-                       WarningsByKind& warnings) {
+                       std::map<std::string, Place, std::less<>>& pictures, WarningsByKind& warnings) {
   std::string room;
   const std::string_view lines = joinedLines(text, room);
-  MtlCheck checker(file, text, lines, textures, warnings);
+  MtlCheck checker(file, text, lines, textures, pictures, warnings);
   forEachLine(lines, [&](std::string_view line) { checker.line(line); });
   return checker.plain();
 }

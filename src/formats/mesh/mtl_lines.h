@@ -1,6 +1,8 @@
 // What the lines of a material file of an OBJ say that its reader, tinyobj, passes over in silence.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -9,11 +11,12 @@
 
 namespace trace {
 
-/// Notes the textures that are not rendered, and warns of lines that are not known, of what should be a
-/// number and is none, and of numbers out of their range. Returns the text as tinyobj can read it: continued
-/// lines are one, a colour of one number has three, options of a texture have all their numbers, and what a
-/// texture multiplies is white where the material does not say it. Linear in the text.
+/// Notes the textures that are not rendered, where each picture is named first, and warns of lines that are
+/// not known, of what should be a number and is none, and of numbers out of their range. Returns the text as
+/// tinyobj can read it: continued lines are one, a colour of one number has three, options of a texture have
+/// all their numbers, and what a texture multiplies is white where the material does not say it. Linear in
+/// the text.
 std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
-                       WarningsByKind& warnings);
+                       std::map<std::string, Place, std::less<>>& pictures, WarningsByKind& warnings);
 
 }  // namespace trace

@@ -1,22 +1,27 @@
-// tinyobjloader takes the lines apart; here corners become points, and faces triangles, as they come. (Its
-// own shapes hold at most 255 corners of a face.)
+// The lines of an OBJ, read once: corners become points, and faces triangles, as they come. What is wrong in
+// a line costs the faces that use it, and no more. Source: the Object Files of Wavefront's Advanced
+// Visualizer, appendix B1.
 #include "formats/mesh/obj_format.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "base/file.h"
+#include "base/budget.h"
 #include "base/text.h"
 #include "base/unique.h"
-#include "formats/mesh/obj_lines.h"
 #include "formats/mesh/obj_material.h"
 #include "formats/mesh/obj_words.h"
 #include "formats/warnings.h"
+#include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 
@@ -34,6 +39,8 @@ struct Corner {
 /// The faces of one name and material.
 struct Part {
   std::string name;
+  std::string_view materialName;  ///< as the line says it
+  std::size_t number = 0;         ///< among the parts
   std::uint32_t material = Model::kNoMaterial;
   Unique<Corner> corners;
   MeshData mesh;
@@ -52,54 +59,200 @@ float whiteOf(const std::vector<Vec3f>& colors) {
   return most > 2 ? 255 : 1;
 }
 
+/// Keywords of the format, in lower case.
+constexpr std::array<std::string_view, 2> kThin{"l", "p"};
+constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
+/// What belongs to curves and surfaces, which are reported by themselves, or says nothing that a picture
+/// shows.
+constexpr std::array<std::string_view, 26> kSilent{
+    "s",          "vp",        "cstype", "deg",   "bmat",   "step",   "parm",     "trim",     "hole",
+    "scrv",       "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",
+    "shadow_obj", "trace_obj", "ctech",  "stech", "maplib", "usemap", "csh",      "call"};
+
+/// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
+struct CornerNumbers {
+  std::int64_t point = 0, uv = 0, normal = 0;
+};
+
+/// 7, 7/8, 7//9 or 7/8/9, each perhaps negative, and with slashes behind that say nothing; nothing of another
+/// form. A point's number may be too large for any file, and is then as large as can be.
+std::optional<CornerNumbers> cornerOf(std::string_view word) {
+  CornerNumbers corner;
+  for (std::int64_t* number : {&corner.point, &corner.uv, &corner.normal}) {
+    const bool isPoint = number == &corner.point;
+    if (word.empty()) return isPoint ? std::nullopt : std::optional(corner);
+    const bool negative = word[0] == '-';
+    if (negative || word[0] == '+') word.remove_prefix(1);
+    std::size_t digits = 0;
+    for (; digits < word.size() && word[digits] >= '0' && word[digits] <= '9'; ++digits)
+      *number = std::min<std::int64_t>(*number * 10 + (word[digits] - '0'), std::int64_t{1} << 40);
+    if (isPoint ? digits == 0 : digits > 9) return {};
+    if (negative) *number = -*number;
+    word.remove_prefix(digits);
+    if (word.empty()) return corner;
+    if (word[0] != '/') return {};
+    word.remove_prefix(1);
+  }
+  return word.empty() ? std::optional(corner) : std::nullopt;
+}
+
+/// The index from 0 of what the file counts from 1, or backwards from -1; nothing if there is none yet.
+std::optional<std::int32_t> absolute(std::int64_t number, std::size_t count) {
+  const auto n = static_cast<std::int64_t>(count);
+  const std::int64_t result = number > 0 ? number - 1 : n + number;
+  if (number == 0 || result < 0 || result >= n) return {};
+  return static_cast<std::int32_t>(result);
+}
+
+/// Without the comment, which may follow on numbers.
+std::string_view withoutComment(std::string_view text) { return text.substr(0, text.find('#')); }
+
 class ObjReader {
  public:
   ObjReader(const std::string& file, std::string_view bytes, Messages& messages)
       : file_(file), place_{file, 0, 0, {}}, bytes_(bytes), messages_(messages) {}
 
   Model read() {
-    std::string room;
-    const std::string_view lines = joinedLines(bytes_, room);
-    names_ = checkObjLines(file_, bytes_, lines, warnings_);
-    colorScale_ = whiteOf(names_.colors);
-    tinyobj::callback_t calls;
-    calls.vertex_cb = [](void* self, float x, float y, float z, float) {
-      of(self).points_.push_back({x, y, z});
-    };
-    calls.normal_cb = [](void* self, float x, float y, float z) { of(self).normals_.push_back({x, y, z}); };
-    calls.texcoord_cb = [](void* self, float u, float v, float) { of(self).uvs_.push_back({u, v}); };
-    calls.index_cb = [](void* self, tinyobj::index_t* indices, int count) {
-      of(self).face({indices, static_cast<std::size_t>(count)});
-    };
-    calls.usemtl_cb = [](void* self, const char* name, int material) {
-      of(self).useMaterial(name, material);
-    };
-    calls.group_cb = [](void* self, const char** names, int count) {
-      std::string all;
-      for (int i = 0; i < count; ++i) all += (i ? " " : "") + std::string(names[i]);
-      of(self).useName(std::move(all));
-    };
-    calls.object_cb = [](void* self, const char* name) { of(self).useName(name); };
-
-    ByteStream stream(lines);
-    std::string warnings, errors;
-    if (!tinyobj::LoadObjWithCallback(stream, calls, this, &materials_, &warnings, &errors))
-      throw Error(Fault::scene, place_, "expected an OBJ mesh: " + errors);
+    lines_ = joinedLines(bytes_, room_);
+    forEachLine(lines_, [&](std::string_view text) {
+      checkBudget();
+      line(text);
+    });
+    for (const LateFace& late : late_) {
+      part_ = parts_[late.part].get();
+      face(late.corners, late.words);
+    }
     finish();
     return std::move(model_);
   }
 
  private:
-  static ObjReader& of(void* self) { return *static_cast<ObjReader*>(self); }
+  /// A face that uses points which the file gives later.
+  struct LateFace {
+    std::size_t part;
+    std::vector<CornerNumbers> corners;
+    std::vector<std::string_view> words;
+  };
 
-  void useName(std::string name) {
-    name_ = std::move(name);
+  // --- lines ---
+
+  void line(std::string_view text) {
+    LineWords words(text);
+    const std::string_view key = words.next();
+    if (key.empty() || key[0] == '#') return;
+    if (!statement(key, key, words, text)) {
+      std::string lower(key.substr(0, 20));  // as old programs write all in capitals
+      for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+      if (lower == key || !statement(lower, key, words, text))
+        warn(key, "\"" + std::string(key.substr(0, 40)) + "\" is not known and is skipped");
+    }
+  }
+
+  /// False if the keyword is not known. `at` is where it stands.
+  bool statement(std::string_view key, std::string_view at, const LineWords& words, std::string_view text) {
+    if (key == "v")
+      point(text, words);
+    else if (key == "vn")
+      normals_.push_back(vector<3>(text, words, "vn", 3));
+    else if (key == "vt")
+      uv(text, words);
+    else if (key == "f")
+      faceLine(at, words);
+    else if (key == "usemtl")
+      useMaterial(at, words);
+    else if (key == "o" || key == "g")
+      useName(words);
+    else if (key == "mtllib")
+      materialFiles_.push_back(LineWords(words).rest());
+    else if (listed(kThin, key))
+      warn(at, "points and lines are left out");
+    else if (listed(kCurved, key))
+      warn(at, "curves and surfaces are left out");
+    else
+      return listed(kSilent, key);
+    return true;
+  }
+
+  /// Its numbers, of which there may be up to `most` and must be `least`; how many there are. What is no
+  /// number is NaN, which costs the faces that use it.
+  template <std::size_t N>
+  std::size_t numbers(std::string_view text, LineWords words, std::string_view key, std::size_t least,
+                      std::array<float, N>& to) {
+    words = LineWords(withoutComment(words.left()));
+    std::size_t count = 0;
+    bool good = true;
+    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+      if (count >= N) {
+        warn(text, std::string(key) + ": expected at most " + std::to_string(N) +
+                       " numbers, found more; they are ignored");
+        break;
+      }
+      const auto number = parseNumber(word);
+      const bool fits = number && number->length == word.size() &&
+                        std::abs(number->value) <= std::numeric_limits<float>::max();
+      if (fits) {
+        to[count] = static_cast<float>(number->value);
+        continue;
+      }
+      if (good) lose(word, notAFloat(word), leftOut(key));
+      good = false;
+    }
+    if (count < least && good)
+      lose(text,
+           "expected " + std::to_string(least) + " numbers after \"" + std::string(key) + "\", found " +
+               std::to_string(count),
+           leftOut(key));
+    if (!good || count < least) to.fill(std::numeric_limits<float>::quiet_NaN());
+    return std::min(count, N);
+  }
+  static std::string leftOut(std::string_view key) {
+    return key == "v" ? "faces that use the point are left out" : "it is left out";
+  }
+
+  template <std::size_t N>
+  Vec3f vector(std::string_view text, const LineWords& words, std::string_view key, std::size_t least) {
+    std::array<float, N> n{};
+    numbers(text, words, key, least, n);
+    return {n[0], n[1], n[2]};
+  }
+
+  /// Three numbers, perhaps with a weight or a colour or both.
+  void point(std::string_view text, const LineWords& words) {
+    std::array<float, 7> n{};
+    const std::size_t count = numbers(text, words, "v", 3, n);
+    if (count >= 6) {  // the last three; points before it that have none are white
+      colors_.resize(points_.size(), {1, 1, 1});
+      colors_.push_back({n[count - 3], n[count - 2], n[count - 1]});
+    } else if (!colors_.empty()) {
+      colors_.push_back({1, 1, 1});
+    }
+    if (count == 5) warn(text, "v: expected 3 numbers, found 5; the last two are ignored");
+    points_.push_back({n[0], n[1], n[2]});
+  }
+
+  void uv(std::string_view text, const LineWords& words) {
+    std::array<float, 3> n{};
+    numbers(text, words, "vt", 1, n);
+    uvs_.push_back({n[0], n[1]});
+  }
+
+  void useMaterial(std::string_view at, LineWords words) {
+    material_ = words.rest();
+    part_ = nullptr;
+    if (material_.empty()) return warn(at, "usemtl: expected the name of a material");
+    names_.try_emplace(material_, static_cast<std::size_t>(material_.data() - lines_.data()));
+  }
+
+  /// The words of the line with one blank between.
+  void useName(LineWords words) {
+    name_.clear();
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      name_ += (name_.empty() ? "" : " ") + std::string(word);
     part_ = nullptr;
   }
-  void useMaterial(const char* name, int material) {
-    material_ = materials_.numberOf(name, material);
-    part_ = nullptr;
-  }
+
+  // --- faces ---
 
   Part& part() {
     if (part_) return *part_;
@@ -107,44 +260,66 @@ class ObjReader {
     if (fresh) {
       parts_.push_back(std::make_unique<Part>());
       parts_.back()->name = name_;
-      parts_.back()->material = material_;
+      parts_.back()->materialName = material_;
+      parts_.back()->number = found->second;
     }
     return *(part_ = parts_[found->second].get());
   }
 
-  void face(std::span<const tinyobj::index_t> corners) {
-    ++faces_;
-    Part& to = part();
-    face_.clear();
-    for (const tinyobj::index_t& index : corners) {
-      const auto point = absolute(index.vertex_index, points_.size());
-      if (!point)
-        throw Error(Fault::scene, place_,  // said before, unless lines end otherwise for tinyobjloader
-                    "face " + std::to_string(faces_) + " uses point " + std::to_string(index.vertex_index) +
-                        ", but there " + (points_.size() == 1 ? "is " : "are ") +
-                        counted(points_.size(), "point") + " so far");
-      face_.push_back(corner(to, {*point, optional(index.texcoord_index, uvs_.size()),
-                                  optional(index.normal_index, normals_.size())}));
+  void faceLine(std::string_view at, LineWords words) {
+    words = LineWords(withoutComment(words.left()));
+    corners_.clear();
+    cornerWords_.clear();
+    bool isLate = false;  // it uses a point that the file has not given yet
+    for (std::string_view word = words.next(); !word.empty() && word[0] != ';'; word = words.next()) {
+      if (word.ends_with(';')) word.remove_suffix(1);
+      const std::optional<CornerNumbers> corner = cornerOf(word);
+      if (!corner)
+        return lose(word,
+                    "expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"" +
+                        std::string(word.substr(0, 40)) + "\"",
+                    "the face is left out", {}, "corner");
+      corners_.push_back(*corner);
+      cornerWords_.push_back(word);
+      isLate = isLate || corner->point > static_cast<std::int64_t>(points_.size());
     }
-    appendPolygon(to.mesh, face_);
+    if (corners_.size() < 3) return warn(at, "a face of fewer than 3 points is left out");
+    if (isLate) {
+      for (CornerNumbers& c : corners_) {  // what counts backwards counts from here
+        const auto fixed = [](std::int64_t n, std::size_t count) {
+          return n < 0 ? std::max<std::int64_t>(n + static_cast<std::int64_t>(count) + 1, 0) : n;
+        };
+        c = {fixed(c.point, points_.size()), fixed(c.uv, uvs_.size()), fixed(c.normal, normals_.size())};
+      }
+      late_.push_back({part().number, corners_, cornerWords_});
+      return;
+    }
+    face(corners_, cornerWords_);
   }
 
-  /// The index from 0 of what the file counts from 1, or backwards from -1.
-  static std::optional<std::int32_t> absolute(int index, std::size_t count) {
-    const auto n = static_cast<std::int64_t>(count);
-    const std::int64_t result = index > 0 ? index - std::int64_t{1} : n + index;
-    if (index == 0 || result < 0 || result >= n) return {};
-    return static_cast<std::int32_t>(result);
-  }
-  static std::int32_t optional(int index, std::size_t count) { return absolute(index, count).value_or(-1); }
-
-  /// The number of the point's colour times that of the part's material.
-  std::uint32_t colorNumber(const Part& part, std::size_t point) {
-    const bool hasMaterial = part.material != Model::kNoMaterial;
-    const Color base = hasMaterial ? paintedColor(model_.materials[part.material].model) : Color(1);
-    const Vec3f& c = names_.colors[point];
-    const auto channel = [&](float x, Real of) { return static_cast<float>(x / colorScale_ * of); };
-    return colors_.number({channel(c.x, base.r), channel(c.y, base.g), channel(c.z, base.b)});
+  /// Adds it to the part that is current. The words are those of its corners.
+  void face(std::span<const CornerNumbers> corners, std::span<const std::string_view> words) {
+    Part& to = part();
+    found_.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const CornerNumbers& corner = corners[i];
+      const auto point = absolute(corner.point, points_.size());
+      if (!point)
+        return lose(words[i],
+                    "the face uses point " +
+                        std::string(words[i].substr(0, std::min(words[i].find('/'), 40ul))) + ", but there " +
+                        (points_.size() == 1 ? "is " : "are ") + counted(points_.size(), "point"),
+                    "it is left out", "points are counted from 1, or backwards from -1", "point");
+      const Vec3f& p = points_[static_cast<std::size_t>(*point)];
+      if (!isFinite(Vec3(p))) return;  // the line of the point has its warning
+      const auto uv = absolute(corner.uv, uvs_.size()), normal = absolute(corner.normal, normals_.size());
+      if ((corner.uv != 0 && !uv) || (corner.normal != 0 && !normal))
+        warn(words[i], "normals or uv that the file does not have are left out");
+      found_.push_back({*point, uv.value_or(-1), normal.value_or(-1)});
+    }
+    numbered_.clear();
+    for (const Corner& corner : found_) numbered_.push_back(this->corner(to, corner));
+    appendPolygon(to.mesh, numbered_);
   }
 
   std::uint32_t corner(Part& to, const Corner& corner) {
@@ -152,7 +327,6 @@ class ObjReader {
     if (number < to.mesh.points.size()) return number;
     const auto at = [](std::int32_t index) { return static_cast<std::size_t>(index); };
     to.mesh.points.push_back(points_[at(corner.point)]);
-    if (!names_.colors.empty()) to.mesh.materials.push_back(colorNumber(to, at(corner.point)));
     to.mesh.normals.push_back(corner.normal < 0 ? Vec3f{} : normals_[at(corner.normal)]);
     to.mesh.uvs.push_back(corner.uv < 0 ? Vec2{} : uvs_[at(corner.uv)]);
     to.hasNormals |= corner.normal >= 0;
@@ -160,9 +334,22 @@ class ObjReader {
     return number;
   }
 
+  // --- the whole ---
+
   void finish() {
-    for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
+    for (const std::string_view names : materialFiles_)
+      materials_.read(names, static_cast<std::size_t>(names.data() - lines_.data()));
+    for (const auto& part : parts_) part->material = materials_.numberOf(part->materialName);
+    if (!colors_.empty()) {
+      colors_.resize(points_.size(), {1, 1, 1});
+      colorScale_ = whiteOf(colors_);
+      for (const auto& part : parts_) paint(*part);
+    }
+    for (const Vec3f& color : palette_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     materials_.report();
+    const bool empty = std::all_of(parts_.begin(), parts_.end(),
+                                   [](const auto& part) { return part->mesh.triangles.empty(); });
+    if (empty && lost_) throw Error(Fault::scene, lost_->place, lost_->what, lost_->hint);
     warnings_.report(messages_);
     Box3 box;
     for (const Vec3f& point : points_)
@@ -183,25 +370,58 @@ class ObjReader {
     repairs_.report(place_, messages_);
   }
 
+  /// The colours of its points times that of its material.
+  void paint(Part& part) {
+    const bool hasMaterial = part.material != Model::kNoMaterial;
+    const Color base = hasMaterial ? paintedColor(model_.materials[part.material].model) : Color(1);
+    const auto channel = [&](float x, Real of) { return static_cast<float>(x / colorScale_ * of); };
+    for (const Corner& corner : part.corners.keys()) {
+      const Vec3f& c = colors_[static_cast<std::size_t>(corner.point)];
+      part.mesh.materials.push_back(
+          palette_.number({channel(c.x, base.r), channel(c.y, base.g), channel(c.z, base.b)}));
+    }
+  }
+
+  void warn(std::string_view at, std::string what) {
+    if (!warnings_.again(what)) warnings_.warn(place(at), std::move(what));
+  }
+  /// Something that costs a face, or faces that use it.
+  void lose(std::string_view at, const std::string& what, const std::string& consequence,
+            std::string hint = {}, std::string_view kind = {}) {
+    if (!lost_) lost_ = Message{Message::Severity::error, place(at), what, hint};
+    if (!warnings_.again(kind.empty() ? what : kind))
+      warnings_.warn(place(at), what + "; " + consequence, std::move(hint), kind.empty() ? what : kind);
+  }
+  Place place(std::string_view at) const {
+    return placeAt(file_, bytes_, static_cast<std::size_t>(at.data() - lines_.data()));
+  }
+
   const std::string& file_;
   Place place_;
-  std::string_view bytes_;
+  std::string_view bytes_, lines_;
+  std::string room_;
   Messages& messages_;
   WarningsByKind warnings_;
-  ObjNames names_;
-  float colorScale_ = 1;  ///< what white is in the colours of points
-  Unique<Vec3f> colors_;
+  float colorScale_ = 1;       ///< what white is in the colours of points
+  std::vector<Vec3f> colors_;  ///< one for each point, or none at all
+  Unique<Vec3f> palette_;
   std::vector<Vec3f> points_, normals_;
   std::vector<Vec2> uvs_;
   std::string name_;
-  std::uint32_t material_ = Model::kNoMaterial;
-  std::map<std::pair<std::string, std::uint32_t>, std::size_t> numbers_;  ///< of parts
+  std::string_view material_;
+  std::map<std::pair<std::string, std::string_view>, std::size_t> numbers_;  ///< of parts
   std::vector<std::unique_ptr<Part>> parts_;
   Part* part_ = nullptr;  ///< that of name_ and material_, once known
-  std::vector<std::uint32_t> face_;
+  std::vector<CornerNumbers> corners_;
+  std::vector<std::string_view> cornerWords_;
+  std::vector<Corner> found_;
+  std::vector<std::uint32_t> numbered_;
+  std::vector<LateFace> late_;
+  std::vector<std::string_view> materialFiles_;  ///< all that a line names, as one
   MeshRepairs repairs_;
-  std::size_t faces_ = 0;
+  std::optional<Message> lost_;  ///< the first that costs a face
   Model model_;
+  ObjMaterials::Names names_;
   ObjMaterials materials_{file_, bytes_, names_, model_, warnings_, messages_};
 };
 
@@ -210,19 +430,23 @@ class ObjReader {
 bool recognisesObj(std::string_view bytes) {
   constexpr std::array<std::string_view, 12> kKeywords{"v", "vn", "vt", "vp",     "f",      "l",
                                                        "o", "g",  "s",  "usemtl", "mtllib", "cstype"};
-  std::string_view rest = bytes;
-  while (!rest.empty()) {
-    const std::size_t start = rest.find_first_not_of(" \t\r\n");
-    if (start == std::string_view::npos) return false;
-    rest.remove_prefix(start);
-    if (rest[0] != '#') break;
-    rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
+  std::string_view first;
+  forEachLine(bytes.substr(0, 1 << 16), [&](std::string_view line) {
+    if (const std::string_view word = LineWords(line).next(); first.empty() && !word.starts_with('#'))
+      first = word;
+  });
+  const auto isFirst = [&](std::string_view keyword) { return sameWord(first, keyword); };
+  return std::any_of(kKeywords.begin(), kKeywords.end(), isFirst) && mayBeObj(bytes);
+}
+
+bool mayBeObj(std::string_view bytes) {
+  for (std::size_t start = 0; start < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', start), bytes.size());
+    LineWords words(bytes.substr(start, end - start));
+    if (sameWord(words.next(), "v") && parseNumber(words.next())) return true;
+    start = end + 1;
   }
-  const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
-  if (std::find(kKeywords.begin(), kKeywords.end(), word) == kKeywords.end()) return false;
-  for (const char* vertex : {"\nv ", "\nv\t"})
-    if (rest.find(vertex) != std::string_view::npos) return true;
-  return word == "v";
+  return false;
 }
 
 Model readObj(const std::string& file, std::string_view bytes, Messages& messages) {

@@ -11,6 +11,8 @@ namespace trace {
 
 /// Is the first line that is no comment one of an OBJ file, and is there a vertex?
 bool recognisesObj(std::string_view bytes);
+/// Is any line a point?
+bool mayBeObj(std::string_view bytes);
 
 /// One object for each group or object and material. Material files are looked for beside the file; without
 /// them there is a warning. Throws Error(Fault::scene).

@@ -133,7 +133,7 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
   const Color ambient = phongOf(material.model).ambient;
   const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
     ImageMap made = toMap(pictures.nameOf(picture), option);
-    made.file.place = pictures.place;
+    made.file.place = pictures.placeOf(picture);
     return made;
   };
   const auto put = [&](std::string_view field, const std::string& picture,

@@ -14,7 +14,7 @@ namespace trace {
 
 /// What its pictures are called, and what is in them.
 struct MtlPictures {
-  Place place;                                            ///< of the MTL file
+  std::function<Place(const std::string&)> placeOf;       ///< where the MTL file names it
   std::function<std::string(const std::string&)> nameOf;  ///< as seen from the mesh's file
   std::function<bool(const std::string&)> isTransparent;  ///< the picture of that name may be
   std::function<void(const std::string&)> unused;         ///< it is not rendered

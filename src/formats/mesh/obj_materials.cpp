@@ -1,67 +1,87 @@
 #include "formats/mesh/obj_materials.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "base/file.h"
+#include "base/named_file.h"
+#include "base/read_scope.h"
 #include "formats/mesh/mtl_lines.h"
 #include "formats/mesh/obj_material.h"
 #include "formats/mesh/obj_words.h"
 #include "formats/model_textures.h"
+#include "formats/text_front.h"
 
 namespace trace {
 
-bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                              std::map<std::string, int>* numbers, std::string*, std::string*) {
-  try {
-    const std::string text = readBeside(file_, name, model_.inputs);
-    const std::string plain = checkedMtl(besideFile(file_, name), text, unused_, warnings_);
-    ByteStream stream(plain);
-    std::string warnings, errors;
-    tinyobj::LoadMtl(numbers, materials, &stream, &warnings, &errors);
-  } catch (const Error& error) {
-    if (error.fault() == Fault::limit) throw;
-    messages_.warn(placeOfFile(name), "materials: " + error.messages().front().what);
-    missing_ = true;
-    return false;
-  }
-  std::set<std::string> names;
-  for (const tinyobj::material_t& material : *materials)
-    if (!names.insert(material.name).second)
-      warnings_.warn(placeOfFile(name), "several materials of " + name + " are called \"" + material.name +
-                                            "\"; the last counts");
-  for (const tinyobj::material_t& material : *materials) notePictures(material, besideFile(file_, name));
-  const MtlPictures pictures{
-      Place{.file = besideFile(file_, name)},
-      [&](const std::string& picture) { return pictureName(name, picture); },
-      [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; },
-      [&](const std::string& picture) {
-        unused_.note(picture, unused_.empty() ? Place{.file = besideFile(file_, name)} : Place());
-      }};
-  for (std::size_t i = model_.materials.size(); i < materials->size(); ++i) {
-    auto material = materialOf((*materials)[i], pictures);
-    if (!material)
-      messages_.warn(place(), "material \"" + (*materials)[i].name + "\" has numbers that are not finite");
-    model_.materials.push_back(material ? std::move(*material) : plainMaterial());
-  }
-  return !materials->empty();
+void ObjMaterials::read(std::string_view names, std::size_t offset) {
+  const std::string whole(names);
+  if (whole.find_first_of(" \t#") == whole.npos || namesFile(file_, whole))
+    return readFile(whole, placeAt(file_, bytes_, offset));
+  const std::string_view plain = LineWords(names.substr(0, names.find('#'))).rest();
+  if (namesFile(file_, std::string(plain)))
+    return readFile(std::string(plain), placeAt(file_, bytes_, offset));
+  LineWords words(plain);
+  for (std::string_view word = words.next(); !word.empty(); word = words.next())
+    readFile(std::string(word),
+             placeAt(file_, bytes_, offset + static_cast<std::size_t>(word.data() - names.data())));
 }
 
-/// Where the OBJ names that file of materials.
-Place ObjMaterials::placeOfFile(const std::string& name) const {
-  for (const auto& [names, offset] : names_.materialFiles)
-    if (const std::size_t at = names.find(name); at != names.npos) return placeAt(file_, bytes_, offset + at);
-  return place();
+void ObjMaterials::readFile(const std::string& name, const Place& place) {
+  if (name.empty() || !readFiles_.insert(name).second) return;
+  try {
+    const NamedFile found = namedFile(file_, name);
+    const std::string text = readTextBeside(file_, name, model_.inputs, messages_);
+    if (!found.remark.empty()) messages_.warn(place, "materials: " + found.remark);
+    const std::string plain = checkedMtl(found.path, text, unused_, places_, warnings_);
+    ByteStream stream(plain);
+    std::string warnings, errors;
+    tinyobj::LoadMtl(&numbers_, &materials_, &stream, &warnings, &errors);
+  } catch (const ReadDenied& denied) {
+    denied.at(place);
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+    messages_.warn(place, "materials: " + error.messages().front().what);
+    missing_ = true;
+    return;
+  }
+  addMaterials(name, place);
+}
+
+/// Those of a file that was read.
+void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
+  const std::string path = namedFile(file_, name).path;
+  std::set<std::string> names;
+  for (const tinyobj::material_t& material : materials_)
+    if (!names.insert(material.name).second)
+      warnings_.warn(
+          place, "several materials of " + name + " are called \"" + material.name + "\"; the last counts");
+  for (const tinyobj::material_t& material : materials_) notePictures(material, path);
+  const MtlPictures pictures{
+      [&](const std::string& picture) { return placeOf(picture, path); },
+      [&](const std::string& picture) { return pictureName(name, picture); },
+      [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; },
+      [&](const std::string& picture) { unused_.note(picture, placeOf(picture, path)); }};
+  for (std::size_t i = model_.materials.size(); i < materials_.size(); ++i) {
+    auto material = materialOf(materials_[i], pictures);
+    if (!material)
+      messages_.warn(Place{.file = file_},
+                     "material \"" + materials_[i].name + "\" has numbers that are not finite");
+    model_.materials.push_back(material ? std::move(*material) : plainMaterial());
+  }
+}
+
+/// Where the file of materials names the picture first.
+Place ObjMaterials::placeOf(const std::string& picture, const std::string& materialFile) const {
+  const auto found = places_.find(picture);
+  return found == places_.end() ? Place{.file = materialFile} : found->second;
 }
 
 /// As seen from the mesh's file. Exporters name pictures as seen from the materials' file, or from the
 /// mesh's.
 std::string ObjMaterials::pictureName(const std::string& materialFile, const std::string& picture) const {
   const std::string beside = besideFile(materialFile, picture);
-  std::error_code ignored;
-  const bool isThere = std::filesystem::is_regular_file(pictureFile(file_, beside), ignored);
-  return isThere || materialFile.find('/') == materialFile.npos ? beside : picture;
+  return namesFile(file_, beside) || materialFile.find('/') == materialFile.npos ? beside : picture;
 }
 
 void ObjMaterials::notePictures(const tinyobj::material_t& m, const std::string& materialFile) {
@@ -75,18 +95,17 @@ void ObjMaterials::notePictures(const tinyobj::material_t& m, const std::string&
   }
 }
 
-/// tinyobj takes blanks at the end of a line for a part of the name.
-std::uint32_t ObjMaterials::numberOf(const std::string& text, int number) {
-  const std::string name(LineWords(text).rest());
-  if (number < 0 && !name.empty() && !undefined_.contains(name)) {
-    const auto found = std::find_if(model_.materials.begin(), model_.materials.end(),
-                                    [&](const Material& one) { return LineWords(one.name).rest() == name; });
-    if (found != model_.materials.end())
-      number = static_cast<int>(found - model_.materials.begin());
-    else
-      undefined_.insert(name);
+std::uint32_t ObjMaterials::numberOf(std::string_view text) {
+  if (text.empty()) return Model::kNoMaterial;
+  for (std::string_view name : {text, LineWords(text.substr(0, text.find('#'))).rest()}) {
+    if (const auto found = numbers_.find(std::string(name)); found != numbers_.end())
+      return static_cast<std::uint32_t>(found->second);
+    const auto same = std::find_if(model_.materials.begin(), model_.materials.end(),
+                                   [&](const Material& one) { return LineWords(one.name).rest() == name; });
+    if (same != model_.materials.end()) return static_cast<std::uint32_t>(same - model_.materials.begin());
   }
-  return number < 0 ? Model::kNoMaterial : static_cast<std::uint32_t>(number);
+  undefined_.insert(text);
+  return Model::kNoMaterial;
 }
 
 /// Warns of materials that no file defines. Where a file is missing, that is said instead.
@@ -95,10 +114,10 @@ void ObjMaterials::warnUndefined() {
   constexpr std::size_t kMostNamed = 3;
   std::size_t named = 0, first = bytes_.size();
   std::string names;
-  for (const std::string& name : undefined_) {
-    if (const auto use = names_.materials.find(name); use != names_.materials.end())
-      first = std::min(first, use->second);
-    if (named++ < kMostNamed) names += (names.empty() ? "\"" : ", \"") + name.substr(0, 60) + "\"";
+  for (const std::string_view name : undefined_) {
+    if (const auto use = names_.find(name); use != names_.end()) first = std::min(first, use->second);
+    if (named++ < kMostNamed)
+      names += (names.empty() ? "\"" : ", \"") + std::string(name.substr(0, 60)) + "\"";
   }
   if (named > kMostNamed) names += " and " + std::to_string(named - kMostNamed) + " more";
   messages_.warn(placeAt(file_, bytes_, first),

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/mesh/obj_lines.h"
 #include "formats/model.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
@@ -27,37 +26,44 @@ class ByteStream : private std::streambuf, public std::istream {
   }
 };
 
-class ObjMaterials : public tinyobj::MaterialReader {
+class ObjMaterials {
  public:
-  /// Materials go to `model`, warnings to `warnings` and `messages`. `names` is known once materials are
-  /// asked for. All must live longer.
-  ObjMaterials(const std::string& file, std::string_view bytes, const ObjNames& names, Model& model,
+  /// Names of materials, and the offset in the text of the first use.
+  using Names = std::map<std::string_view, std::size_t>;
+
+  /// Materials go to `model`, warnings to `warnings` and `messages`. All must live longer.
+  ObjMaterials(const std::string& file, std::string_view bytes, const Names& names, Model& model,
                WarningsByKind& warnings, Messages& messages)
       : file_(file), bytes_(bytes), names_(names), model_(model), warnings_(warnings), messages_(messages) {}
 
-  /// Reads the file of that name.
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* numbers, std::string*, std::string*) override;
-  /// An index into Model::materials; `number` is tinyobj's, below 0 where it knows none of that name.
-  std::uint32_t numberOf(const std::string& name, int number);
+  /// Reads the files that a line names, with the offset of that in the text: one whose name may have blanks
+  /// if it is there, or else several.
+  void read(std::string_view names, std::size_t offset);
+  /// An index into Model::materials of what a line calls so, perhaps with a comment behind it.
+  std::uint32_t numberOf(std::string_view name);
   /// Warns of pictures that are not rendered and of materials that no file defines.
   void report();
 
  private:
-  Place place() const { return {file_, 0, 0, {}}; }
-  Place placeOfFile(const std::string& name) const;
+  void readFile(const std::string& name, const Place& place);
+  void addMaterials(const std::string& name, const Place& place);
+  Place placeOf(const std::string& picture, const std::string& materialFile) const;
   std::string pictureName(const std::string& materialFile, const std::string& picture) const;
   void notePictures(const tinyobj::material_t& m, const std::string& materialFile);
   void warnUndefined();
 
   const std::string& file_;
   std::string_view bytes_;
-  const ObjNames& names_;
+  const Names& names_;
   Model& model_;
   WarningsByKind& warnings_;
   Messages& messages_;
   UnusedTextures unused_;
-  std::set<std::string> undefined_;
+  std::vector<tinyobj::material_t> materials_;
+  std::map<std::string, int> numbers_;
+  std::map<std::string, Place, std::less<>> places_;  ///< of the names of pictures
+  std::set<std::string> readFiles_;
+  std::set<std::string_view> undefined_;
   bool missing_ = false;  ///< a file of materials
 };
 

@@ -25,7 +25,9 @@ class LineWords {
     return word;
   }
   std::string_view peek() const { return LineWords(*this).next(); }
-  /// All that is left, without the blanks around it.
+  /// All that is left.
+  std::string_view left() const { return rest_; }
+  /// The same, without the blanks around it.
   std::string_view rest() {
     skip();
     return rest_.substr(0, rest_.find_last_not_of(kBlank) + 1);

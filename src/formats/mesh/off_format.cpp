@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/unique.h"
+#include "formats/warnings.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
@@ -19,22 +20,20 @@ struct Kind {
   bool uv = false, color = false, normal = false;
 };
 
-/// [ST][C][N]OFF; nothing for other words, and for points of other than three dimensions (4OFF, nOFF).
+/// [ST][C][N]OFF, in letters of any case; nothing for other words, and for points of other than three
+/// dimensions (4OFF, nOFF).
 std::optional<Kind> kindOf(std::string_view word) {
   Kind kind;
-  if (word.starts_with("ST")) {
-    kind.uv = true;
-    word.remove_prefix(2);
-  }
-  if (word.starts_with("C")) {
-    kind.color = true;
-    word.remove_prefix(1);
-  }
-  if (word.starts_with("N")) {
-    kind.normal = true;
-    word.remove_prefix(1);
-  }
-  return word == "OFF" ? std::optional(kind) : std::nullopt;
+  const auto take = [&](std::string_view start) {
+    if (!sameWord(word.substr(0, start.size()), start)) return false;
+    word.remove_prefix(start.size());
+    return true;
+  };
+  const bool isNDimensional = word.starts_with('n');  // nOFF, where n is a number that follows
+  kind.uv = take("ST");
+  kind.color = take("C");
+  kind.normal = take("N");
+  return sameWord(word, "OFF") && !isNDimensional ? std::optional(kind) : std::nullopt;
 }
 
 class OffReader {
@@ -43,18 +42,23 @@ class OffReader {
       : file_(file), words_(file, bytes, '#'), messages_(messages) {}
 
   Model read() {
-    const Kind kind = *kindOf(words_.next());
+    std::optional<Kind> kind = kindOf(words_.next());
+    if (!kind) {  // old files begin with the counts
+      kind.emplace();
+      words_.skipTo(0);
+    }
     const std::size_t points = count("the number of points"), faces = count("the number of faces");
     if (const double edges = words_.number("the number of edges");
         !(edges >= 0) || edges != std::floor(edges))
       words_.fail("expected the number of edges, a whole number, found " + toText(edges));
     mesh_.points.reserve(points);
     mesh_.triangles.reserve(faces);
-    for (std::size_t i = 0; i < points; ++i) readPoint(kind);
-    if (kind.color) takeColors();
+    for (std::size_t i = 0; i < points; ++i) readPoint(*kind);
+    if (kind->color) takeColors();
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
-    if (faceColors_ > 0)
-      messages_.warn(Place{file_, 0, 0, {}}, "colours of faces are left out: " + std::to_string(faceColors_));
+    if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
+    if (hasFaceColors_) paintFaces();
+    warnings_.report(messages_);
     if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
     if (unusable_ > 0)
       messages_.warn(Place{file_, 0, 0, {}},
@@ -106,37 +110,89 @@ class OffReader {
       model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
   }
 
-  /// Numbers until the end of the line.
-  void readFaceColor(std::size_t face) {
+  /// Numbers until the end of the line: red, green and blue, perhaps with an opacity, from 0 to 1, or from 0
+  /// to 255 if they are whole numbers. One alone is a place in a table that nobody has.
+  std::optional<Vec3f> readFaceColor(std::size_t face) {
     std::string_view rest = words_.line();
     rest = rest.substr(0, rest.find('#'));
     const std::string line(rest);
     Words numbers(file_, line, '\0');
-    if (numbers.atEnd()) return;
-    ++faceColors_;
+    std::vector<double> color;
+    bool whole = true;
     while (!numbers.atEnd()) {
       const std::string_view word = numbers.next();
       const auto number = parseNumber(word);
-      if (!number || number->length != word.size())
+      if (!number || number->length != word.size() || !std::isfinite(number->value))
         words_.fail("face " + std::to_string(face) + ": expected a colour after its points, found \"" +
                     std::string(word.substr(0, 40)) + "\"");
+      whole = whole && word.find_first_of(".eE") == word.npos;
+      color.push_back(number->value);
     }
+    if (color.empty()) return {};
+    if (color.size() < 3) {
+      warn("colours of faces that are numbers of a table are left out", "table");
+      return {};
+    }
+    const double scale = whole ? 1.0 / 255 : 1;
+    if (color.size() > 3 && color[3] * scale < 1) warn("the transparency of faces is left out", "alpha");
+    return Vec3f(Vec3{color[0] * scale, color[1] * scale, color[2] * scale});
   }
 
   /// The number of corners, their points, and until the end of the line a colour.
   void readFace(std::size_t number) {
     const std::size_t corners = count("the number of a face's corners");
     face_.clear();
+    bool good = true;
     for (std::size_t i = 0; i < corners; ++i) {
       const double point = words_.number("the number of a point");
-      if (!(point >= 0 && point < static_cast<double>(mesh_.points.size())) || point != std::floor(point))
-        words_.fail("face " + std::to_string(number) + ": expected a point from 0 to " +
-                    std::to_string(mesh_.points.size()) + " - 1, found " + toText(point));
-      face_.push_back(static_cast<std::uint32_t>(point));
+      const bool isThere =
+          point >= 0 && point < static_cast<double>(mesh_.points.size()) && point == std::floor(point);
+      if (!isThere && good)
+        lose("face " + std::to_string(number) + ": expected a point from 0 to " +
+             std::to_string(mesh_.points.size()) + " - 1, found " + toText(point));
+      good = good && isThere;
+      face_.push_back(isThere ? static_cast<std::uint32_t>(point) : 0);
     }
-    readFaceColor(number);
+    const std::optional<Vec3f> color = readFaceColor(number);
+    if (!good) return;
     if (corners < 3) ++unusable_;
     appendPolygon(mesh_, face_);
+    constexpr float kPlain = 0.7f;  // as plainMaterial()
+    const std::uint32_t painted = palette_.number(color.value_or(Vec3f{kPlain, kPlain, kPlain}));
+    hasFaceColors_ = hasFaceColors_ || color;
+    triangleColors_.resize(mesh_.triangles.size(), painted);
+  }
+
+  /// Each triangle gets points of its own, with its colour.
+  void paintFaces() {
+    if (!mesh_.materials.empty())
+      return warn("colours of faces are left out: their points have some", "faces");
+    struct Painted {
+      std::uint32_t point, color;
+    };
+    Unique<Painted> corners;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+      for (std::uint32_t& point : mesh_.triangles[i]) point = corners.number({point, triangleColors_[i]});
+    MeshData painted;
+    painted.triangles = std::move(mesh_.triangles);
+    painted.polygons = std::move(mesh_.polygons);
+    for (const Painted& corner : corners.keys()) {
+      painted.points.push_back(mesh_.points[corner.point]);
+      if (!mesh_.normals.empty()) painted.normals.push_back(mesh_.normals[corner.point]);
+      if (!mesh_.uvs.empty()) painted.uvs.push_back(mesh_.uvs[corner.point]);
+      painted.materials.push_back(corner.color);
+    }
+    for (const Vec3f& color : palette_.keys()) model_.colors.push_back({color.x, color.y, color.z});
+    mesh_ = std::move(painted);
+  }
+
+  void warn(const char* what, std::string_view kind) {
+    if (!warnings_.again(kind)) warnings_.warn(words_.place(), what, {}, kind);
+  }
+  /// The face is left out.
+  void lose(const std::string& what) {
+    if (!lost_) lost_ = Message{Message::Severity::error, words_.place(), what, {}};
+    if (!warnings_.again("lost")) warnings_.warn(words_.place(), what + "; the face is left out", {}, "lost");
   }
 
   const std::string& file_;
@@ -145,7 +201,12 @@ class OffReader {
   MeshData mesh_;
   std::vector<Vec3f> colors_;
   std::vector<std::uint32_t> face_;
-  std::size_t unusable_ = 0, faceColors_ = 0;
+  WarningsByKind warnings_;
+  std::optional<Message> lost_;  ///< the first that costs a face
+  Unique<Vec3f> palette_;
+  std::vector<std::uint32_t> triangleColors_;
+  bool hasFaceColors_ = false;
+  std::size_t unusable_ = 0;
   Model model_;
 };
 
@@ -154,6 +215,16 @@ class OffReader {
 bool recognisesOff(std::string_view bytes) {
   const std::string none;
   return kindOf(Words(none, bytes.substr(0, 4096), '#').next()).has_value();
+}
+
+bool mayBeOff(std::string_view bytes) {
+  const std::string none;
+  Words words(none, bytes.substr(0, 4096), '#');
+  for (int i = 0; i < 3; ++i) {  // points, faces, edges
+    const std::string_view word = words.next();
+    if (word.empty() || word.find_first_not_of("0123456789") != word.npos) return false;
+  }
+  return true;
 }
 
 Model readOff(const std::string& file, std::string_view bytes, Messages& messages) {

@@ -11,6 +11,8 @@
 namespace trace {
 
 bool recognisesOff(std::string_view bytes);
+/// Does it begin with three counts, as a file without the word OFF does?
+bool mayBeOff(std::string_view bytes);
 
 /// One object. Colours of faces are left out. Throws Error(Fault::scene).
 Model readOff(const std::string& file, std::string_view bytes, Messages& messages);

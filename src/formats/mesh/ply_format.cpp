@@ -10,6 +10,9 @@
 #include "base/unique.h"
 #include "formats/mesh/ply_syntax.h"
 #include "formats/model_textures.h"
+#include "formats/text_front.h"
+#include "formats/warnings.h"
+#include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 
@@ -18,27 +21,51 @@ namespace {
 
 using namespace ply;
 
+/// A face that waits until all is read: a part of the list of corners, and its row.
+struct Face {
+  std::size_t first, count, number;
+};
+
+/// What makes two corners the same point.
+struct SplitCorner {
+  std::uint32_t point, color;
+  float u, v;
+};
+
 class PlyReader {
  public:
   PlyReader(const std::string& file, std::string_view bytes, Messages& messages)
       : file_(file), messages_(messages), header_(readHeader(file, bytes)), body_(file, bytes, header_) {}
 
   Model read() {
+    for (const Element& element : header_.elements)
+      if (sameWord(element.name, "vertex")) vertices_ = element.count;
     for (const Element& element : header_.elements) {
-      if (element.name == "vertex")
+      if (sameWord(element.name, "vertex")) {
         readVertices(element);
-      else if (element.name == "face")
+      } else if (sameWord(element.name, "face")) {
         readFaces(element);
-      else if (element.name == "tristrips")
+      } else if (sameWord(element.name, "tristrips")) {
         readStrips(element);
-      else
+      } else {
         body_.skip(element);
+        if (element.count > 0)
+          warnings_.warn(place(), "elements \"" + element.name.substr(0, 40) +
+                                      "\" are not shown: " + std::to_string(element.count));
+      }
     }
     if (!hasVertices_) fail("expected an element \"vertex\"");
     if (!hasFaces_)
       fail("expected an element \"face\" or \"tristrips\": this file holds points, and no surface");
+    build();
     if (const std::size_t left = body_.left(); left > 0)
       messages_.warn(place(), "bytes after the last element are ignored: " + std::to_string(left));
+    if (body_.surplus() > 0)
+      messages_.warn(body_.firstSurplus(),
+                     "expected as many values as the header says, found more; they are ignored (in " +
+                         counted(body_.surplus(), "line") + ", first here)");
+    if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
+    warnings_.report(messages_);
     addOnlyMesh(model_, std::move(mesh_), place(), messages_);
     addTexture();
     textures_.report(messages_);
@@ -87,12 +114,12 @@ class PlyReader {
     if (element.count && wantVector(element, {{{"nx"}, {"ny"}, {"nz"}}}, &normals[0].x))
       mesh_.normals = std::move(normals);
     std::vector<Vec3f> colors(element.count);
-    const bool colored =
-        element.count &&
-        wantVector(
-            element,
-            {{{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}}},
-            &colors[0].x);
+    const bool colored = element.count && wantVector(element, kColors, &colors[0].x);
+    std::vector<float> alpha;
+    if (const int a = element.find({"alpha"}); colored && a >= 0) {
+      alpha.resize(element.count);
+      want(a, {alpha.data(), 1});
+    }
     const int u = element.find({"u", "s", "texture_u", "tx"}),
               v = element.find({"v", "t", "texture_v", "ty"});
     std::vector<float> uvs(u >= 0 && v >= 0 ? 2 * element.count : 0);
@@ -104,15 +131,18 @@ class PlyReader {
     body_.readColumns(element, columns_);
     for (std::size_t i = 0; i < uvs.size(); i += 2) mesh_.uvs.push_back({uvs[i], uvs[i + 1]});
     if (colored)
-      takeColors(
-          colors,
-          element.properties[static_cast<std::size_t>(element.find({"red", "r", "diffuse_red"}))].type);
+      mesh_.materials =
+          palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
+    if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
   }
 
   void want(int property, Column column) { columns_[static_cast<std::size_t>(property)] = column; }
 
-  bool wantVector(const Element& element, const std::array<std::initializer_list<std::string_view>, 3>& names,
-                  float* to) {
+  using Names = std::array<std::vector<std::string_view>, 3>;
+  const Names kColors{
+      {{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}}};
+
+  bool wantVector(const Element& element, const Names& names, float* to) {
     int found[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       found[axis] = element.find(names[axis]);
@@ -123,7 +153,8 @@ class PlyReader {
   }
 
   /// Whole numbers count from 0 to the most their type holds, others from 0 to 1. Equal colours become one.
-  void takeColors(const std::vector<Vec3f>& colors, Type type) {
+  /// The number of each in the model's colours.
+  std::vector<std::uint32_t> palette(const std::vector<Vec3f>& colors, Type type) {
     const double scale = type == Type::uint8 ? 1.0 / 255 : type == Type::uint16 ? 1.0 / 65535 : 1;
     const auto most = static_cast<float>(1 / scale);
     const auto outside = std::count_if(colors.begin(), colors.end(), [&](const Vec3f& c) {
@@ -133,18 +164,30 @@ class PlyReader {
       messages_.warn(place(),
                      "colours that are not from 0 to " + toText(1 / scale) + ": " + std::to_string(outside));
     Unique<Vec3f> unique;
-    for (const Vec3f& color : colors) mesh_.materials.push_back(unique.number(color));
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(colors.size());
+    for (const Vec3f& color : colors) numbers.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys()) {
       model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
       if (!isFinite(model_.colors.back())) fail("expected colours that are finite numbers");
     }
+    return numbers;
+  }
+
+  /// Warns of transparency, which the mesh has no place for, if there is any.
+  void noteAlpha(const Element& element, const std::vector<float>& alpha, int property) {
+    const Type type = element.properties[static_cast<std::size_t>(property)].type;
+    const float most = type == Type::uint8 ? 255 : type == Type::uint16 ? 65535 : 1;
+    const auto clear = std::count_if(alpha.begin(), alpha.end(), [&](float a) { return a < most; });
+    if (clear > 0)
+      warnings_.warn(place(), "the transparency of elements \"" + element.name +
+                                  "\" is left out: " + std::to_string(clear));
   }
 
   // --- faces ---
 
   int listOf(const Element& element) {
     hasFaces_ = true;
-    if (!hasVertices_) fail("expected the vertices before the faces");
     const int list = element.find({"vertex_indices", "vertex_index"});
     if (list < 0 || !element.properties[static_cast<std::size_t>(list)].isList)
       fail("expected faces with a list \"vertex_indices\"");
@@ -152,49 +195,141 @@ class PlyReader {
   }
 
   void readFaces(const Element& element) {
-    const int list = listOf(element);
+    Body::Lists lists{listOf(element)};
     body_.checkCount(element);
-    mesh_.triangles.reserve(element.count);
-    std::size_t row = 0, unusable = 0;
-    body_.readLists(element, list, [&](std::span<const std::uint32_t> corners) {
-      for (std::uint32_t corner : corners) check(corner, "face", row);
-      if (corners.size() == 3)
+    std::vector<Column> columns(element.properties.size());
+    columns_.swap(columns);
+    std::vector<Vec3f> colors(element.count);
+    std::vector<float> alpha;
+    hasFaceColors_ = element.count > 0 && wantVector(element, kColors, &colors[0].x);
+    if (const int a = element.find({"alpha"}); a >= 0 && hasFaceColors_) {
+      alpha.resize(element.count);
+      want(a, {alpha.data(), 1});
+    }
+    columns_.swap(columns);
+    lists.columns = columns;
+    lists.numbers = element.find({"texcoord", "texcoords", "texture_uvs"});
+    if (lists.numbers >= 0 && !element.properties[static_cast<std::size_t>(lists.numbers)].isList)
+      lists.numbers = -1;
+    if (const int number = element.find({"texnumber"}); number >= 0 && header_.textures.size() > 1)
+      warnings_.warn(place(), "faces of several textures show the first: texnumber is ignored");
+    hasFaceUvs_ = lists.numbers >= 0;
+    const bool direct = hasVertices_ && !hasFaceUvs_ && !hasFaceColors_;
+    if (direct) mesh_.triangles.reserve(element.count);
+    std::size_t row = 0;
+    body_.readLists(element, lists, [&](std::span<const std::uint32_t> corners, std::span<const float> uvs) {
+      const std::size_t number = row++;
+      if (!isGood(corners, number)) return;
+      if (direct && corners.size() == 3)
         mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
-      else if (corners.size() > 3)
+      else if (direct)
         appendPolygon(mesh_, corners);
       else
-        ++unusable;
-      ++row;
+        keep(corners, uvs, number);
     });
-    if (unusable > 0)
-      messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable));
+    if (unusable_ > 0)
+      messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
+    if (hasFaceColors_) {
+      faceColors_ =
+          palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
+      if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
+    }
+  }
+
+  bool isGood(std::span<const std::uint32_t> corners, std::size_t number) {
+    if (corners.size() < 3) {
+      ++unusable_;
+      return false;
+    }
+    for (const std::uint32_t corner : corners)
+      if (corner >= vertices_) {
+        lose(corner, "face", number);
+        return false;
+      }
+    return true;
+  }
+
+  void keep(std::span<const std::uint32_t> corners, std::span<const float> uvs, std::size_t number) {
+    faces_.push_back({corners_.size(), corners.size(), number});
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    if (!hasFaceUvs_) return;
+    const bool fits = uvs.size() == 2 * corners.size();
+    wrongUvs_ += !fits && !uvs.empty();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      cornerUvs_.push_back(fits ? Vec2{uvs[2 * i], uvs[2 * i + 1]} : Vec2{});
+  }
+
+  /// Makes the faces that had to wait, for the points or since they have uv or colours of their own: then
+  /// each corner is a point for itself, unless it is the same as another.
+  void build() {
+    if (wrongUvs_ > 0)
+      warnings_.warn(place(), "faces without a uv for each corner show the corner of the picture: " +
+                                  std::to_string(wrongUvs_));
+    if (hasFaceColors_ && !mesh_.materials.empty()) {
+      hasFaceColors_ = false;
+      warnings_.warn(place(), "colours of faces are left out: their points have some");
+    }
+    if (!hasFaceUvs_ && !hasFaceColors_) {
+      for (const Face& face : faces_)
+        appendPolygon(mesh_, std::span(corners_).subspan(face.first, face.count));
+      return;
+    }
+    MeshData split;
+    Unique<SplitCorner> corners;
+    std::vector<std::uint32_t> polygon;
+    for (const Face& face : faces_) {
+      polygon.clear();
+      for (std::size_t i = face.first; i < face.first + face.count; ++i) {
+        const std::uint32_t point = corners_[i];
+        const Vec2 uv = hasFaceUvs_ ? cornerUvs_[i] : mesh_.uvs.empty() ? Vec2{} : mesh_.uvs[point];
+        const std::uint32_t color = hasFaceColors_            ? faceColors_[face.number]
+                                    : mesh_.materials.empty() ? 0
+                                                              : mesh_.materials[point];
+        const std::uint32_t number =
+            corners.number({point, color, static_cast<float>(uv.x), static_cast<float>(uv.y)});
+        polygon.push_back(number);
+        if (number < split.points.size()) continue;
+        split.points.push_back(mesh_.points[point]);
+        if (!mesh_.normals.empty()) split.normals.push_back(mesh_.normals[point]);
+        if (hasFaceUvs_ || !mesh_.uvs.empty()) split.uvs.push_back(uv);
+        if (hasFaceColors_ || !mesh_.materials.empty()) split.materials.push_back(color);
+      }
+      appendPolygon(split, polygon);
+    }
+    if (!mesh_.triangles.empty())
+      warnings_.warn(place(), "strips beside faces with colours or uv are left out");
+    mesh_ = std::move(split);
   }
 
   /// Strips of triangles that turn about, each ended by -1, as scanners write them.
   void readStrips(const Element& element) {
     std::size_t row = 0;
-    body_.readLists(element, listOf(element), [&](std::span<const std::uint32_t> points) {
+    const auto strip = [&](std::span<const std::uint32_t> points, std::span<const float>) {
       std::size_t start = 0;
       for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i] == 0xffffffff) {
+        if (points[i] >= vertices_) {
+          if (points[i] != 0xffffffff) lose(points[i], "strip", row);
           start = i + 1;
           continue;
         }
-        check(points[i], "strip", row);
         if (i < start + 2) continue;
         const bool turned = (i - start) % 2 == 1;
         mesh_.triangles.push_back({points[i - 2], points[turned ? i : i - 1], points[turned ? i - 1 : i]});
       }
       ++row;
-    });
+    };
+    body_.readLists(element, {listOf(element)}, strip);
   }
 
-  void check(std::uint32_t point, const char* what, std::size_t row) const {
-    if (point < mesh_.points.size()) return;
+  /// Notes a face or a part of a strip that uses a point which is not there.
+  void lose(std::uint32_t point, const char* what, std::size_t row) {
+    if (warnings_.again("lost")) return;
     const std::string name =
         point >= 0x80000000 ? "a number that no point has" : "point " + std::to_string(point);
-    body_.fail(what + (" " + std::to_string(row)) + " uses " + name + " but the mesh has " +
-               std::to_string(mesh_.points.size()) + " points, counted from 0");
+    const std::string text = what + (" " + std::to_string(row)) + " uses " + name + " but the mesh has " +
+                             std::to_string(vertices_) + " points, counted from 0";
+    lost_ = Message{Message::Severity::error, body_.place(), text, {}};
+    warnings_.warn(body_.place(), text + "; it is left out", {}, "lost");
   }
 
   Place place() const { return {file_, 0, 0, {}}; }
@@ -208,14 +343,19 @@ class PlyReader {
   MeshData mesh_;
   Model model_;
   UnusedTextures textures_;
-  bool hasVertices_ = false, hasFaces_ = false;
+  WarningsByKind warnings_;
+  std::optional<Message> lost_;  ///< the first that costs a face
+  std::size_t vertices_ = 0;     ///< that the header counts
+  std::size_t unusable_ = 0, wrongUvs_ = 0;
+  bool hasVertices_ = false, hasFaces_ = false, hasFaceColors_ = false, hasFaceUvs_ = false;
+  std::vector<Face> faces_;  ///< that wait
+  std::vector<std::uint32_t> corners_, faceColors_;
+  std::vector<Vec2> cornerUvs_;
 };
 
 }  // namespace
 
-bool recognisesPly(std::string_view bytes) {
-  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r") || bytes.starts_with("ply ");
-}
+bool recognisesPly(std::string_view bytes) { return beginsWithWord(bytes, "ply"); }
 
 Model readPly(const std::string& file, std::string_view bytes, Messages& messages) {
   return PlyReader(file, bytes, messages).read();

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "formats/words.h"
 
 namespace trace::ply {
 namespace {
@@ -79,23 +80,24 @@ class HeaderReader {
   HeaderReader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
   Header read() {
-    nextLine();
-    if (words_.empty() || words_[0] != "ply") fail("expected \"ply\"");
+    while (nextLine() && words_.empty()) {
+    }
+    if (words_.empty() || !is(0, "ply")) fail("expected \"ply\"");
     bool format = false;
     for (;;) {
       if (!nextLine()) fail("expected \"end_header\", found the end of the file");
-      if (words_.empty() || words_[0] == "obj_info") continue;
-      if (words_[0] == "comment") {
+      if (words_.empty() || is(0, "obj_info")) continue;
+      if (is(0, "comment")) {
         readComment();
         continue;
       }
-      if (words_[0] == "end_header") break;
-      if (words_[0] == "format") {
+      if (is(0, "end_header")) break;
+      if (is(0, "format")) {
         readFormat();
         format = true;
-      } else if (words_[0] == "element")
+      } else if (is(0, "element"))
         readElement();
-      else if (words_[0] == "property")
+      else if (is(0, "property"))
         readProperty();
       else
         fail("expected a line of a PLY header (format, element, property, comment or end_header), found \"" +
@@ -108,6 +110,8 @@ class HeaderReader {
 
  private:
   static constexpr std::size_t kMostProperties = 1000;
+
+  bool is(std::size_t i, std::string_view word) const { return sameWord(words_[i], word); }
 
   bool nextLine() {
     if (at_ >= bytes_.size()) return false;
@@ -128,7 +132,7 @@ class HeaderReader {
 
   /// `comment TextureFile wood.png`: the name is the rest of the line.
   void readComment() {
-    if (words_.size() < 3 || words_[1] != "TextureFile") return;
+    if (words_.size() < 3 || !is(1, "TextureFile")) return;
     const auto start = static_cast<std::size_t>(words_[2].data() - bytes_.data());
     std::string_view name = bytes_.substr(start, at_ - start);
     name = name.substr(0, name.find_last_not_of(" \t\r\n") + 1);
@@ -137,11 +141,11 @@ class HeaderReader {
 
   void readFormat() {
     const std::string_view name = words_.size() > 1 ? words_[1] : "";
-    if (name == "ascii")
+    if (sameWord(name, "ascii"))
       header_.encoding = Encoding::text;
-    else if (name == "binary_little_endian")
+    else if (sameWord(name, "binary_little_endian"))
       header_.encoding = Encoding::little;
-    else if (name == "binary_big_endian")
+    else if (sameWord(name, "binary_big_endian"))
       header_.encoding = Encoding::big;
     else
       fail("expected format ascii, binary_little_endian or binary_big_endian");
@@ -160,7 +164,7 @@ class HeaderReader {
 
   void readProperty() {
     if (header_.elements.empty()) fail("expected an element before its properties");
-    const bool isList = words_.size() > 1 && words_[1] == "list";
+    const bool isList = words_.size() > 1 && is(1, "list");
     if (words_.size() < (isList ? 5u : 3u))
       fail(
           "expected a type and a name, as in \"property float x\" or \"property list uchar int "
@@ -177,7 +181,7 @@ class HeaderReader {
 
   Type type(std::string_view word) const {
     for (const TypeName& known : kTypeNames)
-      if (known.name == word) return known.type;
+      if (sameWord(known.name, word)) return known.type;
     fail("expected a type, as in float or uchar, found \"" + std::string(word.substr(0, 40)) + "\"");
   }
 
@@ -194,9 +198,10 @@ class HeaderReader {
 
 }  // namespace
 
-int Element::find(std::initializer_list<std::string_view> names) const {
+int Element::find(const std::vector<std::string_view>& names) const {
   for (std::size_t i = 0; i < properties.size(); ++i)
-    if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return static_cast<int>(i);
+    for (std::string_view wanted : names)
+      if (sameWord(wanted, properties[i].name)) return static_cast<int>(i);
   return -1;
 }
 
@@ -209,7 +214,37 @@ Header readHeader(const std::string& file, std::string_view bytes) {
 }
 
 Body::Body(const std::string& file, std::string_view bytes, const Header& header)
-    : file_(file), bytes_(bytes), encoding_(header.encoding), at_(header.end) {}
+    : file_(file), bytes_(bytes), encoding_(header.encoding), at_(header.end) {
+  if (encoding_ != Encoding::text) return;
+  std::size_t rows = 0, lines = 0;
+  for (const Element& element : header.elements) rows += element.properties.empty() ? 0 : element.count;
+  for (std::size_t at = at_; at < bytes.size() && lines < rows;) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    lines += bytes.substr(at, end - at).find_first_not_of(" \t\r") < end - at;
+    at = end + 1;
+  }
+  rowsAreLines_ = rows > 0 && lines >= rows;
+}
+
+Place Body::place() const {
+  return encoding_ == Encoding::text ? placeAt(file_, bytes_, std::min(rowAt_, bytes_.size()))
+                                     : Place{file_, 0, 0, {}};
+}
+
+void Body::beginRow() {
+  if (encoding_ == Encoding::text)
+    while (at_ < bytes_.size() && (bytes_[at_] == ' ' || (bytes_[at_] >= '\t' && bytes_[at_] <= '\r'))) ++at_;
+  rowAt_ = at_;
+}
+
+/// Each row has a line of its own: what else stands there belongs to none.
+void Body::endRow() {
+  if (!rowsAreLines_) return;
+  const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+  const bool more = bytes_.substr(at_, end - at_).find_first_not_of(" \t\r") < end - at_;
+  if (more && surplus_++ == 0) firstSurplus_ = place();
+  at_ = end;
+}
 
 void Body::fail(std::string what) const {
   if (encoding_ == Encoding::text) throw Error(Fault::scene, placeAt(file_, bytes_, at_), std::move(what));
@@ -269,6 +304,7 @@ void Body::readColumns(const Element& element, std::span<const Column> columns) 
   if (encoding_ != Encoding::text && !element.hasLists()) return readFixedColumns(element, columns);
   if (element.properties.empty()) return;
   for (std::size_t row = 0; row < element.count; ++row) {
+    beginRow();
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const Property& property = element.properties[i];
       if (property.isList) {
@@ -278,6 +314,7 @@ void Body::readColumns(const Element& element, std::span<const Column> columns) 
         if (columns[i].to) columns[i].to[row * columns[i].step] = static_cast<float>(value);
       }
     }
+    endRow();
   }
 }
 
@@ -301,11 +338,12 @@ void Body::readFixedColumns(const Element& element, std::span<const Column> colu
   at_ += stride * element.count;
 }
 
-void Body::readLists(const Element& element, int wanted, const VisitList& visit) {
+void Body::readLists(const Element& element, const Lists& lists, const VisitList& visit) {
   what_ = "element \"" + element.name + "\"";
   checkCount(element);
-  const Property& list = element.properties[static_cast<std::size_t>(wanted)];
+  const Property& list = element.properties[static_cast<std::size_t>(lists.items)];
   std::vector<std::uint32_t> items;
+  std::vector<float> numbers;
   const bool usual = encoding_ != Encoding::text && element.properties.size() == 1 &&
                      sizeOf(list.countType) == 1 && (list.type == Type::int32 || list.type == Type::uint32);
   if (usual) {
@@ -318,20 +356,33 @@ void Body::readLists(const Element& element, int wanted, const VisitList& visit)
       const char* from = bytes_.data() + at_;
       for (std::size_t i = 0; i < length; ++i) items[i] = load<std::uint32_t>(from + 4 * i, swap);
       at_ += 4 * length;
-      visit({items.data(), length});
+      visit({items.data(), length}, {});
     }
     return;
   }
   for (std::size_t row = 0; row < element.count; ++row) {
-    for (const Property& property : element.properties) {
+    beginRow();
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const Property& property = element.properties[i];
       if (!property.isList) {
-        number(property.type);
+        const double value = number(property.type);
+        if (i < lists.columns.size() && lists.columns[i].to)
+          lists.columns[i].to[row * lists.columns[i].step] = static_cast<float>(value);
         continue;
       }
-      items.resize(listLength(property));
-      for (std::uint32_t& item : items) item = toIndex(number(property.type));
-      if (&property == &list) visit(items);
+      const std::size_t length = listLength(property);
+      if (&property == &list) {
+        items.resize(length);
+        for (std::uint32_t& item : items) item = toIndex(number(property.type));
+      } else if (static_cast<int>(i) == lists.numbers) {
+        numbers.resize(length);
+        for (float& n : numbers) n = static_cast<float>(number(property.type));
+      } else {
+        for (std::size_t n = length; n > 0; --n) number(property.type);
+      }
     }
+    endRow();
+    visit(items, numbers);
   }
 }
 

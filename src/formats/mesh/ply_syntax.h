@@ -35,7 +35,7 @@ struct Element {
   std::vector<Property> properties;
 
   /// The index of the first of these properties that it has, or -1.
-  int find(std::initializer_list<std::string_view> names) const;
+  int find(const std::vector<std::string_view>& names) const;
   bool hasLists() const;
 };
 
@@ -68,14 +68,26 @@ class Body {
   /// One column for each property of the element; those of lists are ignored.
   void readColumns(const Element& element, std::span<const Column> columns);
 
-  /// Calls visit(items) for the list `property` of each row. What is no whole number, or negative, comes as
-  /// 2^32 - 1 or near it.
-  using VisitList = std::function<void(std::span<const std::uint32_t>)>;
-  void readLists(const Element& element, int property, const VisitList& visit);
+  /// Which properties of an element are wanted: a list of whole numbers, perhaps one of others (-1 for none),
+  /// and columns, as readColumns() has them, or none at all.
+  struct Lists {
+    int items, numbers = -1;
+    std::span<const Column> columns{};
+  };
+  /// Calls visit(items, numbers) for each row. An item that is no whole number, or negative, comes as 2^32 -
+  /// 1 or near it.
+  using VisitList = std::function<void(std::span<const std::uint32_t>, std::span<const float>)>;
+  void readLists(const Element& element, const Lists& lists, const VisitList& visit);
 
   void skip(const Element& element);
 
   [[noreturn]] void fail(std::string what) const;
+  /// Where the row begins that was read last; in a text.
+  Place place() const;
+
+  /// Rows of a text behind whose values others stand on the same line, which are skipped.
+  std::size_t surplus() const { return surplus_; }
+  const Place& firstSurplus() const { return firstSurplus_; }
 
   /// Bytes that no element has used, blanks at the end of a text not counted.
   std::size_t left() const;
@@ -84,6 +96,8 @@ class Body {
   double number(Type type);
   std::size_t listLength(const Property& property);
   void need(std::size_t bytes) const;
+  void beginRow();
+  void endRow();
   void readFixedColumns(const Element& element, std::span<const Column> columns);
 
   const std::string& file_;
@@ -91,6 +105,9 @@ class Body {
   Encoding encoding_;
   std::size_t at_;
   std::string what_;  ///< the row being read, for messages
+  bool rowsAreLines_ = false;
+  std::size_t rowAt_ = 0, surplus_ = 0;
+  Place firstSurplus_{};
 };
 
 }  // namespace trace::ply

@@ -5,7 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "base/text.h"
 #include "base/unique.h"
+#include "formats/text_front.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 
@@ -27,24 +29,44 @@ float littleFloat(const char* from) {
   return value;
 }
 
+/// How many the header of a binary file says there are.
+std::size_t facetsOf(std::string_view bytes) { return littleIntAt(bytes.data() + kHeader - 4); }
+
 bool isBinary(std::string_view bytes) {
   return bytes.size() >= kHeader && (bytes.size() - kHeader) % kFacet == 0 &&
-         (bytes.size() - kHeader) / kFacet == littleIntAt(bytes.data() + kHeader - 4);
+         (bytes.size() - kHeader) / kFacet == facetsOf(bytes);
+}
+
+bool isText(std::string_view bytes) {
+  if (!beginsWithWord(bytes, "solid") && !beginsWithWord(bytes, "facet")) return false;
+  const std::string_view beginning = bytes.substr(0, 4096);
+  return hasWord(beginning, "facet") || hasWord(beginning, "endsolid");
 }
 
 /// Collects the facets of one solid.
 class Solid {
  public:
+  /// The corners of a facet whose normal the file says follow. It may be 0, for nothing.
+  void facet(const Vec3f& normal) { normals_.push_back(normal); }
   void corner(Vec3f p) {
     p = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // no negative zero: it would not equal the other
     corners_.push_back(points_.number(p));
   }
+  /// Of facets whose corners run the other way round than their normals say; they are turned.
+  std::size_t turned() const { return turned_; }
 
   void finish(std::string name, const Place& place, Model& model, MeshRepairs& repairs) {
     MeshData mesh;
     mesh.points = points_.keys();
-    for (std::size_t i = 0; i + 2 < corners_.size(); i += 3)
+    for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
       mesh.triangles.push_back({corners_[i], corners_[i + 1], corners_[i + 2]});
+      const Vec3 normal(normals_[i / 3]);
+      const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(i / 3));
+      const Real cosine = dot(normal, face);
+      if (!(cosine < -0.5 * length(normal) * length(face))) continue;
+      std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
+      ++turned_;
+    }
     repairs.check(mesh, place);
     model.objects.push_back({std::move(name),
                              Mesh{std::make_shared<const MeshData>(std::move(mesh))},
@@ -56,43 +78,69 @@ class Solid {
  private:
   Unique<Vec3f> points_;
   std::vector<std::uint32_t> corners_;
+  std::vector<Vec3f> normals_;
+  std::size_t turned_ = 0;
 };
 
-Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repairs) {
+void warnOfTurned(std::size_t turned, const Place& place, Messages& messages) {
+  if (turned > 0)
+    messages.warn(place, "facets whose corners run the other way round than their normals say are turned: " +
+                             std::to_string(turned));
+}
+
+Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages) {
   Solid solid;
-  for (std::size_t at = kHeader; at < bytes.size(); at += kFacet)
-    for (std::size_t corner = 1; corner <= 3; ++corner) {  // the first vector is the normal
-      const char* from = bytes.data() + at + 12 * corner;
-      solid.corner({littleFloat(from), littleFloat(from + 4), littleFloat(from + 8)});
-    }
+  const std::size_t whole = (bytes.size() - kHeader) / kFacet, facets = facetsOf(bytes);
+  if (facets > whole)
+    throw Error(Fault::scene, place,
+                "expected the " + counted(facets, "facet") + " that its header counts, found " +
+                    std::to_string(whole));
+  const std::size_t end = kHeader + kFacet * facets;
+  if (end < bytes.size())
+    messages.warn(place, counted(bytes.size() - end, "byte") + " after the last facet are ignored");
+  const auto vectorAt = [&](const char* from) {
+    return Vec3f{littleFloat(from), littleFloat(from + 4), littleFloat(from + 8)};
+  };
+  for (std::size_t at = kHeader; at < end; at += kFacet) {
+    solid.facet(vectorAt(bytes.data() + at));
+    for (std::size_t corner = 1; corner <= 3; ++corner)
+      solid.corner(vectorAt(bytes.data() + at + 12 * corner));
+  }
   Model model;
   solid.finish("", place, model, repairs);
+  warnOfTurned(solid.turned(), place, messages);
   return model;
 }
 
 /// solid NAME { facet normal x y z outer loop { vertex x y z } endloop endfacet } endsolid NAME
 class TextReader {
  public:
-  TextReader(const Place& place, std::string_view bytes, MeshRepairs& repairs)
-      : place_(place), words_(place.file, bytes, '\0'), repairs_(repairs) {}
+  TextReader(const Place& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages)
+      : place_(place), words_(place.file, bytes, '\0'), repairs_(repairs), messages_(messages) {}
 
   Model read() {
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
-      if (word != "solid") words_.fail("expected \"solid\"", word);
-      readSolid(std::string(words_.line()));
+      if (sameWord(word, "facet"))  // a solid without its first line
+        readSolid("", word);
+      else if (sameWord(word, "solid"))
+        readSolid(std::string(words_.line()), "");
+      else
+        words_.fail("expected \"solid\"", word);
     }
+    warnOfTurned(turned_, place_, messages_);
     return std::move(model_);
   }
 
  private:
-  void readSolid(std::string name) {
+  /// `word` is the first after the name, if it was read.
+  void readSolid(std::string name, std::string_view word) {
     Solid solid;
-    for (;;) {
-      const std::string_view word = words_.next();
-      if (word == "endsolid") break;
-      if (word != "facet") words_.fail("expected \"facet\" or \"endsolid\"", word);
+    if (word.empty()) word = words_.next();
+    for (;; word = words_.next()) {
+      if (sameWord(word, "endsolid")) break;
+      if (!sameWord(word, "facet")) words_.fail("expected \"facet\" or \"endsolid\"", word);
       expect("normal");
-      vector("a normal's three numbers");
+      solid.facet(vector("a normal's three numbers"));
       expect("outer");
       expect("loop");
       for (int corner = 0; corner < 3; ++corner) {
@@ -104,10 +152,11 @@ class TextReader {
     }
     words_.line();  // the name again
     solid.finish(std::move(name), place_, model_, repairs_);
+    turned_ += solid.turned();
   }
 
   void expect(std::string_view keyword) {
-    if (const std::string_view word = words_.next(); word != keyword)
+    if (const std::string_view word = words_.next(); !sameWord(word, keyword))
       words_.fail("expected \"" + std::string(keyword) + "\"", word);
   }
 
@@ -119,24 +168,25 @@ class TextReader {
   const Place& place_;
   Words words_;
   MeshRepairs& repairs_;
+  Messages& messages_;
+  std::size_t turned_ = 0;
   Model model_;
 };
 
 }  // namespace
 
-bool recognisesStl(std::string_view bytes) {
-  if (isBinary(bytes)) return true;
-  if (!bytes.starts_with("solid")) return false;
-  const std::string_view beginning = bytes.substr(0, 4096);
-  return beginning.find("facet") != std::string_view::npos ||
-         beginning.find("endsolid") != std::string_view::npos;
+bool recognisesStl(std::string_view bytes) { return isBinary(bytes) || isText(bytes); }
+
+bool mayBeStl(std::string_view bytes) {
+  return bytes.size() >= kHeader + kFacet && facetsOf(bytes) > 0 && bytes.find('\0') != bytes.npos;
 }
 
 Model readStl(const std::string& file, std::string_view bytes, Messages& messages) {
   const Place place{file, 0, 0, {}};
   MeshRepairs repairs;
-  Model model =
-      isBinary(bytes) ? readBinary(place, bytes, repairs) : TextReader(place, bytes, repairs).read();
+  Model model = isBinary(bytes) || (mayBeStl(bytes) && !isText(bytes))
+                    ? readBinary(place, bytes, repairs, messages)
+                    : TextReader(place, bytes, repairs, messages).read();
   repairs.report(place, messages);
   return model;
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/read_scope.h"
 #include "formats/ray/ray_background.h"
 #include "formats/ray/ray_camera.h"
 #include "formats/ray/ray_findings.h"
@@ -22,7 +23,9 @@
 #include "formats/ray/ray_objects.h"
 #include "formats/ray/ray_settings.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/text_front.h"
 #include "formats/textures.h"
+#include "formats/words.h"
 
 namespace trace {
 namespace rayfile {
@@ -60,7 +63,7 @@ class Reader {
 
   /// Leaves `item` after the header.
   void readHeader(Item::Iterator& item, const Item::Iterator& end) {
-    if (item == end || !(*item).is(Kind::word) || (*item).text() != kMagic)
+    if (item == end || !(*item).is(Kind::word) || !sameWord((*item).text(), kMagic))
       throw Error(Fault::scene, syntax_.place(item == end ? 0 : (*item).offset()),
                   "expected SBT-raytracer 1.0");
     const Item magic = *item;
@@ -132,7 +135,9 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
 
 }  // namespace rayfile
 
-bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
+bool recognisesRay(std::string_view bytes) {
+  return sameWord(rayfile::skipBlanks(bytes).substr(0, rayfile::kMagic.size()), rayfile::kMagic);
+}
 
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
   SceneTime moment(time);
@@ -151,9 +156,11 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
 
 std::vector<Texture> readNamedTextures(const std::string& file, std::string_view bytes, Messages& messages,
                                        Real time) {
+  const ReadScope scope = ReadScope::ofScene(file);
+  const TextFront front(file, bytes, messages);
   Scene scene;
   scene.file = file;
-  rayfile::Syntax syntax(file, bytes);
+  rayfile::Syntax syntax(file, front.text());
   SceneTime moment(time);
   rayfile::settleKeys(syntax, moment);
   rayfile::Reader reader(syntax, scene, messages, moment, nullptr);

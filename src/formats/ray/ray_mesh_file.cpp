@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/named_file.h"
 #include "formats/format.h"
 #include "formats/ray/ray_fields.h"
 #include "geometry/mesh/mesh.h"
@@ -74,11 +75,13 @@ std::vector<Object> MeshFiles::read(const Item& block) {
 
 /// The file's model; nothing, after a report, if it cannot be had.
 const Model* MeshFiles::model(const Item& field, const std::string& name) {
-  const std::string path = besideFile(findings_.syntax().file(), name);
+  const NamedFile named = namedFile(findings_.syntax().file(), name);
+  const std::string& path = named.path;
   const auto known = models_.find(path);
   if (known != models_.end()) return &known->second;
   try {
     Messages messages;
+    if (!named.remark.empty()) findings_.warn(field, named.remark);
     InputFiles& inputs = findings_.scene().inputs;
     const std::string bytes = readBeside(findings_.syntax().file(), name, inputs);
     Model& model = models_.emplace(path, readModel(path, bytes, messages)).first->second;

@@ -7,6 +7,7 @@
 #include "formats/ray/ray_keys.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_settings.h"
+#include "formats/text_front.h"
 
 namespace trace::rayfile {
 namespace {
@@ -181,8 +182,9 @@ void changeView(TextEdits& edits, const Scene& from, const Scene& to) {
 namespace trace {
 
 std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time) {
-  if (bytes.find("look_at") == bytes.npos) return {};  // the look is cheap, the syntax not
-  rayfile::Syntax syntax(file, bytes);
+  const TextFront front(file, bytes);
+  if (front.text().find("look_at") == std::string_view::npos) return {};  // the look is cheap, the syntax not
+  rayfile::Syntax syntax(file, front.text());
   SceneTime moment(time);
   rayfile::settleKeys(syntax, moment);
   const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);

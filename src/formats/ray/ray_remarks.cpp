@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formats/ray/ray_syntax.h"
+#include "formats/text_front.h"
 #include "math/vec.h"
 #include "shading/cameras/camera.h"
 
@@ -24,7 +25,8 @@ void addAngle(const Syntax& syntax, const Item& rotation, RayRemarks& remarks) {
 }  // namespace
 
 RayRemarks remarksOn(const std::string& file, std::string_view bytes) {
-  const Syntax syntax(file, bytes);
+  const TextFront front(file, bytes);
+  const Syntax syntax(file, front.text());
   RayRemarks remarks;
   remarks.camera.file = file;
   for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {

@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/file.h"
+#include "base/named_file.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/textures.h"
@@ -194,10 +195,13 @@ class UbcReader {
     const auto [found, fresh] = files_.try_emplace(std::string(name.text));
     if (!fresh) return found->second;
     try {
-      const std::string path = findFile(scene_.file, found->first);
-      Model model = readModel(path, readBeside({}, path, scene_.inputs), values_.messages);
+      const NamedFile named = namedFile(scene_.file, found->first);
+      if (!named.remark.empty()) values_.messages.warn(values_.tokens.place(name), named.remark);
+      Model model = readModel(named.path, readBeside({}, named.path, scene_.inputs), values_.messages);
       scene_.inputs.note(model.inputs);
       found->second = std::move(model.objects);
+    } catch (const ReadDenied& denied) {
+      denied.at(values_.tokens.place(name));
     } catch (const Error& error) {
       if (error.fault() != Fault::io) throw;
       values_.tokens.fail(name, error.messages().front().what);
