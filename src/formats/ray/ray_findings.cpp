@@ -54,9 +54,16 @@ bool isRelative(std::string_view keyword) {
   return std::find(kRelatives.begin(), kRelatives.end(), keyword) != kRelatives.end();
 }
 
+/// The hint, and the calls and loops of the language that made the item.
+static std::string hintWithChain(const Item& at, std::string hint) {
+  const std::string chain = at.chain();
+  if (chain.empty()) return hint;
+  return hint.empty() ? chain : hint + "; " + chain;
+}
+
 void Findings::error(const Item& at, std::string what, std::string hint) {
   ++errors_;
-  messages_.error(syntax_.place(at.offset()), std::move(what), std::move(hint));
+  messages_.error(syntax_.place(at.offset()), std::move(what), hintWithChain(at, std::move(hint)));
 }
 
 void Findings::expected(const Item& value, std::string_view name, const std::string& what, std::string hint) {
@@ -74,7 +81,7 @@ void Findings::add(const std::string& kind, const Item& at, std::string what, st
   const bool full = warnings_.size() < kFullWarnings;
   kinds_.emplace(kind, warnings_.size());
   warnings_.push_back({full ? syntax_.place(at.offset()) : syntax_.shortPlace(at.offset()), std::move(what),
-                       full ? std::move(hint) : std::string(), 1});
+                       full ? hintWithChain(at, std::move(hint)) : std::string(), 1});
 }
 
 void Findings::warn(const Item& at, std::string what, std::string hint, std::string_view kind) {

@@ -16,6 +16,7 @@
 #include "formats/ray/ray_camera.h"
 #include "formats/ray/ray_findings.h"
 #include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_language.h"
 #include "formats/ray/ray_light.h"
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_notes.h"
@@ -26,6 +27,12 @@
 
 namespace trace {
 namespace rayfile {
+
+void settle(Syntax& syntax, Real time, InputFiles& inputs) {
+  expand(syntax, time, inputs);
+  settleKeys(syntax, time);
+}
+
 namespace {
 
 constexpr std::string_view kMagic = "SBT-raytracer";
@@ -124,7 +131,7 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
   Scene scene;
   scene.file = syntax.file();
   scene.format = "ray";
-  settleKeys(syntax, time);
+  settle(syntax, time, scene.inputs);
   Reader(syntax, scene, messages, time, &notes).read();
   return scene;
 }
@@ -134,8 +141,14 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
 bool recognisesRay(std::string_view bytes) { return rayfile::skipBlanks(bytes).starts_with(rayfile::kMagic); }
 
 bool changesWithTime(const std::string& file, std::string_view bytes) {
-  const bool mayHave = bytes.find(rayfile::Syntax::kKey) != bytes.npos;  // the look is cheap, the syntax not
-  return mayHave && recognisesRay(bytes) && rayfile::Syntax(file, bytes).hasKeys();
+  const auto has = [&](std::string_view word) { return bytes.find(word) != bytes.npos; };
+  const bool mayHave =
+      has(rayfile::Syntax::kKey) || has("time") || has("include");  // cheap, unlike the syntax
+  if (!mayHave || !recognisesRay(bytes)) return false;
+  rayfile::Syntax syntax(file, bytes);
+  InputFiles inputs;
+  rayfile::expand(syntax, 0, inputs);  // reads what it includes
+  return syntax.mayChangeWithTime();
 }
 
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {
@@ -143,7 +156,7 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
   scene.file = file;
   scene.format = "ray";
   rayfile::Syntax syntax(file, bytes);
-  rayfile::settleKeys(syntax, time);
+  rayfile::settle(syntax, time, scene.inputs);
   rayfile::Reader(syntax, scene, messages, time, nullptr).read();
   return scene;
 }
@@ -153,7 +166,7 @@ std::vector<Texture> readNamedTextures(const std::string& file, std::string_view
   Scene scene;
   scene.file = file;
   rayfile::Syntax syntax(file, bytes);
-  rayfile::settleKeys(syntax, time);
+  rayfile::settle(syntax, time, scene.inputs);
   rayfile::Reader reader(syntax, scene, messages, time, nullptr);
   reader.read();
   Scene shown;  // of one material for each texture

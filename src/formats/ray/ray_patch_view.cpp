@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_language.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_settings.h"
 
@@ -183,7 +183,8 @@ namespace trace {
 std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time) {
   if (bytes.find("look_at") == bytes.npos) return {};  // the look is cheap, the syntax not
   rayfile::Syntax syntax(file, bytes);
-  rayfile::settleKeys(syntax, time);
+  InputFiles inputs;
+  rayfile::settle(syntax, time, inputs);
   const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);
   if (blocks.empty()) return {};
   const std::optional<rayfile::Item> field = rayfile::fieldOf(blocks.back(), "look_at");
