@@ -55,7 +55,6 @@ class Expander {
     for (const std::string_view word : textureKinds()) textureWords_.insert(word);
     reserved_.insert(kStatementWords.begin(), kStatementWords.end());
     reserved_.insert(kConstants.begin(), kConstants.end());
-    for (const Function& function : functions()) reserved_.insert(function.name);
   }
 
   void expand() {
@@ -91,7 +90,8 @@ class Expander {
   std::size_t open(std::uint32_t from) { return open(node(from), from); }
   std::size_t open(const Node& made, std::uint32_t from) {
     if ((made.kind == Kind::tuple || made.kind == Kind::block) && ++depth_ > kMostNesting)
-      fail(from, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more");
+      fail(from, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more",
+           calls_ > 0 ? "a recursion needs a condition that ends it" : "");
     return push(made);
   }
   void close(std::size_t index) {
@@ -671,7 +671,7 @@ class Expander {
     Value left;
     if (kind(start) != Kind::op) {
       ++cursor.at;
-      if (live) left = kind(start) == Kind::tuple ? grouped(start, scope) : eval(start, scope);
+      if (live) left = operand(start, scope);
     } else {
       ++cursor.at;
       if (cursor.done()) fail(start, "expected a value after the operator");
@@ -687,6 +687,25 @@ class Expander {
       left = operated(cursor, operation, op, level, std::move(left), scope, live);
     }
     return left;
+  }
+
+  Value operand(std::uint32_t index, const Scoped& scope) {
+    if (kind(index) == Kind::tuple) return grouped(index, scope);
+    const std::string_view text = wordAt(index);
+    const bool known =
+        text.empty() || text == "true" || text == "false" || constant(text) || find(text, scope).binding;
+    if (!known) {
+      refuseDash(index, scope);
+      fail(index, "no value is called \"" + std::string(text) + "\"", nameHint(text, scope));
+    }
+    return eval(index, scope);
+  }
+  std::string nameHint(std::string_view text, Scoped scope) const {
+    std::vector<std::string_view> names;
+    for (; scope; scope = scope->parent)
+      for (const Binding& binding : scope->bindings) names.push_back(binding.name);
+    const std::string hint = didYouMean(text, names);
+    return hint.empty() ? "text stands in quotation marks" : hint;
   }
 
   Value operated(Cursor& cursor, std::uint32_t operation, Op op, int level, Value left, const Scoped& scope,
@@ -820,12 +839,8 @@ class Expander {
     try {
       return work();
     } catch (const ValueError& error) {
-      fail(index, error.what(), textHint(error.what()));
+      fail(index, error.what());
     }
-  }
-  /// An operand that is a word was meant as a name.
-  static std::string textHint(std::string_view what) {
-    return what.find("found \"") != what.npos ? "no value of that name is known here" : "";
   }
   /// "i-1" is one word, since options have dashes in their names.
   void refuseDash(std::uint32_t index, const Scoped& scope) const {

@@ -18,8 +18,8 @@
 namespace trace::rayfile {
 
 /// More nodes than this are not made, and not this many steps taken: a nest of loops ends with an error.
-inline constexpr std::size_t kMostMadeNodes = std::size_t{1} << 26;
-inline constexpr std::size_t kMostSteps = 400'000'000;
+inline constexpr std::size_t kMostMadeNodes = std::size_t{1} << 25;
+inline constexpr std::size_t kMostSteps = 100'000'000;
 /// Definitions and functions may call one another this deep.
 inline constexpr int kMostCalls = 200;
 

@@ -141,7 +141,7 @@ class Parser {
   }
 
   void item() {
-    if (!startsWord()) return value("an object, a field or a value");
+    if (!startsWord() || atPrefix()) return value("an object, a field or a value");
     const std::uint32_t word = this->word();
     if (statement(word)) return;
     const std::size_t end = at_;
@@ -226,7 +226,8 @@ class Parser {
   void loop() {
     name();
     blanks();
-    if (!startsWord() || !isWord(this->word(), "in")) failFound("expected \"in\" after the name of the loop");
+    if (!atWord("in")) failFound("expected \"in\" after the name of the loop");
+    word();
     nodes_.pop_back();
     beforeBody_ = true;
     value("a range such as 0..9, or a list");
@@ -389,7 +390,7 @@ class Parser {
     switch (c) {
       case '+':
       case '-':
-        if (apart && !isBlank(d)) return {};
+        if (apart && !isBlank(d) && d != '\0') return {};
         return {c == '+' ? Op::add : Op::subtract, 1};
       case '*': return {Op::multiply, 1};
       case '/': return {Op::divide, 1};
