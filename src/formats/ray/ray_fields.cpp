@@ -23,6 +23,11 @@ bool numbers(const Item& tuple, Real* to, int count) {
   return n == count;
 }
 
+bool isLiteral(const Item& number) {
+  const std::optional<ParsedNumber> parsed = parseNumber(number.source());
+  return parsed && parsed->length == number.source().size();
+}
+
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to) {
   if (!value.is(Kind::number)) {
     findings.expected(value, name, "a number");
@@ -114,7 +119,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, std::str
     findings.expected(value, name, "a name");
     return false;
   }
-  to = value.is(Kind::word) ? value.text() : value.source();
+  to = value.is(Kind::word) ? value.text() : isLiteral(value) ? value.source() : toText(value.number());
   return true;
 }
 

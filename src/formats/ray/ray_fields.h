@@ -27,6 +27,9 @@ namespace trace::rayfile {
 inline constexpr double kMostWhole = 1e9;
 inline bool fitsInt(double number) { return std::abs(number) <= kMostWhole; }
 
+/// Does the file have the number itself, rather than a key or an expression?
+bool isLiteral(const Item& number);
+
 /// Each reads one value of the field `name`; reports what else was found and returns false.
 bool read(Findings& findings, std::string_view name, const Item& value, Real& to);
 bool read(Findings& findings, std::string_view name, const Item& value, int& to);

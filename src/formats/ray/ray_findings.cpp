@@ -67,9 +67,16 @@ bool isRelative(std::string_view keyword) {
   return std::find(kRelatives.begin(), kRelatives.end(), keyword) != kRelatives.end();
 }
 
+/// The hint, and the calls and loops of the language that made the item.
+static std::string hintWithChain(const Item& at, std::string hint) {
+  const std::string chain = at.chain();
+  if (chain.empty()) return hint;
+  return hint.empty() ? chain : hint + "; " + chain;
+}
+
 void Findings::error(const Item& at, std::string what, std::string hint) {
   ++errors_;
-  messages_.error(syntax_.place(at.offset()), std::move(what), std::move(hint));
+  messages_.error(syntax_.place(at.offset()), std::move(what), hintWithChain(at, std::move(hint)));
 }
 
 void Findings::expected(const Item& value, std::string_view name, const std::string& what, std::string hint) {
@@ -87,7 +94,7 @@ void Findings::add(const std::string& kind, const Item& at, std::string what, st
   const bool full = warnings_.size() < kFullWarnings;
   kinds_.emplace(kind, warnings_.size());
   warnings_.push_back({full ? syntax_.place(at.offset()) : syntax_.shortPlace(at.offset()), std::move(what),
-                       full ? std::move(hint) : std::string(), 1});
+                       full ? hintWithChain(at, std::move(hint)) : std::string(), 1});
 }
 
 void Findings::warn(const Item& at, std::string what, std::string hint, std::string_view kind) {
@@ -113,12 +120,11 @@ void Findings::notRendered(std::string_view kind, const Item& node, std::span<co
 
 bool Findings::refuse(std::string_view kind, const Item& at) {
   if (isOneOf(kBringsFiles, kind))
-    error(at, quotedStart(kind) + ": a scene is one file, and reads no other scenes",
-          "put the text of the other file in this place; mesh { file = \"name.obj\"; } reads a mesh");
+    error(at, quotedStart(kind) + ": this does not read another file",
+          "include \"pieces.ray\" reads a scene (docs/language.md), mesh { file = \"name.obj\"; } a mesh");
   else if (isOneOf(kComputes, kind))
-    error(at, quotedStart(kind) + ": the scene language has no loops, conditions or variables",
-          "write each object out, or let a program write the file; rows { } repeats an object "
-          "(docs/shapes.md)");
+    error(at, quotedStart(kind) + ": expected an object",
+          "docs/language.md has let a = 1, define f(a) { }, for i in 0..9 { }, if (a < 1) { } else { }");
   else
     return false;
   return true;

@@ -17,6 +17,7 @@
 #include "formats/ray/ray_camera.h"
 #include "formats/ray/ray_findings.h"
 #include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_language.h"
 #include "formats/ray/ray_light.h"
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_notes.h"
@@ -29,6 +30,12 @@
 
 namespace trace {
 namespace rayfile {
+
+void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
+  expand(syntax, time, inputs);
+  settleKeys(syntax, time);
+}
+
 namespace {
 
 constexpr std::string_view kMagic = "SBT-raytracer";
@@ -128,7 +135,7 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
   scene.file = syntax.file();
   scene.format = "ray";
   SceneTime moment(time);
-  settleKeys(syntax, moment);
+  settle(syntax, moment, scene.inputs);
   Reader(syntax, scene, messages, moment, &notes).read();
   return scene;
 }
@@ -149,7 +156,7 @@ Scene readRay(const std::string& file, std::string_view bytes, Messages& message
   scene.file = file;
   scene.format = "ray";
   rayfile::Syntax syntax(file, bytes);
-  rayfile::settleKeys(syntax, time);
+  rayfile::settle(syntax, time, scene.inputs);
   rayfile::Reader(syntax, scene, messages, time, nullptr).read();
   return scene;
 }
@@ -162,7 +169,7 @@ std::vector<Texture> readNamedTextures(const std::string& file, std::string_view
   scene.file = file;
   rayfile::Syntax syntax(file, front.text());
   SceneTime moment(time);
-  rayfile::settleKeys(syntax, moment);
+  rayfile::settle(syntax, moment, scene.inputs);
   rayfile::Reader reader(syntax, scene, messages, moment, nullptr);
   reader.read();
   Scene shown;  // of one material for each texture

@@ -301,7 +301,8 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   Messages lost, others;
   std::optional<std::string> text;
   try {
-    text = rayfile::Patch(read, lost, others).text(edited);
+    if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())  // one place of the text may make many objects
+      text = rayfile::Patch(read, lost, others).text(edited);
   } catch (const Error&) {
     text.reset();  // a file that it names is gone, or the reader does not take the text
   }

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "formats/ray/ray_keys.h"
+#include "formats/ray/ray_language.h"
 #include "formats/ray/ray_patch.h"
 #include "formats/ray/ray_settings.h"
 #include "formats/text_front.h"
@@ -186,7 +186,8 @@ std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Re
   if (front.text().find("look_at") == std::string_view::npos) return {};  // the look is cheap, the syntax not
   rayfile::Syntax syntax(file, front.text());
   SceneTime moment(time);
-  rayfile::settleKeys(syntax, moment);
+  InputFiles inputs;
+  rayfile::settle(syntax, moment, inputs);
   const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);
   if (blocks.empty()) return {};
   const std::optional<rayfile::Item> field = rayfile::fieldOf(blocks.back(), "look_at");

@@ -14,7 +14,7 @@ namespace {
 /// As on the command line: `(0, 0, 8, 8)` is 0,0,8,8.
 std::string choiceText(const Item& value) {
   if (value.is(Kind::word)) return std::string(value.text());
-  if (value.is(Kind::number) && value.source().starts_with(Syntax::kKey)) return toText(value.number());
+  if (value.is(Kind::number) && !isLiteral(value)) return toText(value.number());
   if (!value.is(Kind::tuple)) return std::string(value.source());
   std::string text;
   for (const Item item : value) text += (text.empty() ? "" : ",") + choiceText(item);

@@ -1,5 +1,7 @@
 // The grammar of .ray scene files, apart from their meaning: text in, a tree of numbers, words, tuples,
-// blocks, entries and calls out. The first step in the life of a picture.
+// blocks, entries and calls out. The first step in the life of a picture. Where the text uses the language of
+// scenes (docs/language.md), its statements and expressions are nodes too, and expand() (ray_language.h)
+// makes the plain tree of them.
 //
 // One lenient grammar takes both dialects, the dictionaries of 2001 and the tokens of 2005 on
 // (docs/ray-format.md): separators `;` and `,` may be left out or repeated, and `name "foo"`
@@ -9,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +30,40 @@ enum class Kind : std::uint8_t {
   block,  ///< { items }
   entry,  ///< key = value: two children
   call,   ///< name { } or name( ): two children, the name and a block or tuple
+  // The language, of which expand() leaves nothing:
+  expression,  ///< operands and the operators between them, in the order of the text
+  op,          ///< an operator, whose Op is `number`; Op::index has a tuple as its child
+  let,         ///< name, a tuple of parameters if it is a function, value
+  define,      ///< name, tuple of parameters, block
+  loop,        ///< name, what it runs through, block
+  branch,      ///< condition, block, and for `else` a block or branch
+  include,     ///< the name of a file
+};
+
+enum class Op : std::uint8_t {
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  power,
+  less,
+  atMost,
+  more,
+  atLeast,
+  equal,
+  unequal,
+  both,
+  either,
+  negate,
+  invert,  // before an operand
+  member,
+  index,
+  degrees,
+  radians,  // behind one; the component is the last letter of the node's text
+  range,
+  choose,
+  otherwise,
 };
 
 struct Node {
@@ -35,7 +72,9 @@ struct Node {
   std::uint32_t length = 0;  ///< of its source text in bytes
   std::uint32_t end = 0;     ///< index of the first node after its subtree
   Kind kind = Kind::number;
-  bool quoted = false;  ///< of a word
+  bool quoted = false;   ///< of a word
+  bool follows = false;  ///< of a block: nothing stands between it and the call before
+  /// A word that no text of the file says is number - 1 of Syntax::spelled; 0 for others.
 };
 
 class Item;
@@ -50,6 +89,9 @@ class Syntax {
 
   /// Throws Error(Fault::scene) where the text is not of the grammar, or holds a number that is not finite.
   Syntax(std::string file, std::string_view source);
+  /// Reads another file into the tree, behind all nodes. Returns its block of items. Throws as the
+  /// constructor.
+  std::uint32_t include(std::string file, std::string source);
   Syntax(const Syntax&) = delete;
   Syntax& operator=(const Syntax&) = delete;
 
@@ -58,38 +100,74 @@ class Syntax {
   /// The outermost item that begins there.
   std::optional<Item> itemAt(std::size_t offset) const;
   std::span<const Node> nodes() const { return nodes_; }
-  std::string_view source() const { return source_; }
+  /// Of the file itself, without what it includes.
+  std::string_view source() const { return sources_.front().text; }
+  /// What the node has in its file.
+  std::string_view textOf(const Node& node) const {
+    return sourceOf(node.offset).text.substr(node.offset - sourceOf(node.offset).base, node.length);
+  }
   /// Is there a call of kKey?
   bool hasKeys() const { return hasKeys_; }
+  /// Is there a statement or an expression?
+  bool usesLanguage() const { return usesLanguage_; }
   /// Takes another tree over the same source.
-  void replace(std::vector<Node> nodes) {
-    nodes_ = std::move(nodes);
-    hasKeys_ = false;
+  void replace(std::vector<Node> nodes) { nodes_ = std::move(nodes); }
+  /// For nodes of words that no file has: what such a node holds as its number.
+  double spell(std::string word) {
+    spelled_.push_back(std::move(word));
+    return static_cast<double>(spelled_.size());
   }
-  const std::string& file() const { return file_; }
+  const std::string& spelled(double number) const { return spelled_[static_cast<std::size_t>(number) - 1]; }
+  const std::string& file() const { return sources_.front().file; }
+
+  /// Nodes that one call of a definition or one round of a loop made.
+  struct Frame {
+    std::uint32_t first, end;  ///< of the nodes
+    std::uint32_t offset;      ///< of the call or loop
+    std::string what;          ///< "gear(teeth = 12)", "i = 3"
+  };
+  /// Sorted by `first`; they nest.
+  void setFrames(std::vector<Frame> frames) { frames_ = std::move(frames); }
+  /// The calls and rounds that made the node, the innermost first: "in gear(teeth = 12) at line 7, ..."; ""
+  /// if the file has it itself.
+  std::string chain(std::uint32_t node) const;
 
   /// With the whole line of text.
   Place place(std::size_t offset) const;
   /// The offset of a place in this file, which place() made. Precondition: it is one.
   std::size_t offsetOf(const Place& place) const {
-    return lineStarts_[static_cast<std::size_t>(place.line) - 1] + static_cast<std::size_t>(place.column) - 1;
+    return sources_.front().lineStarts[static_cast<std::size_t>(place.line) - 1] +
+           static_cast<std::size_t>(place.column) - 1;
   }
   /// Without the text of a long line, to be kept in numbers.
   Place shortPlace(std::size_t offset) const;
 
  private:
   friend class Parser;
-  struct Line {
-    std::size_t number, start, end;
+  /// A file; its bytes have the offsets from `base` on.
+  struct Source {
+    std::string file, owned;
+    std::string_view text;
+    std::uint32_t base = 0;
+    std::vector<std::uint32_t> lineStarts{0};  ///< from the file's own start
   };
-  Line line(std::size_t offset) const;
+  struct Line {
+    std::size_t number, start, end;  ///< from the file's own start
+  };
+  void parse(Source& source);
+  const Source& sourceOf(std::size_t offset) const;
+  static Line line(const Source& source, std::size_t at);
+  Place place(std::size_t offset, std::size_t longestLine) const;
 
-  std::string file_;
-  std::string_view source_;
-  std::vector<std::uint32_t> lineStarts_;
+  std::deque<Source> sources_;  // the file itself, then what it includes
   std::vector<Node> nodes_;
-  bool hasKeys_ = false;
+  std::deque<std::string> spelled_;
+  std::vector<Frame> frames_;
+  bool hasKeys_ = false, usesLanguage_ = false;
 };
+
+/// Has the language a function of that name?
+bool isFunction(std::string_view name);
 
 /// A node of a Syntax; two words, passed by value.
 class Item {
@@ -100,8 +178,13 @@ class Item {
   bool is(Kind kind) const { return node().kind == kind; }
   double number() const { return node().number; }
   std::size_t offset() const { return node().offset; }
-  /// The node as the file has it.
-  std::string_view source() const { return syntax_->source().substr(node().offset, node().length); }
+  /// The node as the file has it; of a word that no file has, that word.
+  std::string_view source() const {
+    if (is(Kind::word) && node().number > 0) return syntax_->spelled(node().number);
+    return syntax_->textOf(node());
+  }
+  /// The calls and rounds of loops that made it (Syntax::chain).
+  std::string chain() const { return syntax_->chain(index_); }
   /// A word without its quotes.
   std::string_view text() const;
 

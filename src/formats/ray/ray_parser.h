@@ -1,0 +1,21 @@
+// The text of a .ray file read into the nodes of a Syntax: recursive descent, with one word of lookahead.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "formats/ray/ray_syntax.h"
+
+namespace trace::rayfile {
+
+/// What the text has that somebody has to look after.
+struct Parsed {
+  bool hasKeys = false, usesLanguage = false;
+};
+
+/// Appends the items of the text as one block. `syntax` gives messages their places; the text's first byte
+/// has the offset `base` there. Throws as Syntax::Syntax().
+Parsed parseRay(const Syntax& syntax, std::string_view text, std::uint32_t base, std::vector<Node>& nodes);
+
+}  // namespace trace::rayfile

@@ -1,0 +1,295 @@
+// The language of scenes: docs/language.md.
+#include "formats/ray/ray_language.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/budget.h"
+#include "base/file.h"
+#include "formats/ray/ray_format.h"
+#include "ray_helpers.h"
+
+namespace trace::ray_language_test {
+namespace {
+
+/// Where the first object of the text has its origin.
+Vec3 origin(std::string_view text) { return load(text).scene.objects.at(0).worldFromObject * Vec3{}; }
+/// The value of an expression, with statements before it.
+Real value(const std::string& expression, const std::string& before = "") {
+  return origin(before + "\ntranslate(" + expression + ", 0, 0, sphere { })").x;
+}
+std::string sphereAt(std::string_view place) { return "translate(" + std::string(place) + ", sphere { })"; }
+
+/// Do both texts say the same objects, materials, lights and settings?
+void expectSame(std::string_view language, std::string_view plain) {
+  const Scene a = load(language).scene, b = load(plain).scene;
+  ASSERT_EQ(a.objects.size(), b.objects.size()) << language;
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    EXPECT_EQ(a.objects[i].shape, b.objects[i].shape) << language;
+    EXPECT_EQ(a.objects[i].name, b.objects[i].name) << language;
+    EXPECT_EQ(a.materials[a.objects[i].material].model, b.materials[b.objects[i].material].model) << language;
+    for (const Vec3& p : {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+      for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR((a.objects[i].worldFromObject * p)[k], (b.objects[i].worldFromObject * p)[k], 1e-12)
+            << language;
+  }
+  ASSERT_EQ(a.lights.size(), b.lights.size()) << language;
+  for (std::size_t i = 0; i < a.lights.size(); ++i)
+    EXPECT_EQ(a.lights[i].light, b.lights[i].light) << language;
+  ASSERT_EQ(a.choices.size(), b.choices.size()) << language;
+  for (std::size_t i = 0; i < a.choices.size(); ++i)
+    EXPECT_EQ(a.choices[i].value, b.choices[i].value) << language;
+}
+
+TEST(RayLanguage, ComputesByPrecedence) {
+  const std::pair<const char*, Real> rows[]{{"1 + 2 * 3", 7},
+                                            {"(1 + 2) * 3", 9},
+                                            {"2 - 3 - 4", -5},
+                                            {"1/3", 1 / 3.0},
+                                            {"7 % 4", 3},
+                                            {"-1 % 4", 3},
+                                            {"2 ^ 3 ^ 2", 512},
+                                            {"-(2) ^ 2", -4},
+                                            {"2 * -(3)", -6},
+                                            {"3-1", 2},
+                                            {"1 < 2 ? 5 : 6", 5},
+                                            {"1 > 2 ? 5 : 2 > 1 ? 7 : 8", 7},
+                                            {"not (1 == 2) and 2 >= 2 ? 1 : 0", 1},
+                                            {"1 != 1 or 3 <= 2 ? 1 : 0", 0},
+                                            {"sin(30 deg)", 0.5},
+                                            {"180 deg", kPi},
+                                            {"90deg", kPi / 2},
+                                            {"2 rad", 2},
+                                            {"pi", kPi},
+                                            {"tau", 2 * kPi},
+                                            {"(4, 5, 6).y", 5},
+                                            {"((1, 2, 3) + (4, 5, 6) * 2).z", 15},
+                                            {"(7, 8, 9)[1]", 8},
+                                            {"(0..5)[3]", 3},
+                                            {"count(2..6)", 5},
+                                            {"time", 0}};
+  for (const auto& [expression, expected] : rows)
+    EXPECT_NEAR(value(expression), expected, 1e-12) << expression;
+}
+
+TEST(RayLanguage, HasEachFunctionOfItsTable) {
+  const std::pair<const char*, Real> rows[]{{"sin(0.5)", std::sin(0.5)},
+                                            {"cos(0.5)", std::cos(0.5)},
+                                            {"tan(0.5)", std::tan(0.5)},
+                                            {"asin(0.5)", std::asin(0.5)},
+                                            {"acos(0.5)", std::acos(0.5)},
+                                            {"atan(0.5)", std::atan(0.5)},
+                                            {"atan2(1, -1)", std::atan2(1, -1)},
+                                            {"sqrt(2)", std::sqrt(2)},
+                                            {"exp(1)", std::exp(1)},
+                                            {"log(2)", std::log(2)},
+                                            {"abs(-3)", 3},
+                                            {"floor(-1.5)", -2},
+                                            {"ceil(1.2)", 2},
+                                            {"round(1.6)", 2},
+                                            {"min(3, 1, 2)", 1},
+                                            {"max((3, 1, 2))", 3},
+                                            {"clamp(5, 0, 2)", 2},
+                                            {"mix(1, 3, 0.25)", 1.5},
+                                            {"dot((1, 2, 3), (4, 5, 6))", 32},
+                                            {"cross((1, 0, 0), (0, 1, 0)).z", 1},
+                                            {"length((3, 4, 12))", 13},
+                                            {"normalize((0, 0, 5)).z", 1},
+                                            {"count((1, 2))", 2},
+                                            {"steps(0, 1, 5)[1]", 0.25},
+                                            {"srgb(1, 0.5, 0).y", 0.2140411},
+                                            {"hsv(1/3, 1, 1).g", 1},
+                                            {"random(2, 2)", 2}};
+  std::set<std::string> tested;
+  for (const auto& [expression, expected] : rows) {
+    EXPECT_NEAR(value(expression), expected, 1e-7) << expression;
+    tested.insert(std::string(expression).substr(0, std::string(expression).find('(')));
+  }
+  for (const rayfile::FunctionHelp& function : rayfile::functionsOfLanguage())
+    EXPECT_TRUE(tested.contains(std::string(function.name))) << function.name;
+}
+
+TEST(RayLanguage, SaysWhatPlainTextSays) {
+  expectSame("let r = 2\nlet gold = { diffuse = (1, 0.5, 0.25) / 2; }\nscale(r, sphere { material = gold })",
+             "scale(2, sphere { material = { diffuse = (0.5, 0.25, 0.125); } })");
+  expectSame("let gold = material { diffuse = #ffffff; name = gold }\nsphere { material = gold }",
+             "sphere { material = { diffuse = (1, 1, 1); name = gold } }");
+  expectSame("for i in 0..2 { translate(i, 0, 0) { sphere { } } }",
+             "translate(0,0,0,sphere{}) translate(1,0,0,sphere{}) translate(2,0,0,sphere{})");
+  expectSame("for p in ((1, 2, 3), (4, 5, 6)) { translate(p) { box { } } }",
+             "translate(1,2,3,box{}) translate(4,5,6,box{})");
+  expectSame(
+      "for i in 0..3 { if (i % 2 == 0) { sphere { } } else if (i == 1) { box { } } else { cone { } } }",
+      "sphere{} box{} sphere{} cone{}");
+  expectSame(
+      "define ball(size, at = (0, 0, 1)) { translate(at) { scale(size) { sphere { } } } }\n"
+      "ball(2) ball(3, at = (1, 1, 1)) ball(at = (2, 0, 0), size = 1) { material = { diffuse = (1, 0, 0); } "
+      "}",
+      "translate(0,0,1,scale(2,sphere{})) translate(1,1,1,scale(3,sphere{}))"
+      "translate(2,0,0,scale(1,sphere{material={diffuse=(1,0,0);}}))");
+  expectSame("define tower(n) { box { } if (n > 1) { translate(0, 1, 0) { tower(n - 1) } } } tower(3)",
+             "box{} translate(0,1,0,box{}) translate(0,1,0,translate(0,1,0,box{}))");
+  expectSame("let pawn = group { sphere { } translate(0, 1, 0, box { }) }\npawn translate(2, 0, 0, pawn)",
+             "sphere{} translate(0,1,0,box{}) translate(2,0,0,{sphere{} translate(0,1,0,box{})})");
+  expectSame(
+      "let pawn = group { sphere { } }\nfor c in ((1, 0, 0), (0, 1, 0)) { pawn { material = { diffuse = c; } "
+      "} }",
+      "sphere{material={diffuse=(1,0,0);}} sphere{material={diffuse=(0,1,0);}}");
+  expectSame("rotate y 30 deg { box { } } rotate((0, 1, 0), 30 deg) { box { } }",
+             "rotate(0,1,0,0.52359877559829887308,box{}) rotate(0,1,0,0.52359877559829887308,box{})");
+  expectSame(
+      "for x in (1, 3) { point_light { position = (x, 2 * x, 0); color = (1, 1, 1) * x; } } sphere { }",
+      "point_light { position = (1, 2, 0); color = (1,1,1); } point_light { position = (3, 6, 0); color = "
+      "(3,3,3); } sphere{}");
+  expectSame("let w = 40\nsettings { width = 2 * w; spp = 9; } sphere { name = \"ball_\" + 3; }",
+             "settings { width = 80; spp = 9; } sphere { name = \"ball_3\"; }");
+  expectSame(
+      "polymesh { points = ( for a in 0..2 { (cos(a * 90 deg), sin(a * 90 deg), 0) } ); faces = ((0, 1, 2)); "
+      "}",
+      "polymesh { points = ((1, 0, 0), (6.123233995736766e-17, 1, 0), (-1, 1.2246467991473532e-16, 0)); "
+      "faces = ((0, 1, 2)); }");
+  expectSame("let sum(list) = count(list) == 0 ? 0 : list[0] + 1\ntranslate(sum((4, 5)), 0, 0, sphere { })",
+             "translate(5,0,0,sphere{})");
+  expectSame("union { for i in 0..1 { translate(i, 0, 0) { sphere { } } } }",
+             "union { translate(0,0,0,sphere{}) translate(1,0,0,sphere{}) }");
+}
+
+TEST(RayLanguage, NamesBelongToTheirBlock) {
+  expectSame("let a = 1\n{ let a = 2\n translate(a, 0, 0, sphere { }) } translate(a, 0, 0, sphere { })",
+             "translate(2,0,0,sphere{}) translate(1,0,0,sphere{})");
+  expectSame("translate(b, 0, 0, sphere { })\nlet b = 2 * c\nlet c = 4",
+             "translate(8,0,0,sphere{})");  // in any order
+  expectSame(
+      "material = { diffuse = (1, 1, 1); }\nfor i in 0..0 { material = { diffuse = (0, 0, 0); } box { } } "
+      "box { }",
+      "{ material = { diffuse = (0, 0, 0); } box { } } box { material = { diffuse = (1, 1, 1); } }");
+}
+
+TEST(RayLanguage, OldTextKeepsItsMeaning) {
+  EXPECT_EQ(origin("translate(1 -2 3, sphere { })"), (Vec3{1, -2, 3}));
+  EXPECT_EQ(origin("translate(1, -2, +3, sphere { })"), (Vec3{1, -2, 3}));
+  EXPECT_EQ(load("translate(1, 2, 3, sphere { }) { box { } }").scene.objects.size(), 2u);
+  EXPECT_EQ(load("scale(2, sphere { }) { box { } }").scene.objects.size(), 2u);
+}
+
+TEST(RayLanguage, RandomNumbersAreThoseOfTheirPlace) {
+  const std::string loop = "for i in 0..9 { translate(random(), 0, 0, sphere { }) }";
+  const Scene once = load(loop).scene, again = load("box { }\nlet a = 1\n" + loop + " box { }").scene;
+  std::set<Real> places;
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Real x = (once.objects[i].worldFromObject * Vec3{}).x;
+    EXPECT_EQ(x, (again.objects[i + 1].worldFromObject * Vec3{}).x) << "an inserted object moves no other";
+    EXPECT_TRUE(x >= 0 && x < 1);
+    places.insert(x);
+  }
+  EXPECT_EQ(places.size(), 10u);
+  const Scene two = load("let f() = random()\n" + sphereAt("f(), f(), random()")).scene;
+  const Vec3 p = two.objects[0].worldFromObject * Vec3{};
+  EXPECT_NE(p.x, p.y);
+  EXPECT_NE(p.y, p.z);
+}
+
+TEST(RayLanguage, TimeIsThatOfTheScene) {
+  const std::string text = "SBT-raytracer 1.0\ntranslate(2 * time, key((0, 1), (2, 5)), 0, sphere { })";
+  Messages messages;
+  const Scene scene = readScene("test.ray", text, messages, 1);
+  EXPECT_EQ(scene.objects.at(0).worldFromObject * Vec3{}, (Vec3{2, 3, 0}));
+  EXPECT_TRUE(changesWithTime("test.ray", text));
+  EXPECT_TRUE(changesWithTime("test.ray", "SBT-raytracer 1.0\nlet t = time\n" + sphereAt("t, 0, 0")));
+  EXPECT_FALSE(
+      changesWithTime("test.ray", "SBT-raytracer 1.0\nsettings { time-limit = 3; } // time\nsphere { }"));
+}
+
+TEST(RayLanguage, IncludesFilesOnce) {
+  const std::string folder = makeOwnFolder();
+  writeFile(
+      folder + "/pieces.ray",
+      "SBT-raytracer 1.0\ninclude \"more.ray\"\ndefine pair() { ball translate(2, 0, 0) { ball } }\nbox { }");
+  writeFile(folder + "/more.ray", "let ball = sphere { }\ninclude \"pieces.ray\"");
+  Messages messages;
+  const Scene scene =
+      readRay(folder + "/main.ray",
+              "SBT-raytracer 1.0\ninclude \"pieces.ray\"\ninclude \"pieces.ray\"\npair()", messages, 0);
+  EXPECT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.objects[0].place.file, folder + "/pieces.ray");
+  EXPECT_EQ(scene.objects[0].place.line, 4);
+  EXPECT_EQ(scene.inputs.all().size(), 2u);
+  writeFile(folder + "/more.ray", "let ball = sphere {\n radios = 1 } }");
+  try {
+    readRay(folder + "/main.ray", "SBT-raytracer 1.0\ninclude \"pieces.ray\"\npair()", messages, 0);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(placeText(error.messages().front().place), folder + "/more.ray:2:15");
+  }
+  EXPECT_THROW(readRay(folder + "/main.ray", "SBT-raytracer 1.0\ninclude \"none.ray\"", messages, 0), Error);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
+  const std::pair<const char*, const char*> rows[]{
+      {"let a = 1\nlet a = 2",
+       "3:5: expected a new name, found \"a\" again [it is defined at test.ray:2:1; nothing is assigned "
+       "twice]"},
+      {"let sphere = 1", "2:5: expected a new name, found \"sphere\", which has a meaning already"},
+      {"let a = 1 +", "2:11: expected a value after the operator, found the end of the file"},
+      {"let a 1", "2:7: expected \"=\", found \"1\""},
+      {"for i on 1..2 { }", "2:9: expected \"in\" after the name of the loop, found \"o\""},
+      {"for i in 3 { sphere { } }", "2:10: expected a range such as 0..9 or a list, found 3"},
+      {"let n = 3\nfor i in 0..n-1 { }",
+       "3:13: no value is called \"n-1\" [write \"n - 1\": names may have dashes in them]"},
+      {"translate(1 / 0, 0, 0, sphere { })", "2:13: division by 0"},
+      {"translate(width / 2, 0, 0, sphere { })",
+       "2:11: no value is called \"width\" [text stands in quotation marks]"},
+      {"define g(n) { }\ng()", "3:1: g: expected a value for n, found none"},
+      {"define g(n) { }\ng(1, 2)", "3:6: g: expected 1 argument, found more"},
+      {"define g(radius) { }\ng(radios = 1)",
+       "3:3: g: expected a parameter of (radius), found radios = 1 [did you mean \"radius\"?]"},
+      {"if (1) { }", "2:4: expected true or false as a condition, found 1"},
+      {"let f(n) = f(n + 1)\ntranslate(f(0), 0, 0, sphere { })", nullptr},
+      {"define d() { d() }\nd()", nullptr},
+      {"let a = a + 1\ntranslate(a, 0, 0, sphere { })",
+       "2:9: no value is called \"a\" [text stands in quotation marks]"},
+      {"color = #ffb", "2:9: expected six hexadecimal digits after #, as in #ffb347"},
+  };
+  for (const auto& [text, expected] : rows) {
+    const std::string found = errorsOf(text);
+    if (expected)
+      EXPECT_EQ(found, expected) << text;
+    else
+      EXPECT_NE(found.find("a recursion needs a condition that ends it"), found.npos) << text << "\n"
+                                                                                      << found;
+  }
+  EXPECT_EQ(errorsOf("define g(r) { for i in 1..2 { sphere { nonsense } } }\ng(7)"),
+            "2:40: sphere: expected a field, as in name = value, found \"nonsense\" [in i = 1 at "
+            "test.ray:2:15, in g(r = "
+            "7) at test.ray:3:1]\n"
+            "2:40: sphere: expected a field, as in name = value, found \"nonsense\" [in i = 2 at "
+            "test.ray:2:15, in g(r = "
+            "7) at test.ray:3:1]");
+}
+
+TEST(RayLanguage, BombsEnd) {
+  std::string bomb;
+  for (const char* name : {"a", "b", "c", "d", "e"}) bomb += "for " + std::string(name) + " in 0..999 { ";
+  Budget budget;
+  budget.limitTime(0.1);
+  const BudgetScope scope(&budget);
+  EXPECT_NE(errorsOf(bomb + "sphere { } } } } } }").find("time"), std::string::npos);
+  budget.limitTime(0);
+  std::string deep(100, '(');
+  EXPECT_NE(errorsOf("let f(x) = " + deep + "1 + f(x)" + std::string(100, ')') +
+                     "\ntranslate(f(0), 0, 0, sphere { })"),
+            "");
+  std::string nested;
+  for (int i = 0; i < 100; ++i)
+    nested += "define d" + std::to_string(i) + "() { {{ d" + std::to_string(i + 1) + "() }} }\n";
+  EXPECT_NE(errorsOf(nested + "define d100() { sphere { } }\nd0()"), "");
+}
+
+}  // namespace
+}  // namespace trace::ray_language_test
