@@ -27,7 +27,8 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
       {"include { file = \"x.ray\"; }", kOneFile},
       {"include;", kOneFile},
       {"scale(2, for(i, 0, 10, sphere { }))",
-       "2:10: \"for\": expected an object [docs/language.md has let a = 1, define f(a) { }, for i in 0..9 { }, "
+       "2:10: \"for\": expected an object [docs/language.md has let a = 1, define f(a) { }, for i in 0..9 { "
+       "}, "
        "if (a < 1) { } else { }]"},
       {"(1, 2)", "2:1: expected an object, found (1, 2)"},
       {"sphere(1)", "2:7: sphere: expected { ... }, found (1)"},

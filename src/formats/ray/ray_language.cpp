@@ -51,7 +51,8 @@ constexpr std::array<std::string_view, 5> kConstants{"pi", "tau", "time", "true"
 
 class Expander {
  public:
-  Expander(Syntax& syntax, SceneTime& time, InputFiles& inputs) : syntax_(syntax), time_(time), inputs_(inputs) {
+  Expander(Syntax& syntax, SceneTime& time, InputFiles& inputs)
+      : syntax_(syntax), time_(time), inputs_(inputs) {
     for (const std::string_view word : knownWords()) reserved_.insert(word);
     for (const std::string_view word : textureKinds()) textureWords_.insert(word);
     reserved_.insert(kStatementWords.begin(), kStatementWords.end());
@@ -696,8 +697,7 @@ class Expander {
     if (kind(index) == Kind::tuple) return grouped(index, scope);
     const std::string_view text = wordAt(index);
     const bool known =
-        text.empty() || text == "true" || text == "false" || isConstant(text) ||
-                       find(text, scope).binding;
+        text.empty() || text == "true" || text == "false" || isConstant(text) || find(text, scope).binding;
     if (!known) {
       refuseDash(index, scope);
       fail(index, "no value is called \"" + std::string(text) + "\"", nameHint(text, scope));

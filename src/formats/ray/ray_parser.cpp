@@ -446,7 +446,6 @@ class Parser {
     close(tuple);
   }
 
-
   void brackets() {
     const std::size_t opened = at_++;
     if (++depth_ > kMostNesting) failDeep(opened);
