@@ -131,7 +131,7 @@ const Choices kMlt =
 const Choices kMltBdpt =
     choices({{"integrator", "mlt"}, {"chains", "bdpt"}, {"spp", "192"}, {"chain-starts", "200000"}});
 const Choices kMltVeach =
-    choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "50000"}});
+    choices({{"integrator", "mlt"}, {"chains", "veach"}, {"spp", "192"}, {"chain-starts", "20000"}});
 // Photons have bounces of their own: only without an end are both the same.
 const Choices kPathDeep = choices({{"integrator", "path"}, {"spp", "96"}, {"depth", "20"}});
 const Choices kBdptDeep = choices({{"integrator", "bdpt"}, {"spp", "64"}, {"depth", "20"}});

@@ -90,9 +90,10 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
     return !time.changesScene();
   };
   if (arguments.frames.size() > 1 && neverChanges())
-    console.line(LogLevel::warning, "warning: nothing in " + scene +
-                                        " changes with time, so all frames are the same picture; key(...) and "
-                                        "particles in the scene change (docs/animation.md)");
+    console.line(LogLevel::warning,
+                 "warning: nothing in " + scene +
+                     " changes with time, so all frames are the same picture; key(...) and "
+                     "particles in the scene change (docs/animation.md)");
   if (arguments.frames.size() > 1 && pattern.find('#') == std::string::npos)
     throw Error(Fault::usage,
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",

@@ -1,6 +1,7 @@
 #include "render/metropolis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -8,6 +9,7 @@
 
 #include "base/budget.h"
 #include "image/srgb.h"
+#include "math/low_discrepancy.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -15,6 +17,11 @@ namespace {
 
 /// How bright a sample is to a chain. A filter may take light away: that has to be found, too.
 Real lightOf(const Splat& sample) { return isFinite(sample.value) ? std::abs(luminanceOf(sample.value)) : 0; }
+
+Real pixelsOf(const Tile& area) { return Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0); }
+
+/// Other samples than those at which chains may start.
+constexpr std::uint64_t kBrightness = 0x627269676874ull;
 
 /// A sample where a chain is, and how often it has been there, on the average over all that chance could do.
 struct Stop {
@@ -26,8 +33,7 @@ struct Stop {
 /// Takes the sample of the numbers: what it brings to its own pixel, and to others.
 class Sampling {
  public:
-  Sampling(PixelTracer& tracer, const Tile& area)
-      : tracer_(tracer), area_(area), pixels_(Real{1} * (area.x1 - area.x0) * (area.y1 - area.y0)) {
+  Sampling(PixelTracer& tracer, const Tile& area) : tracer_(tracer), area_(area), pixels_(pixelsOf(area)) {
     tracer_.collect(&thrown_);
   }
   ~Sampling() { tracer_.collect(nullptr); }
@@ -55,35 +61,25 @@ class Sampling {
   std::vector<Splat> thrown_;
 };
 
-/// Numbers of a sample whose place in the picture, the pair that is drawn first, lies in one of side x side
-/// squares.
-class PlacedSample final : public SampleNumbers {
+/// Numbers of one of many samples that are spread evenly over the picture, whose place is drawn first. The
+/// others are independent: pairs of Sobol's points that are matched at random are no better where many count
+/// together, but up to twice as bad.
+class EvenSample final : public SampleNumbers {
  public:
-  PlacedSample(SampleNumbers& others, const Vec2& square, Real side)
-      : others_(others), square_(square), side_(side) {}
+  EvenSample(std::uint64_t seed, std::uint32_t sample)
+      : seed_(seed), own_(mixBits(seed ^ mixBits(sample))), sample_(sample) {}
   Vec2 pair(std::uint64_t branch) override {
     if (!first_) first_ = branch;
-    const Vec2 u = others_.pair(branch);
-    return branch == *first_ ? Vec2{(square_.x + u.x) / side_, (square_.y + u.y) / side_} : u;
+    if (branch == *first_) return sobolPoint(sample_, seed_);
+    const std::uint64_t bits = mixBits(own_ ^ branch);
+    return {unitFromBits(bits), unitFromBits(mixBits(bits))};
   }
 
  private:
-  SampleNumbers& others_;
-  Vec2 square_;
-  Real side_;
+  std::uint64_t seed_, own_;
+  std::uint32_t sample_;
   std::optional<std::uint64_t> first_;
 };
-
-/// The mean, and its standard error as a part of it.
-std::pair<Real, Real> meanOf(std::span<const Real> values) {
-  const Real count = static_cast<Real>(values.size());
-  Real mean = 0, squares = 0;
-  for (const Real value : values) {
-    mean += value / count;
-    squares += value * value / count;
-  }
-  return {mean, std::sqrt(std::max(0.0, squares - mean * mean) / std::max(1.0, count - 1)) / mean};
-}
 
 }  // namespace
 
@@ -118,7 +114,7 @@ Metropolis::Metropolis(std::span<const Moment> moments, const Settings& settings
     paths_ = std::make_unique<const veach::Chains>(moments_, settings_, size_, area_);
   sums_ = startLights(job, interrupt);
   if (job.cancel) return;
-  std::tie(mean_, error_) = paths_ ? meanOf(sums_) : wholeLight(job, interrupt);
+  std::tie(mean_, error_) = wholeLight(job, interrupt);
   for (std::size_t n = 1; n < sums_.size(); ++n) sums_[n] += sums_[n - 1];
   if (!(sums_.back() > 0)) mean_ = 0;  // there is no place to start at
   if (!(mean_ > 0)) error_ = kInfinity;
@@ -136,38 +132,66 @@ std::vector<Real> Metropolis::startLights(Job& job, const std::function<void()>&
   return found;
 }
 
-/// How bright samples are, on the mean, that show all ways to put their paths together, two in each square of
-/// the picture; and the standard error as a part of that. Half as many as of the others tell more exactly how
-/// bright the picture is: among those a few count a thousand times as much as most, and chance decides how
-/// many see a small lamp.
+/// How bright the picture is, and the standard error as a part of that, by samples of their own: each shows
+/// all ways to put its paths together. Those at which chains start tell it less exactly: among them a few
+/// count a thousand times as much as most, and chance decides how many see a small lamp. They are spread
+/// evenly, all of them better than each of several parts, whose means so tell an error that is rather larger
+/// than the true one.
 std::pair<Real, Real> Metropolis::wholeLight(Job& job, const std::function<void()>& interrupt) const {
-  Settings settings = settings_;
-  settings.integrator = settings.chains == Chains::bdpt ? IntegratorKind::bdpt : IntegratorKind::path;
-  settings.lightVertices = settings.cameraVertices = -1;
-  settings.unweighted = false;
-  std::vector<std::unique_ptr<const Integrator>> integrators;
-  std::vector<Moment> moments;
-  for (const Moment& moment : moments_) {
-    integrators.push_back(makeIntegrator(*moment.world, settings, job));
-    moments.push_back({moment.world, integrators.back().get()});
+  constexpr std::int64_t kParts = 16;
+  const std::int64_t samples = (brightnessSamples() + kParts - 1) / kParts * kParts;
+  std::vector<Real> found(static_cast<std::size_t>(samples));
+  const std::uint64_t seed = mixBits(static_cast<std::uint64_t>(settings_.seed) ^ kBrightness);
+  if (paths_) {
+    look(moments_, samples, job, interrupt, [&](Sampling& sampling, std::int64_t n) {
+      found[static_cast<std::size_t>(n)] =
+          paths_->brightness(sampling.tracer(), seed, static_cast<std::uint32_t>(n));
+    });
+  } else {
+    Settings settings = settings_;
+    settings.integrator = settings.chains == Chains::bdpt ? IntegratorKind::bdpt : IntegratorKind::path;
+    settings.lightVertices = settings.cameraVertices = -1;
+    settings.unweighted = false;
+    std::vector<std::unique_ptr<const Integrator>> integrators;
+    std::vector<Moment> moments;
+    for (const Moment& moment : moments_) {
+      integrators.push_back(makeIntegrator(*moment.world, settings, job));
+      moments.push_back({moment.world, integrators.back().get()});
+    }
+    look(moments, samples, job, interrupt, [&](Sampling& sampling, std::int64_t n) {
+      EvenSample numbers(seed, static_cast<std::uint32_t>(n));
+      found[static_cast<std::size_t>(n)] = sampling.at(numbers).light;
+    });
   }
-  const auto side = static_cast<std::int64_t>(std::ceil(std::sqrt(settings.chainStarts / 4.0)));
-  std::vector<Real> found(static_cast<std::size_t>(2 * side * side));
-  look(moments, std::ssize(found), job, interrupt, [&](Sampling& sampling, std::int64_t n) {
-    PrimarySample numbers = startOf(static_cast<std::uint64_t>(n), 0);
-    const std::int64_t square = n / 2;
-    PlacedSample placed(numbers, {static_cast<Real>(square % side), static_cast<Real>(square / side)},
-                        static_cast<Real>(side));
-    found[static_cast<std::size_t>(n)] = sampling.at(placed).light;
-  });
-  const Real count = static_cast<Real>(found.size());
+  std::array<Real, kParts> parts{};
+  for (std::int64_t n = 0; n < samples; ++n)
+    parts[static_cast<std::size_t>(n * kParts / samples)] +=
+        found[static_cast<std::size_t>(n)] * kParts / static_cast<Real>(samples);
   Real mean = 0, squares = 0;
-  for (std::size_t n = 0; n < found.size(); n += 2) {
-    const Real apart = found[n] - found[n + 1];
-    mean += (found[n] + found[n + 1]) / count;
-    squares += apart * apart;
-  }
-  return {mean, std::sqrt(squares) / count / mean};
+  for (const Real part : parts) mean += part / kParts;
+  for (const Real part : parts) squares += (part - mean) * (part - mean);
+  return {mean, std::sqrt(squares / (kParts * (kParts - 1))) / mean};
+}
+
+std::int64_t Metropolis::brightnessSamples() const {
+  return std::int64_t{settings_.chainStarts} * (paths_ ? 8 : 1);
+}
+
+/// How bright the picture is, for a chain: by samples taken first and by one more for each kEvery of its
+/// moves. So the more chains there are, the less the first samples decide. What chains before it have found
+/// it does not know, but counts: on the average over all chains its own samples stand for theirs, and all of
+/// them are spread evenly together.
+Real Metropolis::meanFor(PixelTracer& tracer, std::int64_t moves, std::int64_t before) const {
+  constexpr std::int64_t kEvery = 8;
+  const std::int64_t own = moves / kEvery, since = before / kEvery;
+  if (!paths_ || own == 0 || since == 0) return mean_;
+  constexpr std::uint64_t kOnTheWay = 0x6f6e746865ull;
+  const std::uint64_t seed = mixBits(static_cast<std::uint64_t>(settings_.seed) ^ kOnTheWay);
+  Real sum = 0;
+  for (std::int64_t n = 0; n < own; ++n)
+    sum += paths_->brightness(tracer, seed, static_cast<std::uint32_t>(since + n));
+  const Real first = static_cast<Real>(brightnessSamples()), others = static_cast<Real>(since);
+  return (first * mean_ + others * sum / static_cast<Real>(own)) / (first + others);
 }
 
 PrimarySample Metropolis::startOf(std::uint64_t number, std::uint64_t moves) const {
@@ -183,7 +207,7 @@ std::uint64_t Metropolis::numberOf(std::int64_t tile, int firstSample) {
 }
 
 std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
-                                     const ChainWatch& watch) const {
+                                     const ChainWatch& watch, std::int64_t before) const {
   std::vector<Splat> splats;
   if (!(mean_ > 0)) return splats;
   constexpr std::uint64_t kChains = 0x636861696e73ull;  // other numbers than those of the starts
@@ -191,7 +215,10 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
   const auto chance = [&] { return unitFromBits(chances = mixBits(chances)); };
   const auto from = std::upper_bound(sums_.begin(), sums_.end() - 1, chance() * sums_.back());
   const auto start = static_cast<std::uint64_t>(from - sums_.begin());
-  if (paths_) return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, mean_, watch);
+  if (paths_) {
+    const Real mean = meanFor(tracer, moves, before);
+    return paths_->chain(tracer, seedOf(start), mixBits(chances), moves, mean, watch);
+  }
   PrimarySample numbers = startOf(start, mixBits(chances));
   Sampling samples(tracer, area_);
   // A chain's samples and those taken anywhere are two ways to choose, weighed by the balance heuristic: how

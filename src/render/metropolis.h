@@ -37,13 +37,15 @@ class Metropolis {
   PixelTracer tracer() const { return {moments_, settings_, size_}; }
 
   /// What the chain of that number leaves in the picture in so many moves. Film::picture() divides the sum of
-  /// all chains by the number of all moves.
+  /// all chains by the number of all moves. Chains of smaller waves, and of tiles before in the
+  /// same wave, make `before` moves: where each chain knows how many, the samples that tell how bright the
+  /// picture is are spread evenly over all chains.
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
-                           const ChainWatch& watch = {}) const;
+                           const ChainWatch& watch = {}, std::int64_t before = 0) const;
   /// The part of the picture where chains go.
   const Tile& area() const { return area_; }
   /// The standard error of how bright the picture is, relative to that: all that chains leave is in
-  /// proportion to the mean light of the samples taken first. Infinite where none of them found light.
+  /// proportion to the mean light of samples taken first. Infinite where none of them found light.
   Real brightnessError() const { return error_; }
   /// With which their samples are taken.
   const Settings& settings() const { return settings_; }
@@ -54,6 +56,8 @@ class Metropolis {
             const std::function<void()>& interrupt, const Take& take) const;
   std::vector<Real> startLights(Job& job, const std::function<void()>& interrupt) const;
   std::pair<Real, Real> wholeLight(Job& job, const std::function<void()>& interrupt) const;
+  std::int64_t brightnessSamples() const;
+  Real meanFor(PixelTracer& tracer, std::int64_t moves, std::int64_t before) const;
   PrimarySample startOf(std::uint64_t number, std::uint64_t moves) const;
   /// From which the numbers of a sample that is taken first follow.
   std::uint64_t seedOf(std::uint64_t start) const;
@@ -63,7 +67,7 @@ class Metropolis {
   Size size_;
   Tile area_;               ///< of the picture that is rendered
   std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
-  Real mean_ = 0;           ///< light of a sample
+  Real mean_ = 0;           ///< how bright the picture is: the light of a sample, on the average
   Real error_ = 0;
   std::unique_ptr<const veach::Chains> paths_;  ///< where paths are changed, not the numbers of samples
 };

@@ -144,13 +144,24 @@ class TileRenderer {
     return {place.x, place.y, static_cast<int>(at - corners.begin())};
   }
 
+  /// Of the area, in the tiles before that one.
+  std::int64_t pixelsBefore(std::int64_t tile) {
+    if (pixelsBefore_.empty())
+      for (std::int64_t i = 0, pixels = 0; i <= film_.tiles(); ++i) {
+        pixelsBefore_.push_back(pixels);
+        if (i < film_.tiles()) pixels += pixelsIn(intersection(film_.tile(i), area_));
+      }
+    return pixelsBefore_[static_cast<std::size_t>(tile)];
+  }
+
   /// One chain of as many samples; of the tile's own pixels only the passes are seen.
   void takeChain(std::int64_t tile, const Wave& wave, TileSamples& samples) {
     const Tile& area = samples.area;
     samples.paths = pixelsIn(area) * wave.count();
     samples.colors.assign(static_cast<std::size_t>(samples.paths), Color(0));
     const std::uint64_t number = Metropolis::numberOf(tile, wave.first);
-    samples.splats = chains_->chain(*chainTracer_, number, samples.paths);
+    const std::int64_t before = pixelsBefore(film_.tiles()) * wave.first + pixelsBefore(tile) * wave.count();
+    samples.splats = chains_->chain(*chainTracer_, number, samples.paths, {}, before);
     if (passes_.empty()) return;
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
@@ -181,6 +192,7 @@ class TileRenderer {
   const Film& film_;
   const Metropolis* chains_;
   std::optional<PixelTracer> chainTracer_;
+  std::vector<std::int64_t> pixelsBefore_;
   bool throws_ = false;         ///< samples bring light to other pixels, too
   std::vector<BadSample> bad_;  ///< the first
   std::uint64_t badCount_ = 0;

@@ -37,6 +37,18 @@ Path Chains::start(PixelTracer& tracer, Numbers& numbers) const {
   return path;
 }
 
+Real Chains::brightness(PixelTracer& tracer, std::uint64_t seed, std::uint32_t sample) const {
+  Numbers even(seed, sample);
+  const std::size_t moment = momentBy(even);
+  const Paths seen = paths(tracer, moment);
+  const Real fromCamera = Moves(seen, rules_, even, settings_.moveSize).fromCamera();
+  Numbers numbers(mixBits(mixBits(seed) ^ mixBits(sample)));
+  Path path = start(tracer, numbers);
+  if (!(path.brightness > 0)) return fromCamera;
+  const Paths there = paths(tracer, path.moment);
+  return fromCamera + Moves(there, rules_, numbers, settings_.moveSize).anywhereShare(path);
+}
+
 Real Chains::light(PixelTracer& tracer, std::uint64_t seed) const {
   Numbers numbers(seed);
   Path path = start(tracer, numbers);

@@ -10,8 +10,9 @@
 
 namespace trace::veach {
 
-Real Numbers::next() { return unitFromBits(state_ = mixBits(state_)); }
+Real Numbers::next() { return even_ > 0 ? evenPair().x : unitFromBits(state_ = mixBits(state_)); }
 Vec2 Numbers::next2() {
+  if (even_ > 0) return evenPair();
   const Real x = next();
   return {x, next()};
 }
@@ -141,16 +142,18 @@ struct Moves::Walk {
   RayKind fromKept = RayKind::bounce;  ///< how the path goes on from the first place that is kept
 };
 
+/// One more place from the camera on, or an end.
+bool Moves::step(Path& path) {
+  const Vertex* at = path.nodes.back().vertex.get();
+  if (!at) return paths_.follow(path, RayKind::camera);
+  const auto next = at->onward.choose(numbers_.next(), lobes_);
+  return next && paths_.follow(path, next->kind, next->direction);
+}
+
 /// So many more places from the camera on. At the end, if the path has to have one.
 bool Moves::walkFromEye(Path& path, std::size_t places, bool toEnd) {
   for (std::size_t i = 0; i < places; ++i) {
-    const Vertex* at = path.nodes.back().vertex.get();
-    if (!at) {
-      if (!paths_.follow(path, RayKind::camera)) return false;
-    } else {
-      const auto next = at->onward.choose(numbers_.next(), lobes_);
-      if (!next || !paths_.follow(path, next->kind, next->direction)) return false;
-    }
+    if (!step(path)) return false;
     if (path.end != Path::End::open) return toEnd && i + 1 == places;
   }
   return !toEnd || paths_.endAtLamp(path);
@@ -247,6 +250,11 @@ bool Moves::join(Path& path, const Walk& walk, const Path& from, const Kept& kep
   return paths_.attach(path, kind, from, first, walk.fromKept);
 }
 
+Vec2 Moves::onFilm(const Vec2& u) const {
+  return {stage_.low.x + u.x * (stage_.high.x - stage_.low.x),
+          stage_.low.y + u.y * (stage_.high.y - stage_.low.y)};
+}
+
 /// A path of so many places, of which some are kept.
 bool Moves::build(Path& path, Path& from, const Kept& kept, std::size_t places) {
   const std::size_t added = places - kept.atLens - kept.atLight, first = kept.atLens == 0 ? 1 : 0;
@@ -257,9 +265,7 @@ bool Moves::build(Path& path, Path& from, const Kept& kept, std::size_t places) 
   path.moment = from.moment;
   if (kept.atLens <= 1) {
     const Vec2 u = numbers_.next2(), lens = numbers_.next2();
-    const Vec2 film{stage_.low.x + u.x * (stage_.high.x - stage_.low.x),
-                    stage_.low.y + u.y * (stage_.high.y - stage_.low.y)};
-    if (!paths_.begin(path, film, kept.atLens == 0 ? lens : from.lens)) return false;
+    if (!paths_.begin(path, onFilm(u), kept.atLens == 0 ? lens : from.lens)) return false;
   } else {
     path.film = from.film;
     path.lens = from.lens;
@@ -279,6 +285,44 @@ Path Moves::anywhere() {
   Path none, path;
   if (!build(path, none, {}, places) || !paths_.weigh(path, 0, path.last())) path.brightness = 0;
   return path;
+}
+
+/// With which fromCamera() finds the path: its walk meets what shines, or asks for it.
+Real Moves::cameraDensity(const Path& path) const {
+  const std::size_t end = path.last();
+  Real eye = 1;
+  for (std::size_t i = 0; i + 1 < end; ++i) eye *= path.nodes[i].eye;
+  const Real met = path.end != Path::End::light ? eye * path.nodes[end - 1].eye : 0;
+  return met + eye * paths_.askDensity(path);
+}
+
+Real Moves::anywhereShare(Path& path) const {
+  const Real density = cameraDensity(path) + anywhereDensity(path);
+  return path.brightness > 0 && density > 0 ? path.brightness / density : 0;
+}
+
+Real Moves::fromCamera() {
+  Real sum = 0;
+  // Adds what the path shows, of which all places before that one were weighed before.
+  const auto show = [&](Path& whole, std::size_t first) {
+    if (paths_.weigh(whole, first, whole.last())) sum += anywhereShare(whole);
+  };
+  Path path;
+  const Vec2 u = numbers_.next2(), lens = numbers_.next2();
+  if (!paths_.begin(path, onFilm(u), lens)) return 0;
+  while (step(path)) {
+    const std::size_t last = path.last();
+    if (!paths_.weighPlace(path, last - 1)) break;
+    if (path.end != Path::End::open) {
+      show(path, last);
+      break;
+    }
+    if (last > 1) paths_.lightDensity(path, last - 1);  // once for all paths that go by
+    Path met = path, asks = path;
+    if (paths_.endAtLamp(met)) show(met, last);
+    if (askEnd(asks)) show(asks, last);
+  }
+  return sum;
 }
 
 Offer Moves::bidirectional(Path& from) {

@@ -8,6 +8,7 @@
 // so that the chain is at a path as often as that is bright. Each mutation works out R.
 #pragma once
 
+#include "math/low_discrepancy.h"
 #include "render/move_kind.h"
 #include "render/sampler.h"
 #include "render/veach_path.h"
@@ -17,13 +18,20 @@ namespace trace::veach {
 /// Numbers from 0 up to 1, one after the other.
 class Numbers final : public SampleNumbers {
  public:
-  explicit Numbers(std::uint64_t seed) : state_(seed) {}
+  explicit Numbers(std::uint64_t seed) : state_(seed), scrambling_(seed) {}
+  /// Those of one of many samples, whose first numbers are spread evenly, and the others at random.
+  Numbers(std::uint64_t seed, std::uint32_t sample)
+      : state_(mixBits(seed ^ mixBits(sample))), scrambling_(seed), sample_(sample), even_(kEven) {}
   Real next();
   Vec2 next2();
   Vec2 pair(std::uint64_t) override { return next2(); }
 
  private:
-  std::uint64_t state_;
+  static constexpr std::uint32_t kEven = 2;  ///< the moment or the place of the film, the lens
+  Vec2 evenPair() { return sobolPoint(sample_, mixBits(scrambling_ ^ mixBits(even_--))); }
+
+  std::uint64_t state_, scrambling_;
+  std::uint32_t sample_ = 0, even_ = 0;  ///< even_: how many are still spread evenly
 };
 
 /// A path that is offered, and R. One of brightness 0 is none.
@@ -47,6 +55,12 @@ class Moves {
   Path anywhere();
   /// Its density.
   Real anywhereDensity(Path& path) const;
+
+  /// Follows one path from the camera, and at each of its places looks for what shines and asks for it: how
+  /// bright the picture is by all of these, weighed by the balance heuristic beside anywhere(). Together with
+  /// anywhereShare() of such a path the mean is the brightness of the picture.
+  Real fromCamera();
+  Real anywhereShare(Path& path) const;
 
   /// Takes out some places in a row, and puts in others, from both ends of the gap (Veach 1997, 11.4.2.1).
   Offer bidirectional(Path& from);
@@ -74,6 +88,9 @@ class Moves {
   Lengths lengths(const Kept& kept, std::size_t before) const;
   bool build(Path& path, Path& from, const Kept& kept, std::size_t places);
   bool walkFromEye(Path& path, std::size_t places, bool toEnd);
+  bool step(Path& path);
+  Vec2 onFilm(const Vec2& u) const;
+  Real cameraDensity(const Path& path) const;
   bool askEnd(Path& path);
   bool walkFromLight(Walk& walk, Path& from, const Kept& kept, std::size_t places);
   bool goOn(Walk& walk, const Vertex& from, RayKind& leaves);

@@ -145,6 +145,8 @@ class Paths {
 
   /// Works out what has changed: the places `first` to `last`, and f.
   bool weigh(Path& path, std::size_t first, std::size_t last) const;
+  /// The same of one place, behind which the path has another.
+  bool weighPlace(Path& path, std::size_t i) const;
 
   /// The place as a path from the light meets it; none where that cannot be.
   const Vertex* turned(Path& path, std::size_t i) const;
@@ -160,7 +162,6 @@ class Paths {
 
  private:
   bool aim(Path& path, const Vec3& point, const Vec2& lens) const;
-  bool weighPlace(Path& path, std::size_t i) const;
   Color fromLight(Path& path) const;
   bool allowed(const Path& path) const;
 };

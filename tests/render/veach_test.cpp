@@ -62,7 +62,7 @@ Settings settingsOf(int spp = 80, int depth = 3) {
   settings.depth = depth, settings.spp = spp;
   settings.airIndex = 1;
   settings.fresnel = Fresnel::exact;
-  settings.chainStarts = 15000;
+  settings.chainStarts = 2000;
   return settings;
 }
 
@@ -402,6 +402,89 @@ TEST(Veach, ShowsThingsThatMove) {
     most = std::max(most, std::abs(luminanceOf(one[q]) / luminanceOf(wanted[q]) - 1));
   }
   EXPECT_GT(most, 0.15) << "or nothing has moved";
+}
+
+/// The box of Cornell, as in bench/cornell.ray: a small lamp just below the ceiling, and two boxes.
+Scene cornell() {
+  Scene scene = openRoom({0.63, 0.065, 0.05}, {0.14, 0.45, 0.091});
+  addObject(scene, Square{}, Affine::translation({0, 0.998, 0}) * turned({1, 0, 0}, 0.5) * scaled(0.6),
+            diffuse(0, 17));
+  addObject(
+      scene, Cube{},
+      Affine::translation({-0.34, -0.4, -0.3}) * turned({0, 1, 0}, 0.1) * Affine::scaling({0.6, 1.2, 0.6}),
+      diffuse(0.73));
+  addObject(scene, Cube{}, Affine::translation({0.36, -0.7, 0.36}) * turned({0, 1, 0}, -0.1) * scaled(0.6),
+            diffuse(0.73));
+  return scene;
+}
+
+Settings ofCornell(IntegratorKind integrator, int spp) {
+  Settings settings;
+  settings.integrator = integrator;
+  settings.width = settings.height = 32;
+  settings.depth = 7, settings.spp = spp;
+  return settings;
+}
+
+TEST(Veach, ThePictureIsAsBrightAsByPathsWithEverySeed) {
+  const Scene scene = cornell();
+  Settings settings = ofCornell(IntegratorKind::path, 900);
+  settings.sampling = SampleKind::sobol;
+  const Real wanted = luminanceOf(meanColor(picture(scene, settings)));
+  settings = ofCornell(IntegratorKind::mlt, 48);
+  settings.chains = Chains::veach;
+  for (settings.seed = 1; settings.seed <= 3; ++settings.seed) {
+    const World world = build(scene, settings);
+    const auto integrator = integratorOf(world, settings);
+    const std::array moments{Moment{&world, integrator.get()}};
+    Film film = makeFilm(settings, settings.width, settings.height);
+    Job job;
+    const RenderResult result = render(moments, settings, film, job);
+    EXPECT_LT(result.brightnessError, 0.005) << settings.seed;
+    EXPECT_NEAR(luminanceOf(meanColor(film.picture())) / wanted, 1, 0.005) << settings.seed;
+  }
+}
+
+// Samples that are taken on the way tell it as well: a bad guess at the start is forgotten.
+TEST(Veach, TheMoreSamplesThereAreTheBetterTheBrightnessIsKnown) {
+  const Scene scene = cornell();
+  Settings settings = ofCornell(IntegratorKind::path, 4000);
+  settings.sampling = SampleKind::sobol;
+  settings.width = settings.height = 8;
+  const Real wanted = luminanceOf(meanColor(picture(scene, settings)));
+  const auto error = [&](int spp) {  // root of the mean square
+    Settings chains = settings;
+    chains.integrator = IntegratorKind::mlt;
+    chains.chains = Chains::veach;
+    chains.chainStarts = 40, chains.spp = spp;
+    Real squares = 0;
+    constexpr int kSeeds = 6;
+    for (chains.seed = 1; chains.seed <= kSeeds; ++chains.seed) {
+      const Real off = luminanceOf(meanColor(picture(scene, chains))) / wanted - 1;
+      squares += off * off / kSeeds;
+    }
+    return std::sqrt(squares);
+  };
+  const Real few = error(1), many = error(2000);
+  EXPECT_GT(few, 0.03) << "or there is nothing to tell";
+  EXPECT_LT(many, 0.03);
+  EXPECT_LT(many, few / 2);
+}
+
+// What paths from the camera find by chance only is told by the other end.
+TEST(Veach, TheBrightnessOfACausticIsKnownByPathsFromTheLight) {
+  Scene scene = corner();
+  scene.materials[2].model = glass();
+  addObject(scene, Square{}, Affine::translation({-0.9, 2.2, 0.6}) * kDownward * scaled(0.05),
+            diffuse(0, 2000));
+  Settings settings = settingsOf(1, 4);
+  const World world = build(scene, settings);
+  const auto integrator = integratorOf(world, settings);
+  const Moment moment{&world, integrator.get()};
+  Job job;
+  settings.chainStarts = 10000;
+  const Metropolis metropolis({&moment, 1}, settings, Size{12, 12}, job, [] {});
+  EXPECT_LT(metropolis.brightnessError(), 0.02);
 }
 
 TEST(Veach, ARegionShowsItsPartOfThePicture) {

@@ -17,8 +17,8 @@ inline constexpr std::string_view kInheritsGlass = "this material inherits the t
 /// Does the content begin, after white space and comments, with the word SBT-raytracer?
 bool recognisesRay(std::string_view bytes);
 
-/// The scene at `time`, in seconds: that of its `key(...)` (ray_keys.h) and of its particles. Throws Error(Fault::scene) with up to twenty errors; one, if
-/// the syntax is wrong.
+/// The scene at `time`, in seconds: that of its `key(...)` (ray_keys.h) and of its particles. Throws
+/// Error(Fault::scene) with up to twenty errors; one, if the syntax is wrong.
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time);
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time = 0);
 

@@ -7,8 +7,8 @@
 
 namespace trace::rayfile {
 
-/// Replaces every `key(...)` of the tree by its value at `time`. Throws Error(Fault::scene) where one is not of
-/// its form. Linear in the tree; free when there is none.
+/// Replaces every `key(...)` of the tree by its value at `time`. Throws Error(Fault::scene) where one is not
+/// of its form. Linear in the tree; free when there is none.
 void settleKeys(Syntax& syntax, SceneTime& time);
 
 }  // namespace trace::rayfile
