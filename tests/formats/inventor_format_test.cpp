@@ -1,4 +1,5 @@
 // Inventor, VRML 1.0 and VRML97: nodes, state, and the meshes that are made of them.
+#include "base/read_scope.h"
 #include "formats/inventor/inventor_format.h"
 
 #include <cmath>
@@ -269,6 +270,7 @@ TEST(Inventor, TellsWhereAndWhat) {
 // --- other files --------------------------------------------------------------------------------------
 
 TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
+  const ReadScope allowed({test::sourceFolder() + "/tests/corpus"});
   Messages messages;
   const Scene scene = readScene(test::sourceFolder() + "/tests/corpus/inventor/with_parts.wrl", messages);
   ASSERT_EQ(scene.objects.size(), 3u);
