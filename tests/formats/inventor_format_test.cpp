@@ -1,9 +1,9 @@
 // Inventor, VRML 1.0 and VRML97: nodes, state, and the meshes that are made of them.
-#include "base/read_scope.h"
 #include "formats/inventor/inventor_format.h"
 
 #include <cmath>
 
+#include "base/read_scope.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/cone.h"
 #include "mesh_helpers.h"
