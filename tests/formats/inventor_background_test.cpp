@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "formats/format.h"
 #include "formats/inventor/inventor_sky.h"
 #include "support/folder.h"
@@ -147,6 +148,7 @@ TEST(VrmlBackground, TurnsAboutTheAxisY) {
 }
 
 TEST(VrmlBackground, IsWrittenAsItWasRead) {
+  const ReadScope allowed({testing::TempDir()});
   const test::Folder folder;
   std::filesystem::create_directory(folder / "other");
   std::string text =

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/read_scope.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/cone.h"
 #include "mesh_helpers.h"
@@ -269,6 +270,7 @@ TEST(Inventor, TellsWhereAndWhat) {
 // --- other files --------------------------------------------------------------------------------------
 
 TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
+  const ReadScope allowed({test::sourceFolder() + "/tests/corpus"});
   Messages messages;
   const Scene scene = readScene(test::sourceFolder() + "/tests/corpus/inventor/with_parts.wrl", messages);
   ASSERT_EQ(scene.objects.size(), 3u);

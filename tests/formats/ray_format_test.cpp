@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/match.h"
+#include "base/read_scope.h"
 #include "formats/ray/ray_texture.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/field_value.h"
@@ -93,6 +94,7 @@ std::string other(MaterialList& value) { return value = {{0, 1}}, "({ }, { diffu
 std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {}, 0}}), "{ sphere { } }"; }
 
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
+  const ReadScope allowed({testing::TempDir()});
   for (const ShapeType& type : shapeTypes())
     for (const AnyField& field : fieldsOf(Shape(type))) {
       Shape expected(type);

@@ -78,11 +78,11 @@ TEST(Repairs, PlyElementsInAnyOrderAndFacesThatAreLost) {
   const Read lost("a.ply",
                   ply(kVertex + "element face 3\n" + kFace, kPoints + "3 0 1 9\n4 0 1 2 3\n3 0 1 -1\n"));
   EXPECT_EQ(lost.triangles(), 2u) << lost.error;
-  EXPECT_TRUE(lost.warns("13:1: face 0 uses point 9")) << lost.warnings;
+  EXPECT_TRUE(lost.warns("14:1: face 0 uses point 9")) << lost.warnings;
   EXPECT_TRUE(lost.warns("(2 times")) << lost.warnings;
   const Read more("a.ply", ply(kVertex + "element face 2\n" + kFace, kPoints + "3 0 1 2 7 7\n3 0 2 3 7\n"));
   EXPECT_EQ(more.triangles(), 2u) << more.error;
-  EXPECT_TRUE(more.warns("13:1: expected as many values")) << more.warnings;
+  EXPECT_TRUE(more.warns("14:1: expected as many values")) << more.warnings;
   const Read oneLine("a.ply", ply(kVertex + "element face 1\n" + kFace, "0 0 0 1 0 0 1 1 0 0 1 0 4 0 1 2 3"));
   EXPECT_EQ(oneLine.triangles(), 2u) << "rows need no lines of their own";
   EXPECT_EQ(Read("a.ply",
