@@ -13,10 +13,17 @@
 
 namespace trace::cli {
 
+/// A member of an object. A template, for its Json is complete only after the class.
+template <class Value>
+struct JsonMember {
+  std::string key;
+  Value value;
+};
+
 /// Null, a truth value, a number, a text, a list, or an object, whose members keep their order.
 class Json {
  public:
-  struct Member;
+  using Member = JsonMember<Json>;
 
   Json(std::nullptr_t = nullptr) {}
   Json(bool value) : value_(value) {}
@@ -47,11 +54,6 @@ class Json {
   using Object = std::vector<Member>;
 
   std::variant<std::nullptr_t, bool, double, std::int64_t, std::uint64_t, std::string, List, Object> value_;
-};
-
-struct Json::Member {
-  std::string key;
-  Json value;
 };
 
 }  // namespace trace::cli

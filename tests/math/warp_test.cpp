@@ -80,7 +80,8 @@ TEST(Warp, TheSolidAngleOfARectangle) {
 }
 
 TEST(Warp, RectanglesAreFilledEvenlyAsTheyAreSeen) {
-  for (const auto& [corner, a, b] : kRectangles) {
+  for (const auto& [at, right, up] : kRectangles) {
+    const Vec3 corner = at, a = right, b = up;
     const SphericalRectangle rectangle(kEye, kEye + corner, a, b);
     // The mean direction, against the sum over the area.
     Vec3 mean, sum;

@@ -77,7 +77,7 @@ Affine ball(Real x, Real y, Real z, Real r) {
   return Affine::translation({x, y, z}) * Affine::scaling({r, r, r});
 }
 
-constexpr Settings kNested{.width = 60, .depth = 8, .nestedGlass = NestedGlass::on};
+const Settings kNested{.width = 60, .depth = 8, .nestedGlass = NestedGlass::on};
 
 /// A chequered wall, a lamp and a camera.
 Scene stage() {
