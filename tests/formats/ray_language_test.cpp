@@ -254,6 +254,8 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
       {"define d() { d() }\nd()", nullptr},
       {"let a = a + 1\ntranslate(a, 0, 0, sphere { })",
        "2:9: no value is called \"a\" [text stands in quotation marks]"},
+      {"camera { fov = 40 deg; } sphere { }",
+       "2:16: fov: expected a number of degrees, found 40 deg [write it without deg, which makes radians]"},
       {"color = #ffb", "2:9: expected six hexadecimal digits after #, as in #ffb347"},
   };
   for (const auto& [text, expected] : rows) {
