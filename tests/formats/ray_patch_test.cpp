@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/match.h"
+#include "formats/ray/ray_syntax.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
@@ -45,6 +46,7 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
   for (const std::string& file : examples()) {
     const SceneText read = reading(file, readFile(file));
     if (changesWithTime(file, *read.bytes)) continue;  // below
+    if (rayfile::Syntax(file, *read.bytes).usesLanguage()) continue;  // written anew, with a warning
     const Scene& scene = *read.scene;
     const auto expect = [&](const std::string& what, const Edit& edit, std::size_t lines = 1) {
       expectSmall(read, what, edit, lines);

@@ -10,11 +10,11 @@ namespace trace::rayfile {
 namespace {
 
 /// Words that courses and students added to the format and Trace does not know as objects, lights or fields.
-constexpr std::array<std::string_view, 22> kRelatives{
-    "bump",      "bump_mapping", "checkerboard", "csg",        "displace", "environment",
-    "fog",       "hyperbolic",   "map",          "map_points", "marble",   "metaball",
-    "meteorite", "noise",        "normal",       "normal_map", "obj_mesh", "shape_light",
-    "skybox",    "texture",      "warn_model",   "wood"};
+constexpr std::array<std::string_view, 23> kRelatives{
+    "sphere_light", "bump",      "bump_mapping", "checkerboard", "csg",        "displace",
+    "environment",  "fog",       "hyperbolic",   "map",          "map_points", "marble",
+    "metaball",     "meteorite", "noise",        "normal",       "normal_map", "obj_mesh",
+    "shape_light",  "skybox",    "texture",      "warn_model",   "wood"};
 
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;

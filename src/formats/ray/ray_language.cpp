@@ -707,7 +707,8 @@ class Expander {
   std::string nameHint(std::string_view text, Scoped scope) const {
     std::vector<std::string_view> names;
     for (; scope; scope = scope->parent)
-      for (const Binding& binding : scope->bindings) names.push_back(binding.name);
+      for (const Binding& binding : scope->bindings)
+        if (binding.name != text) names.push_back(binding.name);  // it may be the one that is being made
     const std::string hint = didYouMean(text, names);
     return hint.empty() ? "text stands in quotation marks" : hint;
   }

@@ -160,6 +160,7 @@ class Parser {
       close(entry);
     } else {
       at_ = end;
+      noteConstant(word);
       operators(word, false);
     }
   }
@@ -302,7 +303,8 @@ class Parser {
   /// A sign before what is no number, or `not`.
   bool atPrefix() const {
     if (peek() == '!') return true;
-    if (peek() == '-') return isLetter(next()) || next() == '(';
+    if (peek() == '-')
+      return (isLetter(next()) && !parseNumber(source_.substr(at_))) || next() == '(';  // -inf
     return atWord("not");
   }
   bool atWord(std::string_view word) const {
@@ -312,6 +314,11 @@ class Parser {
   }
   void prefixes() {
     for (; atPrefix(); blanks()) op(peek() == '-' ? Op::negate : Op::invert, peek() == 'n' ? 3 : 1);
+  }
+
+  /// `pi`, `tau` and `time` are numbers of the language, in the place of a value.
+  void noteConstant(std::uint32_t word) {
+    parsed_.usesLanguage |= isWord(word, "pi") || isWord(word, "tau") || isWord(word, "time");
   }
 
   void operand(const char* expected) {
@@ -324,6 +331,7 @@ class Parser {
         call(word);
       } else {
         at_ = end;
+        noteConstant(word);
       }
     } else if (peek() == '(' || peek() == '{') {
       brackets();

@@ -301,7 +301,9 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   Messages lost, others;
   std::optional<std::string> text;
   try {
-    if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())  // one place of the text may make many objects
+    if (edited == *read.scene)
+      text = *read.bytes;
+    else if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())  // one place of the text may make many objects
       text = rayfile::Patch(read, lost, others).text(edited);
   } catch (const Error&) {
     text.reset();  // a file that it names is gone, or the reader does not take the text
