@@ -206,12 +206,16 @@ class Patch {
     return std::string((*syntax.root().begin()).text());
   }
 
-  static bool says(const Reading& now, const Wanted& wanted) {
-    const Scene &is = now.scene, &to = wanted.scene;
+  static bool says(const Reading& now, const Wanted& wanted) { return sameScene(now.scene, wanted.scene); }
+
+ public:
+  /// Does a text that says the one say the other?
+  static bool sameScene(const Scene& is, const Scene& to) {
     return is.objects.size() == to.objects.size() && is.lights.size() == to.lights.size() &&
            wrongObjects(is, to).empty() && sameButObjects(is, to);
   }
 
+ private:
   static std::set<std::size_t> wrongObjects(const Scene& is, const Scene& to) {
     std::set<std::size_t> wrong;
     for (std::size_t i = 0; i < is.objects.size(); ++i)
@@ -301,10 +305,10 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   Messages lost, others;
   std::optional<std::string> text;
   try {
-    if (edited == *read.scene)
-      text = *read.bytes;
-    else if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())  // one place of the text may make many objects
+    if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())
       text = rayfile::Patch(read, lost, others).text(edited);
+    else if (rayfile::Patch::sameScene(*read.scene, edited))
+      text = *read.bytes;  // else one place of the text may have made many objects
   } catch (const Error&) {
     text.reset();  // a file that it names is gone, or the reader does not take the text
   }
