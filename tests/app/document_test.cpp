@@ -8,6 +8,7 @@
 #include "app/edits.h"
 #include "app/folder.h"
 #include "app/preferences.h"
+#include "base/read_scope.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/sphere_sweep.h"
@@ -422,6 +423,7 @@ TEST_F(DocumentTest, SavingAfterTheFileWasReadAgainChangesTheNewText) {
 }
 
 TEST_F(DocumentTest, SavingInAnotherFolderStillFindsTheFilesThatAreNamed) {
+  const ReadScope allowed({path("meshes")});
   fs::create_directories(path("meshes"));
   fs::create_directories(path("other/deep"));
   write("meshes/tri.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
@@ -494,6 +496,7 @@ TEST_F(DocumentTest, WhatWouldBeReadAsFewerObjectsIsNotSaved) {
 
 /// Whatever can be opened can be saved as .ray, edited or not.
 TEST_F(DocumentTest, EverySoundSceneIsSaved) {
+  const ReadScope allowed({test::sourceFolder()});
   for (const char* folder : {"/scenes", "/tests/corpus"})
     for (const auto& entry : fs::recursive_directory_iterator(test::sourceFolder() + folder)) {
       if (!entry.is_regular_file()) continue;

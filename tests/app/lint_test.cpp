@@ -378,7 +378,7 @@ TEST(Lint, ARoomWhoseFacesLookOutwardIsLitByNoLamp) {
 TEST(Lint, ACameraThatMaySeeSomethingSmallDoesNotLookAway) {
   const std::string eye = "camera { position = (0, 0, 6); updir = (0, 1, 0.1); viewdir = ";
   const std::string speck = "translate(0.013, 0.017, 0, scale(0.001, " + kBall + "))\n";
-  EXPECT_EQ(checksOf(eye + "(0, 0, -1); }" + kSun + speck), Checks{});
+  EXPECT_EQ(checksOf(eye + "(0, 0, -1); }" + kSun + speck), Checks{"black-picture"});
   EXPECT_EQ(checksOf(eye + "(0, 0, 1); }" + kSun + speck), Checks{"camera-looks-away"});
   EXPECT_EQ(checksOf(eye + "(0, 1, 0); }" + kSun + kBall), Checks{"camera-looks-away"});
   EXPECT_EQ(checksOf(eye + "(0, 0, -1); far = 2; }" + kSun + kBall), Checks{"camera-looks-away"});

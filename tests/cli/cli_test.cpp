@@ -403,7 +403,7 @@ TEST_F(Cli, TheCoursesLineIsOneRayAPixelAndNoOtherStop) {
         std::string(kWhite) +
             "settings { threshold = 0.3; spp = 9; noise-target = 0.1; subdivide = 2; denoise = on; }\n");
   const auto stats = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), {"set.ray", "-w", "20", "-r", "5", "-t", "1", "--stats=json"});
+    words.insert(words.begin(), {"set.ray", "-w", "20", "-r", "4", "-t", "1", "--stats=json"});
     const Run r = run(words);
     EXPECT_EQ(r.code, 0) << r.err;
     return json::parse(r.out);
@@ -412,7 +412,7 @@ TEST_F(Cli, TheCoursesLineIsOneRayAPixelAndNoOtherStop) {
   EXPECT_EQ(line["rays"]["camera"], 20 * 16);
   for (const char* option : {"threshold", "spp", "noise-target", "subdivide", "denoise", "accel"})
     EXPECT_FALSE(line["settings"].contains(option)) << option;
-  EXPECT_EQ(line["settings"]["depth"], "5");
+  EXPECT_EQ(line["settings"]["depth"], "4");
   // What the line says itself holds, wherever it stands.
   for (const auto& words : {std::vector<std::string>{"-b", "-a"}, {"-a", "-b"}, {"--spp", "9", "-b"}})
     EXPECT_EQ(stats(words)["rays"]["camera"], 9 * 20 * 16) << words[0];

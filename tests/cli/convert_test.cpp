@@ -76,7 +76,7 @@ TEST_F(Convert, PutsAPictureOnAProfile) {
   convert({"--revolve", "can.txt", "out/can.ray", "--picture", "pictures/four.png"});
   EXPECT_TRUE(test::contains(read("out/can.ray"), "\"../pictures/four.png\""));
   const auto rendered = [&](const std::string& scene) {
-    EXPECT_EQ(run({scene, "-w", "40", "-o", "seen.ppm"}).code, 0) << scene;
+    EXPECT_EQ(run({scene, "-w", "40", "-o", "seen.ppm", "--allow-read", path("pictures")}).code, 0) << scene;
     return readPicture(path("seen.ppm"));
   };
   const Picture seen = rendered("out/can.ray");
