@@ -43,8 +43,6 @@ std::size_t skipBlanks(std::string_view source, std::size_t at, bool& unclosed) 
   }
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
-
 std::string shown(char c) {
   if (c >= ' ' && c <= '~') return quoted({&c, 1});
   char text[16];

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "formats/ray/ray_syntax.h"
 
 namespace trace::rayfile {
+
+/// The text in quotation marks, for messages.
+std::string quoted(std::string_view text);
 
 /// What the text has that somebody has to look after.
 struct Parsed {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kNone = std::string_view::npos;
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
-
 }  // namespace
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 Syntax::Syntax(std::string file, std::string_view source) {
   sources_.emplace_back().file = std::move(file);
