@@ -39,7 +39,7 @@ class Limits : public ProgramTest {
 
   Limits() {
     write("copies.ray", kBegin + manyCopies());
-    write("sweep.ray", kBegin + std::string("sweep { twist = 1e9; }"));
+    write("sweep.ray", kBegin + std::string("sweep { twist = 15000; }"));
     write("waves.ray", kBegin + std::string("isosurface { formula = \"sin(1000000000*x*y*z)\"; }"));
     write("julia.ray",
           kBegin + std::string("julia { iteration = sine; iterations = 50; mandelbrot = true; }"));
