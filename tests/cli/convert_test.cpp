@@ -69,6 +69,7 @@ TEST_F(Convert, PutsAPictureOnAProfile) {
   const auto convert = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "convert");
     words.insert(words.end(), view.begin(), view.end());
+    words.insert(words.end(), {"--allow-read", path("pictures")});
     const auto r = run(words);
     EXPECT_EQ(r.code, 0) << r.err;
     return r;
@@ -90,7 +91,8 @@ TEST_F(Convert, PutsAPictureOnAProfile) {
   expectNear(kLeft, kBelow, {0, 0, 0.2});
   expectNear(kRight, kBelow, Color(0.2));
 
-  EXPECT_TRUE(test::contains(run({"info", "out/can.ray"}).out, "objects (1)"));
+  EXPECT_TRUE(
+      test::contains(run({"info", "out/can.ray", "--allow-read", path("pictures")}).out, "objects (1)"));
   for (const char* name : {"out/can.obj", "out/can.ply"}) {
     const auto r = convert({"--revolve", "can.txt", name, "--picture", "pictures/four.png"});
     EXPECT_FALSE(test::contains(r.err, "texture")) << r.err;
