@@ -187,9 +187,19 @@ TEST_F(Limits, LackOfMemoryNamesWhatIsConverted) {
   EXPECT_FALSE(exists("out.obj"));
 }
 
+/// Slabs with gaps between them, 500 x 500 x 500 along a ray: each is a crossing of its own.
+std::string manySlabs() {
+  std::string maps;
+  for (int i = 0; i < 500; ++i)
+    maps += (i > 0 ? ",(" : "(") + std::string("0.9,0,0,0, 0,0.9,0,0, 0,0,0.0004,") +
+            std::to_string(i / 500.0 - 0.5) + ")";
+  return "ifs { levels = 3; maps = (" + maps + "); }";
+}
+
 TEST_F(Limits, MemoryEndsARender) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer's memory would count";
-  const Run r = run({"copies.ray", "out.png", "-w", "40", "--max-memory", "50", "--time-limit", "200"});
+  write("slabs.ray", kBegin + manySlabs());
+  const Run r = run({"slabs.ray", "out.png", "-w", "40", "--max-memory", "50", "--time-limit", "200"});
   EXPECT_EQ(r.code, kLimit);
   EXPECT_TRUE(contains(r.last, "stopped for lack of memory: "));
 }
