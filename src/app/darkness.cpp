@@ -91,7 +91,7 @@ std::optional<double> factorFor(const Lit& lit, const Development& development) 
   return high;
 }
 
-/// What is seen of the scene with these lights alone.
+/// The picture of the scene with these lights alone.
 std::vector<Color> seenWith(const Scene& scene, const Settings& settings, const World& world,
                             std::vector<LightSource> lights, const std::vector<char>& seen) {
   Scene lit = scene;

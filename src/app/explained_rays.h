@@ -15,7 +15,7 @@
 
 namespace trace {
 
-/// What a ray met or passed: an object at one place of it, or air.
+/// A surface or medium that a ray hit or passed: an object at one hit point, or air.
 struct NamedBody {
   struct Share {
     std::optional<std::uint32_t> material;  ///< index into Scene::materials; nothing for what is clear
