@@ -40,7 +40,8 @@ InputFiles filesOf(const GradeTask& task, const Grades& grades) {
   return files;
 }
 
-/// Files that no scene may read: the folder of the references, or, if the scenes lie in it, the pictures there.
+/// Files that no scene may read: the folder of the references, or, if the scenes lie in it, the pictures
+/// there.
 std::vector<std::string> hiddenFiles(const GradeTask& task, const FolderFiles& references) {
   std::error_code error;
   const fs::path folder = fs::weakly_canonical(task.folder, error),
