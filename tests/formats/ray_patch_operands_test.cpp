@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/ray/ray_syntax.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
@@ -58,6 +59,7 @@ TEST(RayPatchOperands, AMovedOperandOfAnExampleChangesOnlyItsLines) {
   for (const std::string& file : examples()) {
     const SceneText read = reading(file, readFile(file));
     if (changesWithTime(file, *read.bytes)) continue;
+    if (rayfile::Syntax(file, *read.bytes).usesLanguage()) continue;  // written out where it was edited
     for (std::size_t i = 0; i < read.scene->objects.size(); ++i) {
       if (!standsAlone(read.scene->objects, i)) continue;  // a copy in rows has no text of its own
       std::vector<std::size_t> path;

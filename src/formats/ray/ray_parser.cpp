@@ -8,6 +8,7 @@
 
 #include "base/nesting.h"
 #include "base/text.h"
+#include "image/srgb.h"
 
 namespace trace::rayfile {
 namespace {
@@ -51,12 +52,6 @@ std::string shown(char c) {
 }
 
 constexpr std::string_view kBinary = "+-*/%^<>";
-
-/// The number of an sRGB byte in linear light (IEC 61966-2-1).
-double linearOf(int byte) {
-  const double v = byte / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
@@ -446,7 +441,7 @@ class Parser {
     const std::uint32_t tuple = open(Kind::tuple, start);
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t number = open(Kind::number, start);
-      nodes_[number].number = linearOf(16 * digits[2 * i] + digits[2 * i + 1]);
+      nodes_[number].number = linearOfSrgb((16 * digits[2 * i] + digits[2 * i + 1]) / 255.0);
       close(number);
     }
     close(tuple);

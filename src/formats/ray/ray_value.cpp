@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "image/srgb.h"
 #include "math/noise.h"
 
 namespace trace::rayfile {
@@ -93,8 +94,6 @@ Value extreme(Arguments arguments, bool least) {
   return result;
 }
 
-double linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 /// From 0 up to 1, another each time.
 double drawn(std::uint64_t& random) { return unitFromBits(random = mixBits(random)); }
 
@@ -103,7 +102,7 @@ Value hsv(Arguments a, std::uint64_t&) {
                v = needNumber(a[2], "as a value");
   const auto channel = [&](double shift) {  // Smith 1978, in the form of its wheel
     const double k = std::fmod(std::fmod(shift + 6 * h, 6) + 6, 6);
-    return linear(v - v * s * std::max(0.0, std::min({k, 4 - k, 1.0})));
+    return linearOfSrgb(v - v * s * std::max(0.0, std::min({k, 4 - k, 1.0})));
   };
   return vectorOf(channel(5), channel(3), channel(1));
 }
@@ -195,8 +194,9 @@ constexpr std::array kFunctions{
              }},
     Function{"srgb", "r, g, b", 3, 3, "the linear colour of an sRGB one, from 0 to 1",
              [](Arguments a, std::uint64_t&) -> Value {
-               return vectorOf(linear(needNumber(a[0], "as red")), linear(needNumber(a[1], "as green")),
-                               linear(needNumber(a[2], "as blue")));
+               return vectorOf(linearOfSrgb(needNumber(a[0], "as red")),
+                               linearOfSrgb(needNumber(a[1], "as green")),
+                               linearOfSrgb(needNumber(a[2], "as blue")));
              }},
     Function{"hsv", "h, s, v", 3, 3, "the linear colour of hue, saturation and value, from 0 to 1", hsv},
 };
