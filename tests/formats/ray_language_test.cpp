@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "formats/ray/ray_format.h"
 #include "ray_helpers.h"
+#include "support/paths.h"
 
 namespace trace::ray_language_test {
 namespace {
@@ -112,6 +113,13 @@ TEST(RayLanguage, HasEachFunctionOfItsTable) {
   }
   for (const rayfile::FunctionHelp& function : rayfile::functionsOfLanguage())
     EXPECT_TRUE(tested.contains(std::string(function.name))) << function.name;
+}
+
+TEST(RayLanguage, TheGrammarForEditorsHasEveryFunction) {
+  const std::string grammar =
+      readFile(test::sourceFolder() + "/editors/vscode/syntaxes/trace-ray.tmLanguage.json");
+  for (const rayfile::FunctionHelp& function : rayfile::functionsOfLanguage())
+    EXPECT_NE(grammar.find("|" + std::string(function.name) + "|"), grammar.npos) << function.name;
 }
 
 TEST(RayLanguage, SaysWhatPlainTextSays) {
