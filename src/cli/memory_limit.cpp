@@ -12,19 +12,12 @@
 #include <new>
 
 #include "base/error.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TRACE_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TRACE_SANITIZED 1
-#endif
-#endif
+#include "base/sanitized.h"
 
 namespace trace::cli {
 namespace {
 
-#if defined(__linux__) && !defined(TRACE_SANITIZED)
+#if defined(__linux__)
 /// What the limit counts of this process now; 0 if the system does not tell.
 std::uint64_t dataInUse() {
   std::ifstream file("/proc/self/statm");
@@ -63,7 +56,8 @@ void say(const char* text) {
 }  // namespace
 
 bool limitMemory(std::uint64_t bytes, int threads) {
-#if defined(__linux__) && !defined(TRACE_SANITIZED)
+#if defined(__linux__)
+  if (kSanitized) return false;  // they keep terabytes of addresses
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return false;
   const std::uint64_t all = dataInUse() + bytes + static_cast<std::uint64_t>(threads) * stackSize();

@@ -12,16 +12,13 @@
 #include "app/ray_drawing.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "base/sanitized.h"
 #include "support/folder.h"
 
 namespace trace::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t kStack = 6 << 20;  // its frames are several times as large
-#else
-constexpr std::size_t kStack = 1 << 20;
-#endif
+constexpr std::size_t kStack = kSanitized ? 6 << 20 : 1 << 20;  // frames are several times as large then
 
 /// Runs it to its end in a thread with a stack of kStack bytes.
 void withLittleStack(std::function<void()> work) {

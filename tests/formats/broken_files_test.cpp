@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "base/sanitized.h"
 #include "formats/format.h"
 #include "support/folder.h"
 #include "support/paths.h"
@@ -711,8 +712,7 @@ TEST(BrokenFiles, Gltf) {
 
 TEST(BrokenFiles, GltfCountsPointsFromZero) {
   const std::string file = test::sourceFolder() + "/tests/corpus/gltf/broken_index.gltf";
-  EXPECT_EQ(said(file, readFile(file)),
-            "error: COLOR_0: expected one vector for each point\n");
+  EXPECT_EQ(said(file, readFile(file)), "error: COLOR_0: expected one vector for each point\n");
 }
 
 TEST(BrokenFiles, GltfTellsWhereItsJsonIsBroken) {
@@ -836,9 +836,7 @@ TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {
 
 // A stand-in for a machine without memory: nothing may be taken beyond a bound.
 TEST(BrokenFiles, LackOfMemoryNamesTheFile) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers keep terabytes of addresses";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers keep terabytes of addresses";
   const test::Folder folder;
   const std::string file = folder / "large.ray";
   // 50 million triangles of a subdivided one take gigabytes.

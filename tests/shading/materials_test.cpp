@@ -220,7 +220,7 @@ class HitCells {
 /// Chi-square of n samples in k cells goes beyond the bound of 4.5 deviations where the density is wrong by
 /// sqrt(4.5 sqrt(2 k) / n) of itself in the root mean square: 8 % with 20,000 samples and 400 cells.
 TEST(Materials, SamplesAreAsDenseAsTheySay) {
-  const int n = test::thorough() ? 1'000'000 : test::kSanitized ? 5'000 : 20'000;
+  const int n = test::thorough() ? 1'000'000 : kSanitized ? 5'000 : 20'000;
   Random random(4);
   forEachModel([&](const MaterialModel&, const Bsdf& bsdf) {
     for (const Real cosine : {0.95, 0.4}) {

@@ -6,16 +6,10 @@
 #include <cstdlib>
 #include <random>
 
+#include "base/sanitized.h"
 #include "math/transform.h"
 
 namespace trace::test {
-
-/// Sanitizers make everything about ten times slower: long tests then do less.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 /// `./dev test thorough` asks for as many rays as it takes to find what is one in a million.
 inline bool thorough() { return std::getenv("TRACE_THOROUGH") != nullptr; }

@@ -100,6 +100,7 @@ Value Evaluator::valueOf(const Found& found, std::uint32_t use) {
                                   Scope{tree->scope, tree->scope->seed, tree->scope->block, binding.name})};
   binding.isActive = false;
   binding.value = result;
+  noteRing(found.scope, result);
   return result;
 }
 
@@ -154,6 +155,7 @@ std::shared_ptr<Scope> Evaluator::bound(std::uint32_t call, std::string_view nam
       if (kind(wanted[i]) != Kind::entry)
         fail(call, owner + ": expected a value for " + std::string(names[i]) + ", found none");
       values[i] = eval(wanted[i] + 2, own);
+      noteRing(own, *values[i]);
     }
     own->bindings.push_back({names[i], wanted[i], std::move(values[i])});
   }

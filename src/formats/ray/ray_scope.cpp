@@ -19,12 +19,25 @@ constexpr std::array<std::string_view, 8> kStatementWords{"let", "define", "for"
                                                           "if",  "else",   "include", "group"};
 constexpr std::array<std::string_view, 5> kConstants{"pi", "tau", "time", "true", "false"};
 
+bool holdsTree(const Value& value) {
+  return value.tree() || (value.list() && std::any_of(value.list()->begin(), value.list()->end(), holdsTree));
+}
+
 }  // namespace
 
 Names::Names(Syntax& syntax, InputFiles& inputs) : syntax_(syntax), inputs_(inputs) {
   for (const std::string_view word : knownWords()) reserved_.insert(word);
   reserved_.insert(kStatementWords.begin(), kStatementWords.end());
   reserved_.insert(kConstants.begin(), kConstants.end());
+}
+
+Names::~Names() {
+  for (const Scoped& scope : rings_)
+    for (Binding& binding : scope->bindings) binding.value.reset();
+}
+
+void Names::noteRing(const Scoped& scope, const Value& value) {
+  if (holdsTree(value)) rings_.push_back(scope);
 }
 
 void Names::step(std::uint32_t index) {

@@ -42,6 +42,9 @@ using Scoped = std::shared_ptr<const Scope>;
 class Names {
  public:
   Names(Syntax& syntax, InputFiles& inputs);
+  ~Names();
+  Names(const Names&) = delete;
+  Names& operator=(const Names&) = delete;
 
  protected:
   // --- the tree ---
@@ -92,6 +95,10 @@ class Names {
   /// For the statement or call: which of its name it is in the block, so that an inserted object moves no
   /// other.
   std::uint64_t seedAt(std::uint32_t index, const Scope& scope) const;
+
+  /// A value that holds a part of the file holds the scope of that part, which may be the one that holds the
+  /// value: such rings are opened at the end.
+  void noteRing(const Scoped& scope, const Value& value);
 
   // --- errors ---
 
@@ -144,6 +151,7 @@ class Names {
 
   std::set<std::string_view> reserved_;  // words that are no names
   std::set<std::string> included_;
+  std::vector<Scoped> rings_;
   mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> ordinals_;
   std::size_t steps_ = 0;
 };
