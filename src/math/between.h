@@ -27,4 +27,18 @@ struct Between {
   }
 };
 
+/// Cell i of `count` of the numbers from 0 to 1, the narrower the nearer to 0 or 1: for midpoint rules where
+/// most changes at the ends.
+struct EndCell {
+  Real middle, width;
+
+  EndCell(Real at, Real wide) : middle(at), width(wide) {}
+  EndCell(int i, int count) {
+    const auto smooth = [](Real x) { return x * x * (3 - 2 * x); };
+    const Real part = 1.0 / count;
+    middle = smooth((i + 0.5) * part);
+    width = smooth((i + 1) * part) - smooth(i * part);
+  }
+};
+
 }  // namespace trace

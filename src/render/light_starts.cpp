@@ -183,7 +183,6 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   start.density = density * source.share;
   start.inside = tracer.interfacesAt(start.ray.origin);
   follow(tracer, start, sampler);
-  if (start.hit && !world.lights(light, start.hit->object)) return {};
   return start;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/low_discrepancy.h"
 #include "render/fog.h"
 #include "render/light_choice.h"
 
@@ -324,7 +325,35 @@ Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Rea
   return passes == Color(1) ? passed : tracer.veiled(passed, passes, first, distance);
 }
 
-void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons) {
+namespace {
+
+/// The share of the kernel of PhotonMap::Near::perVolume that lies in the medium of the place, where photons
+/// are: up to surfaces and to where the body ends.
+Real shareOfBall(Tracer& tracer, const ScatterPlace& place, Real radius, Sampler numbers) {
+  constexpr std::uint32_t kLooks = 16;
+  constexpr Real kLeast = 0.05;  // a share that is found smaller says little
+  const World& world = tracer.world();
+  const bool ends = !(tracer.settings().fog > 0);  // beyond the body there is no other medium
+  const Vec2 first = numbers.next2();
+  Real sum = 0;
+  for (std::uint32_t n = 0; n < kLooks; ++n) {
+    const Vec2 u = rotated(sobolPoint(n), first);
+    const Ray ray{place.point, sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y)};
+    Real free = radius;
+    world.crossings(ray, radius, Faces::both, tracer.statistics(), [&](const Found& found) {
+      const bool leaves = ends && found.object == place.medium->object;
+      if (found.t < free && (leaves || world.opacityAt(ray, found) > 0)) free = found.t;
+      return false;
+    });
+    const Real x = free / radius, cube = x * x * x;
+    sum += cube * (2.5 - 1.5 * x * x);
+  }
+  return std::max(kLeast, sum / kLooks);
+}
+
+}  // namespace
+
+void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers) {
   if (photons.empty()) return;
   const PhotonMap::Near near = photons.around(place.point);
   Color light;
@@ -336,7 +365,9 @@ void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photo
   PhotonTerm counted{near.count, std::sqrt(near.radius2)};
   if (sum.tracer().records())
     for (std::size_t i = 0; i < near.count; ++i) counted.photons.push_back(*near.photons[i]);
-  if (near.count > 0) sum.add(place.share, light, *place.medium, counted);
+  if (near.count == 0) return;
+  const Real share = shareOfBall(sum.tracer(), place, counted.radius, numbers);
+  sum.add(place.share, light * (1 / share), *place.medium, counted);
 }
 
 }  // namespace trace

@@ -77,8 +77,8 @@ struct ScatterPlace {
   const Interfaces& inside;
   std::optional<MediumTerm> medium;  ///< none in fog alone
 };
-/// Adds the light of the photons around.
-void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons);
+/// Adds the light of the photons around, of a place that a medium has.
+void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers);
 /// Adds the light of the scene's lights.
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
 /// Adds the light of one place on objects that shine. `met`: a ray that is scattered there may meet them,

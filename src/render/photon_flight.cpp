@@ -1,7 +1,7 @@
 // The way of a photon from its start on.
 #include <algorithm>
 
-#include "render/interaction.h"
+#include "render/onward.h"
 #include "render/photon_emitter.h"
 #include "render/subsurface.h"
 #include "shading/optics.h"
@@ -9,13 +9,16 @@
 namespace trace {
 namespace {
 
-/// What the scattered light counts because the shading normal is not the true one: paths from lamps see the
-/// surface's true area (Veach 1997, section 5.3.2).
-Real narrowedPhoton(const Interaction& at, const Vec3& direction) {
+/// The light that a photon carries on in a direction, times the cosine, as an eye there would see it: not
+/// every model is the same both ways. Where the shading normal is far from the true one, that counts at most
+/// so often (Veach 1997, section 5.3.2).
+Color scatteredPhoton(const Interaction& at, const Vec3& direction) {
+  constexpr Real kMost = 4;
   const Vec3& normal = at.hit.surface.normal;
+  const Real shaded = dot(at.ray.direction, at.normal) * dot(direction, normal);
   const Real seen = dot(at.ray.direction, normal) * dot(direction, at.normal);
-  const Real factor = seen != 0 ? dot(at.ray.direction, at.normal) * dot(direction, normal) / seen : 1;
-  return std::min(std::abs(factor), 4.0);
+  const Real most = kMost * std::abs(seen), factor = std::abs(shaded);
+  return scatteredOn(at, direction, -at.ray.direction) * (factor > most ? most / factor : 1);
 }
 
 }  // namespace
@@ -49,7 +52,7 @@ bool PhotonEmitter::rests(const Flight& f) const {
 /// The photon, whose power that is already, goes on from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
-  f.parallel = f.fromSky = f.straight = false;
+  f.parallel = f.fromSky = f.straight = f.asked = false;
   f.gathered = f.scattered = true;
   f.law = 0;
   ++f.scatterings;
@@ -94,7 +97,7 @@ bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
     const MediumWay::Place& place = way.places.front();
     const Vec3 point = f.ray.at(place.t);
     const Color power = arriving(f, point, place.t) * f.inside.passed(place.t);
-    const bool asked = f.light ? f.straight : f.bounces == 0 && f.scatterings == 0;
+    const bool asked = f.light ? f.asked : f.bounces == 0 && f.scatterings == 0;
     const Color fluence = power * place.arrives;
     if (!asked && isFinite(fluence)) landed.inMedia.push_back({point, f.ray.direction, {}, fluence});
     if (const auto where = placeByChance(way, power, chance())) {
@@ -118,20 +121,24 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     if (thick && crossMedia(f, landed)) continue;
     if (!f.hit) return;
     f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
-    if (isBlack(f.power) || (f.straight && f.light && !world_.lights(*f.light, f.hit->object))) return;
+    if (isBlack(f.power)) return;
+    // A pane that the light does not light lets it pass.
+    const bool linked = !f.straight || !f.light || world_.lights(*f.light, f.hit->object);
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const bool scattersIt = scatters(at.bsdf());
     std::optional<SubsurfaceBsdf> body;
     if (world_.hasSubsurface()) body = at.takeBody();
-    if (scattersIt && rests(f)) {
+    if (scattersIt && linked && rests(f)) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
       else
         landed.photons.push_back({f.hit->surface.point, f.ray.direction, at.trueNormal(), f.power});
     }
-    if (f.bounces >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
+    if (f.bounces - f.panes >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
+    if (!linked && !f.straight) return;
     f.parallel = f.fromSky = false;
     ++f.bounces;
+    f.panes += f.straight && f.light && !f.gathered;
     cast(f);
   }
 }
@@ -160,37 +167,37 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
   Vec3 direction;
   if (choice < mirrors) {
     f.gathered = true;
-    f.straight = false;
+    f.straight = f.asked = false;
     f.power *= mirror * (all / mirrors);
     direction = mirrored(f.ray.direction, at.normal);
   } else if (choice < mirrors + passes) {
     const auto refracted = at.through(*share);
     if (!refracted) return false;
     f.gathered = f.gathered || !at.straight;
-    f.straight = f.straight && at.straight;
     // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
     const Real ratio = at.ratio(*share);
+    f.straight = f.straight && ratio == 1;
+    f.asked = f.asked && tracer_.lightPassesToMedia(at.bsdf());
     f.power *= through * (ratio * ratio * all / passes);
     there = at.behind();
     there.wavelength = share->nanometres;
     direction = *refracted;
   } else if (choice < mirrors + passes + lobe) {
-    f.straight = false;
+    f.straight = f.asked = false;
     f.scattered = true;
     const Real choose = chance();
     const Vec2 u{chance(), chance()};
-    const auto drawn = sample(at.bsdf(), at.frame, -f.ray.direction, choose, u, Transport::radiance);
+    const auto drawn = sample(at.bsdf(), at.frame, -f.ray.direction, choose, u, Transport::importance);
     if (!drawn) return false;
     direction = drawn->toLight;
     const bool inward = dot(direction, at.normal) < 0;
-    if (!inward && dot(direction, at.hit.surface.normal) * at.facing() < 0) return false;
-    const Color weight = drawn->weight * ((1 - at.coat) * (all / lobe) * narrowedPhoton(at, direction));
+    const Color weight = scatteredPhoton(at, direction) * (all / (lobe * drawn->density));
     const Real goes = std::min(1.0, maxComponent(f.power * weight) / maxComponent(f.power));
     if (!(chance() < goes)) return false;
     f.power *= weight / goes;
     if (inward && at.transmits) there = at.behind();
   } else if (choice < mirrors + passes + lobe + inBody) {
-    f.straight = false;
+    f.straight = f.asked = false;
     f.scattered = true;
     numbers_.next();
     const auto out = departure(at, *body, f.power, Sampler(rules_, numbers_));

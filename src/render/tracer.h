@@ -82,11 +82,28 @@ class Tracer {
     int current_, last_;
   };
 
+  /// While it lives, shadow rays join two paths: a pane between their ends is a vertex of its own.
+  class Joining {
+   public:
+    explicit Joining(Tracer& tracer) : tracer_(tracer) { tracer.joins_ = true; }
+    ~Joining() { tracer_.joins_ = false; }
+    Joining(const Joining&) = delete;
+    Joining& operator=(const Joining&) = delete;
+
+   private:
+    Tracer& tracer_;
+  };
+
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
   /// Whether shadow rays pass such a surface.
   bool lightPasses(const Bsdf& bsdf) const {
     return whitted(bsdf).transmits() && !gathers(bsdf) && settings_.glassShadows != GlassShadows::black;
+  }
+  /// The same of rays from a medium, to which photons do not bring the light of such glass.
+  bool lightPassesToMedia(const Bsdf& bsdf) const {
+    return whitted(bsdf).transmits() && !(followsLobes() && isGlossy(bsdf)) && !isBidirectional(settings_) &&
+           settings_.glassShadows != GlassShadows::black;
   }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
@@ -151,19 +168,19 @@ class Tracer {
   /// It sends rays into the lobes of surfaces, however often light is scattered.
   bool followsLobes() const {
     const IntegratorKind kind = settings_.integrator;
-    return kind == IntegratorKind::path || kind == IntegratorKind::photon || kind == IntegratorKind::mlt;
+    return kind == IntegratorKind::path || kind == IntegratorKind::photon || kind == IntegratorKind::mlt ||
+           kind == IntegratorKind::bdpt;
   }
-  /// Photons, or paths from lights, bring the light that the glass lets through, from elsewhere. Photons
-  /// bring it to surfaces only. Of rough glass, rays that are followed into its lobe ask lights where they
-  /// meet it: a shadow ray through it would count them twice.
+  /// Photons, or paths from lights, bring the light that the glass bends. Photons bring it to surfaces only.
+  /// Of rough glass, rays that are followed into its lobe ask lights where they meet it: a shadow ray through
+  /// it would count them twice.
   bool gathers(const Bsdf& bsdf) const {
+    if (joins_ || (followsLobes() && isGlossy(bsdf))) return true;
+    if (whitted(bsdf).passage == Passage::straight) return false;
     if (isBidirectional(settings_)) return true;
-    if (followsLobes() && isGlossy(bsdf)) return true;
     if (midair_) return false;
-    const WhittedTerms& terms = whitted(bsdf);
-    const bool bring = settings_.integrator == IntegratorKind::photon ||
-                       (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
-    return bring && terms.passage != Passage::straight;
+    return settings_.integrator == IntegratorKind::photon ||
+           (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
   }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);
@@ -176,6 +193,7 @@ class Tracer {
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
   bool midair_ = false;                               // the shadow ray starts where no surface is
+  bool joins_ = false;                                // it ends at a vertex of another path
   std::vector<Found> crossed_;                        // of one ray; kept to save allocations
   std::optional<std::pair<Vec3, Interfaces>> start_;  // of the last point that was asked for
 };

@@ -44,22 +44,14 @@ struct WidthRow {
     const Vec3 eye{std::sqrt(1 - cosine * cosine), 0, cosine};
     // Facets are symmetric to the plane of the eye and the normal: half of them do. The numbers that choose
     // them lie the closer the nearer they are to 0 and 1, where facets lean most.
-    struct Cell {
-      Real number, weight;
-    };
-    const auto smooth = [](Real x) { return x * x * (3 - 2 * x); };
-    const auto cell = [&](int i, int count) {
-      const Real width = 1.0 / count;
-      return Cell{smooth((i + 0.5) * width), smooth((i + 1) * width) - smooth(i * width)};
-    };
     const bool around = facets.kind == Distribution::ggx;  // the second number is an angle
     Real sum = 0;
     for (int i = 0; i < kSamples; ++i)
       for (int j = 0; j < kSamples / 2; ++j) {
-        const Cell first = cell(i, kSamples), other = cell(j, kSamples / 2);
-        const Real second = (around ? other.number - 0.5 : other.number) / 2;
-        const Vec3 half = facets.chosen(eye, {first.number, second});
-        const Real counts = first.weight * other.weight;
+        const EndCell first(i, kSamples), other(j, kSamples / 2);
+        const Real second = (around ? other.middle - 0.5 : other.middle) / 2;
+        const Vec3 half = facets.chosen(eye, {first.middle, second});
+        const Real counts = first.width * other.width;
         const Real mirrors = fresnelDielectric(dot(eye, half), 1, eta);
         const Vec3 up = mirroredAt(half, eye);
         if (up.z > 0) sum += counts * mirrors * facets.seenAndLit(eye, up);

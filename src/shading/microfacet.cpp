@@ -87,21 +87,27 @@ MicrofacetAlbedo lerp(Real t, const MicrofacetAlbedo& a, const MicrofacetAlbedo&
 }
 
 /// Calls visit(share, cosine) for mirrors at the middles of samples x samples cells of the numbers that
-/// choose them: the share of light that each gives back, and the cosine of light to it.
+/// choose them: the share of light that each gives back, and the cosine of light to it. Facets that lean
+/// most, which mirror nothing upward, have numbers near 0 and 1: there cells are narrow.
 template <class Visit>
 void forEachMirror(const Microfacets& facets, const Vec3& eye, int samples, const Visit& visit) {
   const bool slopes = facets.kind == Distribution::beckmann;
   const Vec3 v = stretched(facets, eye);
+  const auto even = [&](int j) { return EndCell{(j + 0.5) / samples, 1.0 / samples}; };  // of an angle
+  const auto second = [&](int j) { return slopes ? EndCell(j, samples) : even(j); };
   std::vector<Real> across;
-  for (int j = 0; slopes && j < samples; ++j) across.push_back(inverseErf(2 * ((j + 0.5) / samples) - 1));
+  for (int j = 0; slopes && j < samples; ++j) across.push_back(inverseErf(2 * second(j).middle - 1));
+  const Real seen = facets.seen(eye);
   for (int i = 0; i < samples; ++i) {
-    const Real along = slopes ? visibleSlope(v.z, (i + 0.5) / samples) : 0;  // which takes long
+    const EndCell first(i, samples);
+    const Real along = slopes ? visibleSlope(v.z, first.middle) : 0;  // which takes long
     for (int j = 0; j < samples; ++j) {
+      const EndCell other = second(j);
       const Vec3 half = slopes ? normalOf(facets, v, along, across[static_cast<std::size_t>(j)])
-                               : facets.chosen(eye, {(i + 0.5) / samples, (j + 0.5) / samples});
+                               : facets.chosen(eye, {first.middle, other.middle});
       const Vec3 light = mirroredAt(half, eye);
       if (!(light.z > 0)) continue;
-      visit(facets.seenAndLit(eye, light) / facets.seen(eye) / (samples * samples), dot(eye, half));
+      visit(facets.seenAndLit(eye, light) / seen * (first.width * other.width), dot(eye, half));
     }
   }
 }
@@ -146,15 +152,15 @@ constexpr Real kMostRoughness = 1.8;  // of a width of 3.2, that of strong grain
 
 /// Without grain: by the roots of cosine and width, where the albedo changes evenly.
 struct EvenTable {
-  static constexpr int kSteps = 32, kSamples = 24;
-  MicrofacetAlbedo at[kSteps + 1][kSteps + 1];  ///< by width, cosine
-  MicrofacetAlbedo mean[kSteps + 1];
+  static constexpr int kWidths = 64, kCosines = 32, kSamples = 20;
+  MicrofacetAlbedo at[kWidths + 1][kCosines + 1];
+  MicrofacetAlbedo mean[kWidths + 1];
 
   explicit EvenTable(Distribution kind) {
-    for (int w = 0; w <= kSteps; ++w) {
-      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kSteps * kMostRoughness);
-      for (int c = 0; c <= kSteps; ++c) at[w][c] = integrated(facets, seenFrom(c, kSteps), kSamples);
-      mean[w] = meanOf(kSteps, [&](int c) { return at[w][c]; });
+    for (int w = 0; w <= kWidths; ++w) {
+      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
+      for (int c = 0; c <= kCosines; ++c) at[w][c] = integrated(facets, seenFrom(c, kCosines), kSamples);
+      mean[w] = meanOf(kCosines, [&](int c) { return at[w][c]; });
     }
   }
 };
@@ -224,7 +230,7 @@ MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye) {
   const Real root = std::sqrt(max(0, eye.z));
   if (facets.x == facets.y) {
     const auto& t = table<EvenTable>(facets.kind);
-    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kSteps), c(root, t.kSteps);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kWidths), c(root, t.kCosines);
     const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
     return lerp(w.share, row(w.low), row(w.low + 1));
   }
@@ -245,7 +251,7 @@ MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye) {
 MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets) {
   if (facets.x == facets.y) {
     const auto& t = table<EvenTable>(facets.kind);
-    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kSteps);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kWidths);
     return lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
   }
   const auto& t = table<GrainTable>(facets.kind);
@@ -280,23 +286,23 @@ FacetShares lerp(Real t, const FacetShares& a, const FacetShares& b) {
 
 /// As EvenTable.
 struct ShareTable {
-  static constexpr int kSteps = EvenTable::kSteps;
-  FacetShares at[kSteps + 1][kSteps + 1];  ///< by width, cosine
-  FacetShares mean[kSteps + 1];
+  static constexpr int kWidths = EvenTable::kWidths, kCosines = EvenTable::kCosines;
+  FacetShares at[kWidths + 1][kCosines + 1];
+  FacetShares mean[kWidths + 1];
 
   explicit ShareTable(Distribution kind) {
-    for (int w = 0; w <= kSteps; ++w) {
-      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kSteps * kMostRoughness);
+    for (int w = 0; w <= kWidths; ++w) {
+      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
       mean[w] = {};
-      for (int c = 0; c <= kSteps; ++c) {
+      for (int c = 0; c <= kCosines; ++c) {
         at[w][c] = {};
-        forEachMirror(facets, seenFrom(c, kSteps), EvenTable::kSamples,
+        forEachMirror(facets, seenFrom(c, kCosines), EvenTable::kSamples,
                       [&](Real share, Real cosine) { add(at[w][c], nodeWeights(cosine), share); });
-        add(mean[w], at[w][c], meanWeight(c, kSteps));
+        add(mean[w], at[w][c], meanWeight(c, kCosines));
       }
     }
   }
-  static Between width(Real width) { return {std::sqrt(width) / kMostRoughness, kSteps}; }
+  static Between width(Real width) { return {std::sqrt(width) / kMostRoughness, kWidths}; }
 };
 
 Real sumOf(const FacetShares& shares) {
@@ -331,7 +337,7 @@ FacetShares facetShares(const Microfacets& facets, const Vec3& eye) {
   const Real width =
       even ? facets.x : std::sqrt(facets.x * facets.x * cos2 + facets.y * facets.y * (1 - cos2));
   const auto& t = table<ShareTable>(facets.kind);
-  const Between w = t.width(width), c(std::sqrt(max(0, eye.z)), t.kSteps);
+  const Between w = t.width(width), c(std::sqrt(max(0, eye.z)), t.kCosines);
   const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
   const FacetShares shares = lerp(w.share, row(w.low), row(w.low + 1));
   return even ? shares : scaledTo(microfacetAlbedo(facets, eye).white, shares);

@@ -10,6 +10,7 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/media.h"
+#include "support/lights.h"
 #include "support/rooms.h"
 
 namespace trace::test::light_truth_test {
@@ -131,6 +132,115 @@ TEST(LightTruth, AVisiblePanelBehindAPaneCountsOnce) {
   EXPECT_NEAR(meanOf(seen, IntegratorKind::photon, 256) / expected, 1, 0.03);
   EXPECT_NEAR(byChains(seen, Chains::path) / expected, 1, 0.03);
   EXPECT_NEAR(meanOf(seen, IntegratorKind::bdpt, 512) / expected, 1, 0.03);
+}
+
+/// What lets light through and does not turn it.
+std::vector<std::pair<std::string, Material>> straightSheets() {
+  const auto made = [](const auto& model) {
+    Material material;
+    material.model = model;
+    return material;
+  };
+  Material half = made(matt(0)), hole = half;
+  half.opacity = 0.4, hole.opacity = 0;
+  ThinGlass tinted, bubble;
+  tinted.color = {0.9, 0.6, 0.3}, bubble.film = 420;
+  Principled sheet;
+  sheet.roughness = 0, sheet.transmission = 0.9;
+  return {{"thin glass", made(ThinGlass{})},
+          {"tinted thin glass", made(tinted)},
+          {"a bubble", made(bubble)},
+          {"an index of 1", made(pane())},
+          {"half opaque", half},
+          {"a hole", hole},
+          {"a principled sheet", made(sheet)}};
+}
+
+/// A shiny floor, so many sheets of that material close above one another over it, and a light above these.
+Scene belowSheets(const Material& material, const Light& light, int sheets) {
+  Scene scene;
+  Phong shiny = matt(0.6);
+  shiny.specular = Color(0.2), shiny.shininess = 10;
+  addObject(scene, Square{}, kUp * Affine::scaling({8, 8, 1}), shiny);
+  scene.materials.push_back(material);
+  for (int n = 0; n < sheets; ++n)
+    scene.objects.push_back({"",
+                             Square{},
+                             Affine::translation({0, 1 - 0.1 * n, 0}) * kUp * Affine::scaling({9, 9, 1}),
+                             static_cast<std::uint32_t>(scene.materials.size() - 1),
+                             {}});
+  scene.lights.push_back({light, {}});
+  scene.camera.position = {0.3, 0.4, 0.9}, scene.camera.viewdir = {-0.2, -0.4, -0.7};
+  scene.camera.fov = 30;
+  return scene;
+}
+
+/// Means of the integrators are those of path to that part of it; of the chains of mlt, too, if asked. bdpt
+/// takes so many more samples.
+void expectAllShow(const Scene& scene, Settings settings, Real tolerance, bool chained, int more = 2) {
+  constexpr int kSamples = 64;
+  settings.photons = 20000, settings.photonPasses = 2;
+  const auto meanBy = [&](IntegratorKind kind, Chains chains, int samples) {
+    settings.integrator = kind, settings.chains = chains, settings.spp = samples;
+    return mean(picture(scene, settings));
+  };
+  const Real expected = meanBy(IntegratorKind::path, Chains::path, more * kSamples);
+  ASSERT_GT(expected, 1e-3);
+  EXPECT_NEAR(meanBy(IntegratorKind::bdpt, Chains::path, more * kSamples) / expected, 1, tolerance);
+  EXPECT_NEAR(meanBy(IntegratorKind::photon, Chains::path, kSamples) / expected, 1, 1.5 * tolerance);
+  if (!chained) return;
+  for (const Chains chains : {Chains::bdpt, Chains::path})
+    EXPECT_NEAR(meanBy(IntegratorKind::mlt, chains, 4 * kSamples) / expected, 1, 2 * tolerance);
+}
+
+TEST(LightTruth, WhatTurnsNoLightLeavesEachLightItsLawOfDistance) {
+  Settings settings = settingsOf(IntegratorKind::path, 64);
+  settings.fresnel = Fresnel::exact;
+  settings.depth = 12;
+  for (const auto& [name, material] : straightSheets())
+    for (const auto& [kind, light] : lightsOfEveryKind()) {
+      SCOPED_TRACE(name + ", " + kind);
+      // Shadow rays of bdpt pass neither the lobe of a principled sheet nor what might bend light.
+      const bool passes = !std::holds_alternative<Principled>(material.model) && name != "an index of 1";
+      const bool near =
+          std::string_view(kind) == "point" || std::string_view(kind) == "another law of distance";
+      if (!passes && !near) continue;
+      // Path finds no point in two mirrors.
+      const bool mirrors = !passes || std::holds_alternative<ThinGlass>(material.model);
+      expectAllShow(belowSheets(material, light, mirrors ? 1 : 2), settings, passes ? 0.02 : 0.06,
+                    passes && std::string_view(kind) == "point", passes ? 2 : 24);
+    }
+}
+
+TEST(LightTruth, APaneTakesNoBounceOfTheLightThatCrossesIt) {
+  Settings settings = settingsOf(IntegratorKind::path, 64);
+  Material glass;
+  glass.model = ThinGlass{};
+  for (const int depth : {0, 1, 2}) {
+    SCOPED_TRACE(depth);
+    settings.depth = depth;
+    const Light light = PointLight{.position = {0.5, 1.5, 0.8}, .color = Color(1)};
+    Scene scene = belowSheets(glass, light, 1);
+    expectAllShow(scene, settings, 0.02, depth > 0);
+    // A pane that the light does not light lets it pass.
+    scene.lights[0].links.name = "lamp", scene.objects[1].links.notLitBy = {"lamp"};
+    expectAllShow(scene, settings, 0.02, depth > 0);
+    // Pale shadows, and a highlight of its own.
+    std::get<Phong>(scene.materials[0].model).shadow = 0.5;
+    std::get<PointLight>(scene.lights[0].light).extraHighlight = Color(0.5);
+    expectAllShow(scene, settings, 0.02, depth > 0);
+  }
+}
+
+TEST(LightTruth, APaneTakesNoSunlightFromFogBehindIt) {
+  Settings settings = settingsOf(IntegratorKind::path, 64);
+  settings.fog = 0.4, settings.mediumDepth = 8;
+  Material glass;
+  glass.model = ThinGlass{};
+  for (const auto& [kind, light] : lightsOfEveryKind()) {
+    SCOPED_TRACE(kind);
+    expectAllShow(belowSheets(glass, light, 1), settings, 0.04, false, 4);
+  }
 }
 
 TEST(LightTruth, AMattPaneSpreadsNoLightToItsOtherSide) {

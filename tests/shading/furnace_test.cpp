@@ -18,14 +18,14 @@ namespace {
 
 const Frame kFurnaceFrame{{0, 0, 1}};
 const std::vector<Real> kFurnaceAngles{0, 40, 65, 80, 85, 88, 89};
-const std::vector<Real> kFurnaceRoughnesses{0.1, 0.2, 0.5, 1};
+const std::vector<Real> kFurnaceRoughnesses{0.1, 0.15, 0.4, 0.7, 1};
 
 Real cosineOf(Real degrees) { return std::cos(degrees * kPi / 180); }
 
 /// The share of light's power that comes back to an eye at that cosine, with the ray that a smooth surface
 /// mirrors. Directions are chosen by the model and, for lobes along the surface, by the square of a cosine
 /// that is spread evenly; both count by the balance heuristic. Numbers are spread evenly (Roberts 2018).
-Real furnace(const Bsdf& bsdf, Real cosine, int samples = 1'500) {
+Real furnace(const Bsdf& bsdf, Real cosine, int samples = 3'000) {
   constexpr Real kRoot = 1.2207440846057594;
   const auto number = [](int i, Real step) {
     const Real x = 0.5 + i * step;
@@ -51,11 +51,10 @@ Real furnace(const Bsdf& bsdf, Real cosine, int samples = 1'500) {
   return sum / samples + (mirrorIsExact(bsdf) ? mirrorWeight(bsdf, cosine).g : 0);
 }
 
-/// A model that gives back all light, and how far it may be off.
+/// A model that gives back all light.
 struct White {
   std::string name;
   MaterialModel model;
-  Real off = 0.015;
 };
 
 template <class Model, class Set>
@@ -87,7 +86,6 @@ std::vector<White> whites(Real roughness) {
             m.roughness = roughness, m.distribution = kind, m.index = index;
             m.compensated = true;
           }));
-      all.back().off = 0.01;
     }
   }
   for (const Real iridescence : {0.0, 0.7})
@@ -117,7 +115,7 @@ TEST(WhiteFurnace, AllLightComesBackAtAllAnglesAndRoughnesses) {
         for (const Real angle : kFurnaceAngles)
           for (const Real side : {1.0, -1.0}) {
             if (side < 0 && !std::holds_alternative<RoughGlass>(w.model)) continue;
-            EXPECT_NEAR(furnace(bsdf, side * cosineOf(angle)), 1, w.off)
+            EXPECT_NEAR(furnace(bsdf, side * cosineOf(angle)), 1, 0.01)
                 << w.name << " roughness " << roughness << (exact ? " exact" : "") << " at " << side * angle
                 << " degrees";
           }
@@ -149,14 +147,14 @@ TEST(ExactFresnel, IsWhatEveryModelWithAnIndexMirrors) {
         if (!model) continue;
         const Bsdf bsdf = bsdfOf(*model, {.exactFresnel = true});
         // Phong's glass is left to the integrator; strands have no plane; rough grooves have no mirrored ray;
-        // panes mirror at both faces.
+        // panes mirror at both faces. Of principled, facets of roughness 0.01 lean a little.
         if (std::is_same_v<Model, Phong> || std::is_same_v<Model, Marschner> ||
             std::is_same_v<Model, CookTorrance> || std::is_same_v<Model, ThinGlass> ||
             std::is_same_v<Model, RoughGlass>)
           continue;
         ++found;
         EXPECT_NEAR(mirrorWeight(bsdf, cosineOf(angle)).g, fresnelDielectric(cosineOf(angle), 1, index),
-                    (std::is_same_v<Model, Principled> ? 0.02 : 1e-9))
+                    (std::is_same_v<Model, Principled> ? 2e-6 : 1e-9))
             << Model::kKeyword << " index " << index << " at " << angle;
       }
   });

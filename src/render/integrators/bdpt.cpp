@@ -110,7 +110,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   const World& world = tracer.world();
   const int t = path.t();
   // A light that was asked, or comes by paths from it, is not seen besides.
-  const bool brought = path.kind == RayKind::bounce || path.fromLights;
+  const bool brought = path.asked || path.fromLights;
   const auto lamp = brought || path.within ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
@@ -221,6 +221,8 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
     const bool bounces = next->kind == RayKind::bounce;
     Path onto{next->kind, path.counts + Counts{1, 0}, path.weight * weight * (1 / goes), path.partial};
     onto.fromLights = path.fromLights || (bounces && comesFromLights(path));
+    onto.asked =
+        bounces || (next->kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     Footprint widened;
     if (next->kind == RayKind::reflection)
       widened = mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal);
@@ -285,7 +287,7 @@ Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& 
   after->density = density;
   Path& onto = after->path;
   onto = {RayKind::bounce, counts, path.weight * after->factor, path.partial};
-  onto.fromMedium = true;
+  onto.fromMedium = onto.asked = true;
   onto.fromLights = path.fromLights || comesFromLights(path);
   onto.partial.leave(density, density, 1);
   after->ray = {place.point(), direction};

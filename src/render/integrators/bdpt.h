@@ -19,8 +19,9 @@
 //
 // Left out of the densities are chances of Russian roulette, of the choice between lobe, mirror and glass, of
 // the choice among lights, and of how far a ray gets in a medium: any weights that sum up to 1 give the same
-// picture. Light that glass refracts is found by paths from lights: no shadow ray passes glass. Parallel
-// light begins no path in a medium; it is asked there.
+// picture. Light that glass refracts is found by paths from lights: shadow rays pass only panes that bend
+// nothing (thin_glass), which are no vertices of a path on its way straight from a light. Parallel light
+// begins no path in a medium; it is asked there.
 //
 // A path from the camera goes through a body in which light spreads as a path tracer does: from where light
 // comes out to where it went in (render/subsurface.h), which count as one place of it. A path from a light
@@ -88,8 +89,7 @@ class Bidirectional : public Integrator {
   Color travels(Tracer& tracer, const Flight& flight, std::optional<MediumWay::Place>& where) const;
   bool scatters(Flight& flight, const MediumWay::Place& where) const;
   bool goesOn(Flight& flight, const LightPlace& place, const Sample& sample) const;
-  void land(Tracer& tracer, const LightPlace& light, int s, const Sampler& sampler,
-            const Sample& sample) const;
+  void land(Tracer& tracer, const LightPlace& light, const Sample& sample, const Sampler& sampler) const;
 
   // What joins them: integrators/bdpt_joins.cpp. `factor` is what the place counts beside the path's weight.
   void joinAll(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
@@ -99,7 +99,7 @@ class Bidirectional : public Integrator {
   void askLamps(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
                 const Sampler& sampler, const Sample& sample) const;
   void join(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
-            const LightPlace& light, int s, const Sampler& sampler, const Sample& sample) const;
+            const LightPlace& light, const Sampler& sampler, const Sample& sample) const;
 
   /// Branches of a sample's numbers, and of a place's: its lights by their number, and these.
   static constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u,

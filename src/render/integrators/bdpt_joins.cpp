@@ -14,9 +14,7 @@ void Bidirectional::joinAll(Gather& sum, const PathPlace& at, const Path& path, 
     askLights(sum, at, path, factor, sampler, sample);
     askLamps(sum, at, path, factor, sampler, sample);
   }
-  int s = 2;
-  for (const LightPlace& place : sample.lights)
-    join(sum, at, path, counts, factor, place, s++, sampler, sample);
+  for (const LightPlace& place : sample.lights) join(sum, at, path, counts, factor, place, sampler, sample);
 }
 
 /// s = 1: the scene's lights.
@@ -97,9 +95,9 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
 
 /// s > 1 and t > 1.
 void Bidirectional::join(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts,
-                         const Color& factor, const LightPlace& light, int s, const Sampler& sampler,
+                         const Color& factor, const LightPlace& light, const Sampler& sampler,
                          const Sample& sample) const {
-  const int t = path.t();
+  const int s = light.s(), t = path.t();
   if (!sample.ways.shows(s, t) || !light.place.joins() || !allows(counts + light.counts, light.last)) return;
   const Vec3 way = light.place.point() - at.point();
   const Real distance2 = dot(way, way), distance = std::sqrt(distance2);
@@ -124,6 +122,7 @@ void Bidirectional::join(Gather& sum, const PathPlace& at, const Path& path, con
   if (!side.nested()) all *= side.passed(distance);
   if (const Fog fog(tracer.settings()); !fog.none() && isInOpenAir(side, tracer.world()))
     all *= Color(fog.passes(ray, distance));
+  const Tracer::Joining joining(tracer);
   const Color passed = at.visible(tracer, ray, distance * Lamps::kBefore,
                                   sampler.branch(kJoin).branch(static_cast<std::uint32_t>(s)));
   sum.addWay(Term::Kind::joined, all * allowedPart(tracer, path.weight * all * passed), passed,

@@ -14,6 +14,12 @@ struct Bidirectional::Flight {
   Sampler numbers;
   bool parallel = false;  ///< it comes straight from beyond all distances
   bool fromSky = false;   ///< ... from what is around the scene
+  /// Nothing has turned it. The next vertex is `way` farther from the light, which arrives there by its own
+  /// law, and `through` is what remains of it.
+  bool straight = true;
+  Real way = 0;
+  Color through{1};
+  bool open = true;  ///< it has met only what shadow rays pass, too: no vertices of the path, as if holes
   Color power{1}, response{1};
   Real kept = 1;  ///< of its power, where it was scattered last
   Partial partial{};
@@ -48,19 +54,23 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
   const bool ofLight = start->light != LightStarts::kNoLight;
   Flight f{start->ray, std::move(start->inside), std::move(start->hit),
            sampler,    start->parallel,          start->parallel && !ofLight};
-  for (bool first = true; f.hit || (isThick(tracer) && !f.parallel); first = false) {
+  while (f.hit || (isThick(tracer) && !f.parallel)) {
     aside.goOn();
     std::optional<MediumWay::Place> where;
     const Color passes = travels(tracer, f, where);
     if (!where && (!f.hit || f.counts.surfaces > depth_)) return;
-    const Real t = where ? where->t : f.hit->t;
-    if (first) {
+    const Real t = f.way + (where ? where->t : f.hit->t);
+    const bool lit = f.straight && ofLight;
+    if (f.straight) {
       const auto arrival =
-          starts_.arrives(tracer.world(), *start, where ? f.ray.at(t) : f.hit->surface.point, t);
+          starts_.arrives(tracer.world(), *start, where ? f.ray.at(where->t) : f.hit->surface.point, t);
       if (!arrival) return;
-      f.power = arrival->power;
-      f.partial = {Partial::power(arrival->asked), Partial::power(arrival->met)};
-      f.last = where ? Last::medium : Last::lobe;
+      f.power = arrival->power * f.through;
+      f.through *= passes;
+      if (f.open) {
+        f.partial = {Partial::power(arrival->asked), Partial::power(arrival->met)};
+        f.last = where ? Last::medium : Last::lobe;
+      }
     }
     f.kept = maxComponent(f.power * passes) / maxComponent(f.power);
     f.power *= passes;
@@ -68,17 +78,18 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
     LightPlace& place = where ? sample.lights.emplace_back(f.ray, f.inside, *where)
                               : sample.lights.emplace_back(tracer, f.ray, f.inside, *f.hit, sample.shift);
     f.partial.arrive(f.parallel ? 1 : t * t, place.place.cosine(f.ray.direction));
-    f.parallel = false;
+    const bool linked = !lit || where || tracer.world().lights(start->light, f.hit->object);
     ++(where ? f.counts.scatterings : f.counts.surfaces);
-    place.power = f.power;
+    place.power = linked ? f.power : Color(0);
     place.response = f.response;
     place.partial = f.partial;
-    place.lit = first && ofLight;
+    place.lit = lit;
     place.counts = f.counts;
     place.last = f.last;
-    const int s = f.counts.all() + 1;
-    land(tracer, place, s, f.numbers, sample);
-    if (ways.light == s || !(where ? scatters(f, *where) : goesOn(f, place, sample))) return;
+    land(tracer, place, sample, f.numbers);
+    if (!(where ? scatters(f, *where) : goesOn(f, place, sample))) return;
+    if ((!linked && !f.straight) || (ways.light == place.s() && !f.open)) return;
+    f.parallel = f.parallel && f.open;
     f.numbers = f.numbers.branch(kNext);
     f.hit = tracer.cast(f.ray, RayKind::light, f.inside, tracer.chance(f.numbers.branch(kHole)));
   }
@@ -90,6 +101,8 @@ bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
   const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, f.kept);
   if (!(numbers.next() < goes)) return false;
   f.power *= Color(1 / goes);
+  f.straight = f.open = false;
+  f.way = 0;
   const PhaseSample to = samplePhase(f.ray.direction, where.forward, f.numbers.branch(kLobe).next2());
   f.partial.leave(to.density, to.density, 1);
   f.ray = {f.ray.at(where.t), to.direction};
@@ -99,7 +112,8 @@ bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
 /// The flight leaves the surface; false if it ends.
 bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sample) const {
   const Interaction& at = *place.at;
-  if (f.counts.surfaces > depth_ && !isThick(at.tracer)) return false;
+  const bool passes = place.lit && f.open && at.tracer.lightPasses(at.bsdf());
+  if (f.counts.surfaces > depth_ && !passes && !isThick(at.tracer)) return false;
   const Onward onward(at, sample.spectrum);
   Sampler choice = f.numbers.branch(kChoice);
   const auto next = onward.choose(choice.next(), f.numbers.branch(kLobe), true, place.lit);
@@ -112,11 +126,19 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   if (isBlack(f.power)) return false;
   const Vec3 from = -f.ray.direction, to = next->direction;
   const Real cosine = place.place.cosine(to);
-  if (next->density > 0)
-    f.partial.leave(next->density, density(at.bsdf(), frameToward(at, to), to, from), cosine);
-  else
-    f.partial.reflect(cosine);
-  if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;
+  f.straight = place.lit && next->kind == RayKind::refraction && next->ratio == 1;
+  f.open = f.straight && passes;
+  f.way = f.straight ? f.way + f.hit->t : 0;
+  f.through *= weight * (1 / goes);
+  if (f.open) {
+    --f.counts.surfaces;
+  } else {
+    if (next->density > 0)
+      f.partial.leave(next->density, density(at.bsdf(), frameToward(at, to), to, from), cosine);
+    else
+      f.partial.reflect(cosine);
+    if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;
+  }
   if (f.inside.wavelength == 0 && next->there.wavelength != 0) f.response = onward.response();
   f.ray = next->kind == RayKind::bounce ? at.leaveToLight(to) : place.hit->leave(to);
   f.inside = next->there;
@@ -125,9 +147,10 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
 
 /// t = 1: the camera sees the place. Where rays are recorded this one is, too, though it brings the pixel
 /// nothing.
-void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const Sampler& sampler,
-                         const Sample& sample) const {
+void Bidirectional::land(Tracer& tracer, const LightPlace& light, const Sample& sample,
+                         const Sampler& sampler) const {
   const PathPlace& place = light.place;
+  const int s = light.s();
   if (!lands_ || !(sample.thrown || tracer.records()) || !sample.ways.shows(s, 1) || !place.joins()) return;
   if (!allows(light.counts, light.last)) return;
   const Vec2 lens = camera_.hasLens() ? sampler.branch(kLens).next2() : kCenter;
@@ -143,6 +166,7 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, int s, const S
   if (!(counts > 0)) return;
   const Ray ray = place.leave(toEye);
   const Interfaces there = place.side(toEye);
+  const Tracer::Joining joining(tracer);
   const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(kLand)) *
                        (there.nested() ? Color(1) : there.passed(seen->distance));
   if (!sample.thrown || isBlack(passed)) return;

@@ -56,8 +56,9 @@ struct Bidirectional::Path {
   const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
   Real ink = 0;                                  ///< how much of it an outline covers
   bool fromMedium = false;                       ///< it was scattered in a medium last
-  bool fromLights = false;                       ///< paths from lights bring what mirrors and glass show it
-  bool within = false;                           ///< it runs in a body, from where light comes out
+  bool asked = false;       ///< it was scattered, and has met since then only panes that shadow rays pass
+  bool fromLights = false;  ///< paths from lights bring what mirrors and glass show it
+  bool within = false;      ///< it runs in a body, from where light comes out
 
   int t() const { return counts.all() + 2; }  ///< of the place where it arrives
 };
@@ -98,9 +99,11 @@ struct Bidirectional::LightPlace {
   Color power{};      ///< what arrives, over the density of the place and its cosine
   Color response{1};  ///< of the wavelength, if the path was split: not in the power
   Partial partial{};
-  bool lit = false;  ///< by a light of the world, straight
+  bool lit = false;  ///< by a light of the world, straight or through panes that shadow rays pass
   Counts counts{};   ///< of places up to and with this one
   Last last = Last::lobe;
+
+  int s() const { return counts.all() + 1; }
 };
 
 /// What both paths of a sample know.

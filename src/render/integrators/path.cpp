@@ -312,7 +312,7 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
   const Sampler numbers = sampler.branch(kMedium).branch(1);
   addLightsAt(sum, tracer, at, numbers);
   addLampAt(sum, tracer, at, lamps_, true, numbers);
-  addPhotonsAt(sum, at, path.maps->media);
+  addPhotonsAt(sum, at, path.maps->media, sampler.branch(kDisk));
 
   Sampler lobe = sampler.branch(kLobe);
   const Real goes = survival(path.depth + path.scattered, path.weight * place.weight);
