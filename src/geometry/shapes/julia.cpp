@@ -117,6 +117,7 @@ void TracedJulia::findLimits() {
   set_.constant = named(shape_.constant);
   set_.share = shape_.mandelbrot ? 1 : 0;
   set_.mostConstant = shape_.mandelbrot ? widest + 2 * c : c;
+  set_.mostGrowth = mostGrowth();
   const int n = set_.iterations = shape_.iterations;
   constexpr Real kRounding = 1 + gammaError(64);
   set_.escapes[n] = set_.stays[n] = kEscaped;
@@ -205,7 +206,10 @@ Jet TracedJulia::functionValue(const Vec3& p, const Vec3& direction) const {
   Number q = shape_.mandelbrot ? Number{} : start, d = shape_.mandelbrot ? Number{} : along;
   const Real l = length(p);
   Jet most{l - kReach, l > 0 ? dot(p, direction) / l : 0};
+  Real growth = shape_.mandelbrot ? 0 : 1;
   for (int i = 0; i < shape_.iterations; ++i) {  // to the last: only so it is continuous
+    growth = grown(growth, q, 0);
+    if (isBlurred(growth)) break;
     d = stepSlope(q, d);
     if (shape_.mandelbrot) d = d + along;
     q = step(q) + c;
@@ -224,7 +228,10 @@ Interval TracedJulia::functionSigns(const Vec3& center, Real radius) const {
   Real r = shape_.mandelbrot ? 0 : radius;
   bool inside = (length(center) + radius) * kRounding < kReach;
   if (length(center) - radius > kReach * kRounding) return {1, 1};
+  Real growth = shape_.mandelbrot ? 0 : 1;
   for (int i = 0; i < shape_.iterations; ++i) {
+    growth = grown(growth, q, r);
+    if (isBlurred(growth)) return {-1, 1};  // for some places of the ball the number before is the last
     r = (r * stretch(q, r) + (shape_.mandelbrot ? radius : 0)) * kRounding;
     q = step(q);
     r += size(q) * gammaError(64);
@@ -245,9 +252,12 @@ Jet TracedJulia::powerValue(const Vec3& p, const Vec3& direction) const {
   const Real share = set_.share;
   const julia::Number<Real> c = set_.constant + start * share, more = along * share;
   julia::Number<Real> q = start * (1 - share), d = along * (1 - share);
+  Real growth = 1 - share;
   for (int i = 0;; ++i) {
     const Real square = dot(q, q), product = dot(q, d);
-    if (i == set_.iterations) return {square - kEscaped * kEscaped, 2 * product};
+    growth = growth * julia::stretch<kIteration>(std::sqrt(square)) + share;
+    if (i == set_.iterations || growth > set_.mostGrowth)
+      return {square - set_.escapes[i] * set_.escapes[i], 2 * product};
     if (i > 0 && square > kEscaped * kEscaped) return {1, 0};
     d = julia::slope<kIteration>(q, d, square, product) + more;
     q = julia::step<kIteration>(q, square) + c;
@@ -279,7 +289,7 @@ void TracedJulia::crossings(const Ray& ray, const Range& range, VisitCrossing vi
     const auto look = [&](Real t, Real half) {
       return look_(set_, named(origin + unit * (t * speed)), named(unit), half * speed);
     };
-    return stretchCrossings({ball.t0, ball.t1}, range, std::ldexp(reach_ / speed, -28), look, at, found);
+    return stretchCrossings({ball.t0, ball.t1}, range, kPowerStep * reach_ / speed, look, at, found);
   }
   // Functions fold space everywhere: looking as closely as at powers would take seconds.
   const auto bounds = [&](const Interval& t) {
@@ -298,9 +308,12 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   Real off = gammaError(8) * (length(p) + size(shift_));  // how far rounding has moved q
   // In the sets of powers the last number tells how the surface lies, in others that which passes the limit
   // most.
-  Real most = length(p) - kReach, error = off;
+  Real most = length(p) - kReach, error = off, growth = shape_.mandelbrot ? 0 : 1;
+  bool blurred = false;
   Vec3 gradient = p;
   for (int i = 0; i < shape_.iterations; ++i) {
+    growth = grown(growth, q, 0);
+    if ((blurred = isBlurred(growth))) break;
     const Real s = size(q);
     const Real longer = stretch(q, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -322,7 +335,8 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   const Vec3 n = l > 0 && std::isfinite(l) ? gradient / l : normalize(-ray.direction);
   constexpr Real kMost = 1e-9;  // where the set is too folded for rounding to tell
   // This crossing and that of a ray that starts here are each found by a value that is off by so much.
-  const Real e = min(4 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
+  Real e = min(4 * error / l, kMost) + maxComponent(abs(p)) * gammaError(8);
+  if (blurred) e += kReach * detail() / 16;
   const SurfaceUv uv = shape_.trap == Trap::none ? SurfaceUv::toward(normalize(p)) : SurfaceUv(trapUv(p));
   return {p, {e, e, e}, n, n, uv};
 }

@@ -79,6 +79,7 @@ class TracedJulia {
  private:
   using Number = std::array<Real, 4>;
   static constexpr Real kReach = 2.5, kEscaped = 4;  ///< kEscaped: from here on powers only grow
+  static constexpr Real kPowerStep = 0x1p-28;  ///< of the search for powers, at least: in sizes of the set
 
   Number lift(const Vec3& p) const;
   Number step(const Number& q) const;
@@ -91,6 +92,17 @@ class TracedJulia {
   Real escapeSlope(const Number& q, const Number& change) const;
   /// How many times farther apart the step takes numbers within r of q, at most.
   Real stretch(const Number& q, Real r) const;
+  /// How far apart a function takes the numbers of places, for one unit between the places: at most, within r
+  /// of q.
+  Real grown(Real growth, const Number& q, Real r) const {
+    return growth * stretch(q, r) + (shape_.mandelbrot ? 1 : 0);
+  }
+  /// Some steps of the search, in sizes of kReach: what is finer is not told apart.
+  Real detail() const { return power() ? 16 * kPowerStep : 0x1p-11; }
+  /// From here on the numbers of neighbours in the search have nothing in common: what follows is dust, of
+  /// which each ray would meet other grains (solve/escape_search.h). The number before counts as the last.
+  Real mostGrowth() const { return kEscaped / (kReach * detail()); }
+  bool isBlurred(Real growth) const { return growth > mostGrowth(); }
   Vec2 trapUv(const Vec3& p) const;
   /// value() and the sign over a ball where the step is no power.
   Jet functionValue(const Vec3& p, const Vec3& direction) const;

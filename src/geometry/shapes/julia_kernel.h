@@ -30,6 +30,8 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
   Numbers q = start * own, d = along * own;  // d: the change of q along the ray
   Double4 m = zero;                          // a bound of the second derivative of q
   Double4 error = all(0x1p-49 * (set.reach + set.mostConstant)), bent = zero;  // rounding of q, of d, at most
+  const Double4 mostGrowth = all(set.mostGrowth);
+  Double4 growth = own;  // of distances between numbers of the stretch, at most
   FourStretches known;
   unsigned open = 15;  // those still followed
   for (int i = 0;; ++i) {
@@ -54,6 +56,11 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
       open &= ~sure & ~less(all(4) * (escapes * escapes), square);  // there following it tells less
       if (open == 0) return known;
     }
+    // Where an orbit may end here, what follows tells nothing of it.
+    const Double4 farthest = (s + w * (l + all(0.5) * (w * m))) * up;
+    growth = (julia::stretch<kIteration>(farthest) * growth + share) * up;
+    open &= ~less(mostGrowth, growth);
+    if (open == 0) return known;
     const Double4 longer = julia::stretch<kIteration>(s);
     const Double4 turn = kIteration == Iteration::cube ? all(6) * s : all(3);  // of the step's slope
     bent = longer * bent + turn * (l * error) + rounding * (longer * l);

@@ -16,6 +16,7 @@ struct JuliaSet {
   int iterations;
   /// A number that is greater at a step surely escapes, one that is less surely stays.
   Real escapes[kMostIterations + 1], stays[kMostIterations + 1];
+  Real mostGrowth;    ///< of the distances between numbers: an orbit that passes it ends before
   Real mostConstant;  ///< the size of what is added, at most
   Real reach;         ///< the set lies within
 };

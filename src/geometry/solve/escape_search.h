@@ -63,11 +63,13 @@ class EscapeSearch {
       p[axis] = n[axis] * half;
     } else {
       Real off = 0;
-      const Vec3 gradient = gradientAt(p, off);
+      bool blurred = false;
+      const Vec3 gradient = gradientAt(p, off, blurred);
       const Real l = length(gradient);
       n = l > 0 && std::isfinite(l) ? gradient / l : normalize(-ray.direction);
       constexpr Real kMost = 1e-12;  // of the size, where the set is too folded for rounding to tell
       error += min(off / l, kMost * half);
+      if (blurred) error += half * kDetail / 16;
     }
     return {p, {error, error, error}, n, n, uvAt(p)};
   }
@@ -75,6 +77,16 @@ class EscapeSearch {
  private:
   static constexpr std::int64_t kSurface = 6;  ///< part; below: the faces of the box
   static constexpr Real kHuge = 1e60;
+  /// In sizes of half the box, some steps of the search: what is finer is not told apart.
+  static constexpr Real kDetail = 0x1p-14;
+
+  /// How far apart the orbits of places are, for one unit between the places: at most, within r of w.
+  Real grown(Real growth, const Vec3& w, Real r) const {
+    return growth * step_.stretch(w, r) + step_.unit() * step_.shareOfPlace();
+  }
+  /// The orbits of neighbours in the search have nothing in common any more. What follows is dust: each ray
+  /// would meet other grains of it, and the place that one finds would lie in the shadow of others.
+  bool isBlurred(Real growth) const { return growth * step_.half() * kDetail > step_.radius(); }
 
   /// By how much the square of the orbit's greatest distance passes that of the radius; the slope is along
   /// the direction.
@@ -83,7 +95,10 @@ class EscapeSearch {
     const Real limit = step_.radius() * step_.radius();
     Vec3 w = step_.start(p), d = along;
     Jet most{dot(w, w) - limit, 2 * dot(w, d)};
+    Real growth = step_.unit();
     for (int i = 0; i < step_.iterations(); ++i) {  // to the last: only so it is continuous
+      growth = grown(growth, w, 0);
+      if (isBlurred(growth)) break;
       const Affine f = step_.step(w);
       w = f.offset + c;
       d = linear(f, d) + along * step_.shareOfPlace();
@@ -101,6 +116,7 @@ class EscapeSearch {
     const Real share = radius * step_.unit() * step_.shareOfPlace();
     Vec3 w = step_.start(center);
     Real r = radius * step_.unit();  // the orbits are within r of this one
+    Real growth = step_.unit();
     bool inside = true;
     for (int i = 0;; ++i) {
       const Real l = length(w);
@@ -108,6 +124,8 @@ class EscapeSearch {
       if (!(r < kHuge)) return {-1, 1};
       inside = inside && (l + r) * kRounding < step_.radius();
       if (i == step_.iterations()) return inside ? Interval{-1, -1} : Interval{-1, 1};
+      growth = grown(growth, w, r);
+      if (isBlurred(growth)) return {-1, 1};  // for some places of the ball this may be the last number
       r = (r * step_.stretch(w, r) + share) * kRounding;
       w = step_.value(w);
       r += length(w) * gammaError(64);
@@ -116,12 +134,12 @@ class EscapeSearch {
   }
 
   /// The gradient of the excess; `off` is how far rounding has moved it.
-  Vec3 gradientAt(const Vec3& p, Real& off) const {
+  Vec3 gradientAt(const Vec3& p, Real& off, bool& blurred) const {
     const Vec3 c = step_.constant(p);
     const Real unit = step_.unit(), share = unit * step_.shareOfPlace();
     Vec3 w = step_.start(p);
     Affine by = Affine::scaling({unit, unit, unit});
-    Real moved = length(w) * gammaError(8), most = -kInfinity;
+    Real moved = length(w) * gammaError(8), most = -kInfinity, growth = unit;
     Vec3 gradient;
     for (int i = 0;; ++i) {
       const Real square = dot(w, w);
@@ -133,6 +151,8 @@ class EscapeSearch {
       if (i == step_.iterations() || !(square < kHuge) ||
           square > step_.radius() * step_.radius() * (1 + 1e-6))
         return gradient;
+      growth = grown(growth, w, 0);
+      if ((blurred = isBlurred(growth))) return gradient;
       const Affine f = step_.step(w);
       moved = moved * step_.stretch(w, 0) + (length(f.offset) + length(c)) * gammaError(32);
       Affine linearPart = f;
