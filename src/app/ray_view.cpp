@@ -141,6 +141,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     const Vec2 uv = hit.surface.uv;
     row("uv", text(uv.x) + "  " + text(uv.y));
     row("side", hit.leaving ? "from inside: leaving" : "from outside: entering");
+    if (hit.twoSided) row("shaded", "on both sides");
     row("index of refraction",
         text(node.indices.before) + " before, " + text(node.indices.behind) + " behind");
     if (node.indices.nested) {

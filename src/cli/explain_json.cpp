@@ -131,11 +131,17 @@ class RayWriter {
     const RayNode& node = *ray.node;
     const Hit& h = *node.hit;
     const Vec2 uv = h.surface.uv;
-    Json json{{"object", object(*ray.hit)},         {"part", h.part},
-              {"point", toJson(h.surface.point)},   {"error", toJson(h.surface.error)},
-              {"normal", toJson(h.surface.normal)}, {"shading", toJson(h.surface.shading)},
-              {"uv", Json::list({uv.x, uv.y})},     {"leaving", h.leaving},
-              {"indexBefore", node.indices.before}, {"indexBehind", node.indices.behind},
+    Json json{{"object", object(*ray.hit)},
+              {"part", h.part},
+              {"point", toJson(h.surface.point)},
+              {"error", toJson(h.surface.error)},
+              {"normal", toJson(h.surface.normal)},
+              {"shading", toJson(h.surface.shading)},
+              {"uv", Json::list({uv.x, uv.y})},
+              {"leaving", h.leaving},
+              {"twoSided", h.twoSided},
+              {"indexBefore", node.indices.before},
+              {"indexBehind", node.indices.behind},
               {"material", material(*node.bsdf)}};
     if (h.opacity < 1) json["opacity"] = h.opacity;
     if (node.raised) json["raised"] = toJson(*node.raised);

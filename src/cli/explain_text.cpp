@@ -119,6 +119,7 @@ class TreeText {
     else if (whitted(*node.bsdf).transmits())
       side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
               index(indices.behind, indices.objectBehind, indices.priorityBehind);
+    if (hit.twoSided && !lets) side += "; both sides are shaded";
     if (hit.opacity < 1) side += "; opacity " + text(hit.opacity);
     const Vec2 uv = s.uv;
     line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");

@@ -148,6 +148,7 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
   scene.format = format;
   scene.objects = placed(model, plainMaterial(), [&](const Material& material) {
     scene.materials.push_back(material);
+    if (!model.saysSides) scene.materials.back().sides = ShadedSides::both;
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
   });
   for (const Material& material : model.materials)

@@ -29,6 +29,7 @@ struct Model {
   /// object's material with this colour as diffuse and ambient.
   std::vector<Color> colors;
   InputFiles inputs;  ///< files that this one names
+  bool saysSides = false;  ///< the format knows Material::sides; otherwise a file by itself shows both
 };
 
 /// What every reader checks in its meshes, and how often it had to repair them.

@@ -25,6 +25,13 @@ struct Hit {
     return ray;
   }
 
+  /// Whether a ray of that direction arrives from behind: on the side of the facet from which the shading normal
+  /// points away. The facet decides, because near the outline of a smooth mesh a shading normal may point away
+  /// from a viewer of its front.
+  bool isBehind(const Vec3& direction) const {
+    return (dot(direction, surface.normal) > 0) != (dot(surface.shading, surface.normal) < 0);
+  }
+
   Real t;
   std::uint32_t object;  ///< index into Scene::objects
   std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle

@@ -19,11 +19,11 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
       material(whitted(*bsdf_)) {
   const World& world = tracer.world();
   const Settings& settings = tracer.settings();
-  // The inside of glass is shaded with its normal turned to the eye, as are sheets that are shaded from both
-  // sides, there by the normal that is shaded; other opaque things are lit from outside only.
+  // The inside of glass is shaded with its normal turned to the eye, and so is the back of what is shaded from
+  // both sides; other opaque things are lit from outside only.
   transmits = material.transmits();
   const Vec3& shading = hit.surface.shading;
-  const bool turned = hit.twoSided ? dot(ray.direction, shading) > 0 : hit.leaving && transmits;
+  const bool turned = hit.twoSided ? hit.isBehind(ray.direction) : hit.leaving && transmits;
   normal = turned ? -shading : shading;
   frame = world.frame(hit, *bsdf_, normal);
   cosine = -dot(ray.direction, normal);

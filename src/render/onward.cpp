@@ -27,7 +27,9 @@ Frame frameToward(const Interaction& at, const Vec3& toEye) {
 Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit) {
   const Vec3& flat = at.hit.surface.normal;
   // Which side of the normal is the eye's depends, where the normal is turned, on where the eye is.
-  const Real side = at.transmits || at.hit.twoSided ? dot(toEye, at.normal) : 1;
+  const Real side = at.transmits                                                    ? dot(toEye, at.normal)
+                    : at.hit.twoSided && at.hit.isBehind(-toEye) != at.frame.inside ? -1
+                                                                                    : 1;
   const bool inward = dot(toLight, at.normal) * side < 0;
   if (!inward && !at.raised() && dot(toLight, flat) * dot(toEye, flat) < 0) return Color(0);
   const Real below = 1 - coatTo(at, toEye);

@@ -19,7 +19,7 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       surface(world.surface(ray, found)),
       materials(world.materialMix(found)),
       leaving(dot(ray.direction, surface.normal) > 0),
-      twoSided(world.twoSided(object)),
+      twoSided(world.twoSided(object, materials)),
       convex(world.convex(object)),
       solid(world.solid(object)) {
   world.pierce(*this);

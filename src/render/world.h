@@ -53,7 +53,7 @@ struct Found {
 enum class Faces { both, front, shadedFront };
 
 inline bool sees(Faces faces, const Ray& ray, const MeshData& mesh, const MeshHit& met) {
-  if (faces == Faces::both) return true;
+  if (faces == Faces::both || mesh.twoSided) return true;
   if (faces == Faces::front || mesh.normals.empty() || !met.hit.front) return met.hit.front;
   return dot(surface(mesh, met.triangle, met.hit).shading, ray.direction) < 0;
 }
@@ -157,10 +157,10 @@ class World {
     return hasHoles_ ? lerp(opacityAt(ray, found), Color(1), filter) : filter;
   }
   const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
-  /// A mesh whose triangles are shaded from both sides.
-  bool twoSided(std::uint32_t object) const {
+  /// Whether the place is shaded from both sides: on a mesh that is, or of a material that is.
+  bool twoSided(std::uint32_t object, const MaterialMix& materials) const {
     const auto& mesh = objects_[object].mesh;
-    return mesh && mesh->data().twoSided;
+    return (mesh && mesh->data().twoSided) || (hasTwoSided_ && twoSided(materials));
   }
   /// A ray that leaves the object on the side of its normal does not meet it again.
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
@@ -275,8 +275,13 @@ class World {
   void closestOf(std::uint32_t object, const Ray& worldRay, Faces faces, QueryCounts<Nodes>& counts,
                  Found& best) const;
   template <class Nodes>
-  [[gnu::noinline]] bool closestSeen(const Instance& instance, const Ray& ray, Faces faces,
+  [[gnu::noinline]] bool closestSeen(std::uint32_t object, const Ray& ray, Faces faces,
                                      QueryCounts<Nodes>& counts, MeshHit& met) const;
+  /// Whether the faces include the triangle that was met; the ray is in the space of the object, a mesh.
+  bool included(Faces faces, std::uint32_t object, const Ray& ray, const MeshHit& met) const {
+    if (sees(faces, ray, objects_[object].mesh->data(), met)) return true;
+    return hasTwoSided_ && twoSided(materialMix({met.hit.t, object, met.triangle, met.hit}));
+  }
   template <class Nodes>
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
                                         QueryCounts<Nodes>& counts, Found& best) const;
@@ -336,6 +341,7 @@ class World {
     std::uint32_t kind = 0;                    ///< Filling::kind, where glass may be nested
     Real opacity = 1;                          ///< where it has no texture
     bool hasHoles = false;                     ///< some of it may not be there
+    bool twoSided = false;                     ///< shaded from both sides
   };
   /// The BSDF of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
@@ -344,6 +350,10 @@ class World {
   bool textured(const MaterialMix& materials) const {
     return std::any_of(materials.material, materials.material + materials.count,
                        [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].textured; });
+  }
+  bool twoSided(const MaterialMix& materials) const {
+    return std::any_of(materials.material, materials.material + materials.count,
+                       [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].twoSided; });
   }
   PlaceBsdf shade(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
                   const SurfacePoint& surface, const Differentials* arrived) const {
@@ -370,7 +380,7 @@ class World {
               MaterialMix& materials) const;
 
   std::vector<Surface> surfaces_;  ///< of the scene's materials
-  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false;
+  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false, hasTwoSided_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

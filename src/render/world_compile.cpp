@@ -184,12 +184,14 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const std::vector<Material> materials = shownAs(scene.materials, settings);
   for (const Material& material : materials) {
     const bool hasHoles = material.opacity < 1 || textureOf(material.textures, kOpacity);
+    const bool twoSided = material.sides == ShadedSides::both;
     Material textured = material;
     std::erase_if(textured.textures, [](const FieldTexture& t) { return MediumModel::has(t.field); });
     const bool plain = textured.textures.empty();
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                plain ? nullptr : std::make_shared<Material>(std::move(textured)), 0,
-                               material.opacity, hasHoles});
+                               material.opacity, hasHoles, twoSided});
+    world.hasTwoSided_ |= twoSided;
     world.hasHoles_ |= hasHoles;
     world.hasSubsurface_ |= std::holds_alternative<Subsurface>(material.model);
   }

@@ -61,7 +61,7 @@ inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces fa
     enter(counts.nodes, object);
     const bool found = faces == Faces::both
                            ? mesh->closest(ray, met, nullptr, MeshCounts{counts.nodes, counts.tests[kind]})
-                           : closestSeen(instance, ray, faces, counts, met);
+                           : closestSeen(object, ray, faces, counts, met);
     enter(counts.nodes, NodeWatch::kTop);
     // At the same distance the object that comes first in the scene counts.
     if (!found || (met.hit.t == best.t && object >= best.object)) return;
@@ -73,11 +73,11 @@ inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces fa
 }
 
 template <class Nodes>
-bool World::closestSeen(const Instance& instance, const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
+bool World::closestSeen(std::uint32_t object, const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
                         MeshHit& met) const {
-  const MeshTree& mesh = *instance.mesh;
-  const auto seen = [&](const MeshHit& hit) { return sees(faces, ray, mesh.data(), hit); };
-  return mesh.closest(ray, met, seen, MeshCounts{counts.nodes, counts.tests[instance.kind]});
+  const Instance& instance = objects_[object];
+  const auto seen = [&](const MeshHit& hit) { return included(faces, object, ray, hit); };
+  return instance.mesh->closest(ray, met, seen, MeshCounts{counts.nodes, counts.tests[instance.kind]});
 }
 
 template <class Nodes, class Visit>
@@ -161,7 +161,7 @@ bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>&
   const bool ends = query.opaqueEnds && instance.opaque;
   bool ended = false;
   const auto met = [&](const MeshHit& hit) {
-    if (!sees(query.faces, ray, mesh.data(), hit)) return false;
+    if (!included(query.faces, object, ray, hit)) return false;
     ++query.counts.hits[instance.kind];
     return ended = ends || query.visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
   };

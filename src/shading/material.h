@@ -1,6 +1,7 @@
 // THE list of material models, and a material as a scene keeps it.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -53,6 +54,11 @@ std::optional<MaterialModel> modelCalled(std::string_view keyword);
 std::vector<std::string_view> modelKeywords();
 std::string_view keywordOf(const MaterialModel& model);
 
+/// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the viewer's
+/// side first. It does not change what light passes into: there the two sides differ.
+enum class ShadedSides { front, both };
+constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
+
 struct Material {
   static constexpr std::string_view kKeyword = "material";
 
@@ -61,6 +67,7 @@ struct Material {
   std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
+  ShadedSides sides = ShadedSides::front;
   Real displacement = 0;                 ///< moves the points of meshes (scene/displacement.h)
   int displacementLevels = 0;            ///< so often each triangle is cut in four before
   // What fills the body (shading/medium.h).
@@ -75,6 +82,8 @@ struct Material {
               "how high the surface seems to stand where the texture that it scales is white"},
         Field{"opacity", &Material::opacity, "", 0, 1,
               "share of the surface that is there: through the rest light goes straight on"},
+        Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
+              "which sides of an opaque surface reflect light"},
         Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
               "how far the points of a mesh move along their normals; a texture of heights "
               "scales it"},

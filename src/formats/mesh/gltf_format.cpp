@@ -70,6 +70,7 @@ class GltfReader {
     warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
+    model_.saysSides = true;
     model_.choices.push_back({"transfer", "srgb", place_});  // its colours are linear light
     return std::move(model_);
   }
@@ -212,7 +213,6 @@ class GltfReader {
         ++lostTriangles_;
     }
     if (mesh.triangles.empty() && !wrongCorner_.empty()) fail(wrongCorner_);
-    mesh.twoSided = isTwoSided(primitive.material);
     repairs_.check(mesh, place_);
     return mesh;
   }
@@ -234,14 +234,6 @@ class GltfReader {
       corners.push_back(isThere ? static_cast<std::uint32_t>(corner) : kNoPoint);
     }
     return corners;
-  }
-
-  /// Both sides of what light passes into are different.
-  bool isTwoSided(int material) const {
-    if (!isIndex(material, gltf_.materials.size())) return false;
-    const tinygltf::Material& of = gltf_.materials[static_cast<std::size_t>(material)];
-    return of.doubleSided && !of.extensions.contains("KHR_materials_transmission") &&
-           !of.extensions.contains("KHR_materials_volume");
   }
 
   void readUvs(const tinygltf::Primitive& primitive, MeshData& mesh) {

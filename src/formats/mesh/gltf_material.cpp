@@ -37,7 +37,9 @@ void textureMirror(Material& material, std::string_view field, Color& constant, 
 
 class Painted {
  public:
-  Painted(std::string name, const MetallicRoughness& m) : m_(m), material_{std::move(name), modelOf(m), {}} {}
+  Painted(std::string name, const MetallicRoughness& m) : m_(m), material_{std::move(name), modelOf(m), {}} {
+    if (m.doubleSided) material_.sides = ShadedSides::both;
+  }
 
   Material material() {
     if (m_.unlit)

@@ -79,6 +79,7 @@ void readNumbers(const tinygltf::Material& from, MetallicRoughness& m) {
   GltfNumbers::readBase(from, m);
   GltfNumbers::readLayers(from, m);
   GltfNumbers::readPassage(from, m);
+  m.doubleSided = from.doubleSided;
   m.unlit = from.extensions.contains("KHR_materials_unlit");
 }
 

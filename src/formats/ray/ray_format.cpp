@@ -23,6 +23,7 @@
 #include "formats/ray/ray_notes.h"
 #include "formats/ray/ray_objects.h"
 #include "formats/ray/ray_settings.h"
+#include "formats/ray/ray_students.h"
 #include "formats/ray/ray_syntax.h"
 #include "formats/text_front.h"
 #include "formats/textures.h"
@@ -33,6 +34,7 @@ namespace rayfile {
 
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
   expand(syntax, time, inputs);
+  translateStudents(syntax);
   settleKeys(syntax, time);
 }
 
@@ -54,6 +56,8 @@ class Reader {
         objects_(findings_, materials_, time) {}
 
   void read() {
+    for (const Syntax::Remark& remark : syntax_.remarks())
+      messages_.warn(syntax_.place(remark.offset), remark.what, remark.hint);
     const Item root = syntax_.root();
     auto item = root.begin();
     for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);

@@ -535,6 +535,19 @@ class Parser {
     return node;
   }
 
+  /// The rest of "0.3.0", as the courses' programs read it.
+  void skipSecondPoint(std::size_t start, std::size_t length) {
+    const std::string_view read = source_.substr(start, length);
+    if (atEnd() || peek() != '.' || next() == '.' || read.find('.') == read.npos) return;
+    std::size_t end = at_;
+    while (end < source_.size() && (isDigit(source_[end]) || source_[end] == '.')) ++end;
+    if (end < source_.size() && isWordPart(source_[end])) return;
+    at_ = end;
+    parsed_.slips.push_back({static_cast<std::uint32_t>(base_ + start),
+                             std::string(source_.substr(start, std::min<std::size_t>(end - start, 40))),
+                             std::string(read)});
+  }
+
   void number() {
     const std::size_t start = at_;
     auto parsed = parseNumber(source_.substr(start));
@@ -542,7 +555,8 @@ class Parser {
         source_.substr(start + parsed->length).starts_with('.'))
       --parsed->length;  // "0..9"
     at_ += parsed ? parsed->length : 1;
-    // "1.2.3" and "2x" are slips of the pen, not two items.
+    if (parsed) skipSecondPoint(start, parsed->length);
+    // "2x" is a slip of the pen, not two items.
     const bool unit = atWord("deg") || atWord("rad");
     const bool glued =
         !atEnd() && !unit && (isLetter(peek()) || isDigit(peek()) || (peek() == '.' && next() != '.'));

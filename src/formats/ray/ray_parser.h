@@ -16,6 +16,12 @@ std::string quoted(std::string_view text);
 /// What the text has that somebody has to look after.
 struct Parsed {
   bool hasKeys = false, usesLanguage = false;
+  /// Numbers with two points, as in "0.3.0": what stands before the second counts.
+  struct Slip {
+    std::uint32_t offset;
+    std::string text, readAs;
+  };
+  std::vector<Slip> slips{};
 };
 
 /// Appends the items of the text as one block. `syntax` gives messages their places; the text's first byte

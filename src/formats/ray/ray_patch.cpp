@@ -13,6 +13,7 @@
 #include "formats/ray/ray_outline.h"
 #include "formats/ray/ray_round.h"
 #include "formats/ray/ray_same.h"
+#include "formats/ray/ray_students.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/shapes/csg_tree.h"
 #include "scene/rows.h"
@@ -305,7 +306,8 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   Messages lost, others;
   std::optional<std::string> text;
   try {
-    if (!rayfile::Syntax(read.file, *read.bytes).usesLanguage())
+    const rayfile::Syntax syntax(read.file, *read.bytes);
+    if (!syntax.usesLanguage() && !rayfile::speaksStudents(syntax))
       text = rayfile::Patch(read, lost, others).text(edited);
     else if (rayfile::Patch::sameScene(*read.scene, edited))
       text = *read.bytes;  // else one place of the text may have made many objects

@@ -44,6 +44,8 @@ void Syntax::parse(Source& source) {
   const Parsed parsed = parseRay(*this, source.text, source.base, nodes_);
   hasKeys_ |= parsed.hasKeys;
   usesLanguage_ |= parsed.usesLanguage;
+  for (const Parsed::Slip& slip : parsed.slips)
+    remark({slip.offset, "expected a number, found \"" + slip.text + "\": it is read as " + slip.readAs, ""});
 }
 
 const Syntax::Source& Syntax::sourceOf(std::size_t offset) const {

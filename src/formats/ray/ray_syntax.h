@@ -110,6 +110,15 @@ class Syntax {
   bool hasKeys() const { return hasKeys_; }
   /// Is there a statement or an expression?
   bool usesLanguage() const { return usesLanguage_; }
+  /// What somebody has to be told of the text itself, or of what was made of it.
+  struct Remark {
+    std::uint32_t offset;
+    std::string what, hint;
+  };
+  void remark(Remark remark) { remarks_.push_back(std::move(remark)); }
+  const std::vector<Remark>& remarks() const { return remarks_; }
+  /// A tree that replace() took over has calls of kKey.
+  void noteKeys() { hasKeys_ = true; }
   /// Takes another tree over the same source.
   void replace(std::vector<Node> nodes) { nodes_ = std::move(nodes); }
   /// For nodes of words that no file has: what such a node holds as its number.
@@ -163,6 +172,7 @@ class Syntax {
   std::vector<Node> nodes_;
   std::deque<std::string> spelled_;
   std::vector<Frame> frames_;
+  std::vector<Remark> remarks_;
   bool hasKeys_ = false, usesLanguage_ = false;
 };
 
@@ -174,6 +184,7 @@ class Item {
  public:
   Item(const Syntax& syntax, std::uint32_t index) : syntax_(&syntax), index_(index) {}
 
+  std::uint32_t index() const { return index_; }  ///< of its node
   Kind kind() const { return node().kind; }
   bool is(Kind kind) const { return node().kind == kind; }
   double number() const { return node().number; }
