@@ -25,9 +25,9 @@ struct Hit {
     return ray;
   }
 
-  /// Whether a ray of that direction arrives from behind: on the side of the facet from which the shading normal
-  /// points away. The facet decides, because near the outline of a smooth mesh a shading normal may point away
-  /// from a viewer of its front.
+  /// Whether a ray of that direction arrives from behind: on the side of the facet from which the shading
+  /// normal points away. The facet decides, because near the outline of a smooth mesh a shading normal may
+  /// point away from a viewer of its front.
   bool isBehind(const Vec3& direction) const {
     return (dot(direction, surface.normal) > 0) != (dot(surface.shading, surface.normal) < 0);
   }

@@ -380,7 +380,8 @@ class World {
               MaterialMix& materials) const;
 
   std::vector<Surface> surfaces_;  ///< of the scene's materials
-  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false, hasTwoSided_ = false;
+  bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false,
+       hasTwoSided_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> lightSources_;

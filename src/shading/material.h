@@ -54,8 +54,8 @@ std::optional<MaterialModel> modelCalled(std::string_view keyword);
 std::vector<std::string_view> modelKeywords();
 std::string_view keywordOf(const MaterialModel& model);
 
-/// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the viewer's
-/// side first. It does not change what light passes into: there the two sides differ.
+/// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the
+/// viewer's side first. It does not change what light passes into: there the two sides differ.
 enum class ShadedSides { front, both };
 constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
 
@@ -68,8 +68,8 @@ struct Material {
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
-  Real displacement = 0;                 ///< moves the points of meshes (scene/displacement.h)
-  int displacementLevels = 0;            ///< so often each triangle is cut in four before
+  Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
+  int displacementLevels = 0;  ///< so often each triangle is cut in four before
   // What fills the body (shading/medium.h).
   Real mediumDensity = 0;
   Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};

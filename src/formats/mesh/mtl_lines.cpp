@@ -74,8 +74,8 @@ constexpr std::array<MapOption, 14> kMapOptions{{{"-blendu", 1},
                                                  {"-s", 3, "1"},
                                                  {"-t", 3, "0"}}};
 /// Options of maps without effect on what is rendered, or with one that is rendered.
-constexpr std::array<std::string_view, 10> kMapOptionsUsed{
-    "-bm", "-blendu", "-blendv", "-clamp", "-texres", "-imfchan", "-type", "-colorspace", "-o", "-s"};
+constexpr std::array<std::string_view, 9> kMapOptionsUsed{
+    "-bm", "-blendu", "-blendv", "-clamp", "-imfchan", "-type", "-colorspace", "-o", "-s"};
 
 template <class Row, std::size_t N>
 const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {

@@ -62,12 +62,13 @@ float whiteOf(const std::vector<Vec3f>& colors) {
 /// Keywords of the format, in lower case.
 constexpr std::array<std::string_view, 2> kThin{"l", "p"};
 constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
-/// What belongs to curves and surfaces, which are reported by themselves, or says nothing that a picture
-/// shows.
-constexpr std::array<std::string_view, 26> kSilent{
-    "s",          "vp",        "cstype", "deg",   "bmat",   "step",   "parm",     "trim",     "hole",
-    "scrv",       "sp",        "end",    "con",   "mg",     "bevel",  "c_interp", "d_interp", "lod",
-    "shadow_obj", "trace_obj", "ctech",  "stech", "maplib", "usemap", "csh",      "call"};
+/// What belongs to curves and surfaces, which are reported by themselves.
+constexpr std::array<std::string_view, 15> kOfCurves{"vp",   "cstype", "deg",   "bmat",  "step",
+                                                     "parm", "trim",   "hole",  "scrv",  "sp",
+                                                     "end",  "con",    "ctech", "stech", "mg"};
+/// What the format has besides, and Trace does not show.
+constexpr std::array<std::string_view, 10> kNotShown{"bevel",     "c_interp", "d_interp", "lod", "shadow_obj",
+                                                     "trace_obj", "maplib",   "usemap",   "csh", "call"};
 
 /// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
 struct CornerNumbers {
@@ -169,8 +170,12 @@ class ObjReader {
       warn(at, "points and lines are left out");
     else if (listed(kCurved, key))
       warn(at, "curves and surfaces are left out");
+    else if (key == "s")
+      smooth_ = words.peek() == "0" || sameWord(words.peek(), "off") ? std::string_view() : at;
+    else if (listed(kNotShown, key))
+      warn(at, "\"" + std::string(key) + "\" is not shown");
     else
-      return listed(kSilent, key);
+      return listed(kOfCurves, key);
     return true;
   }
 
@@ -317,6 +322,8 @@ class ObjReader {
         warn(words[i], "normals or uv that the file does not have are left out");
       found_.push_back({*point, uv.value_or(-1), normal.value_or(-1)});
     }
+    if (!smooth_.empty() && found_.front().normal < 0)
+      warn(std::exchange(smooth_, {}), "smoothing groups are not shown: faces without normals look flat");
     numbered_.clear();
     for (const Corner& corner : found_) numbered_.push_back(this->corner(to, corner));
     appendPolygon(to.mesh, numbered_);
@@ -409,6 +416,7 @@ class ObjReader {
   std::vector<Vec2> uvs_;
   std::string name_;
   std::string_view material_;
+  std::string_view smooth_;  ///< the line of the smoothing group in force; empty for none
   std::map<std::pair<std::string, std::string_view>, std::size_t> numbers_;  ///< of parts
   std::vector<std::unique_ptr<Part>> parts_;
   Part* part_ = nullptr;  ///< that of name_ and material_, once known

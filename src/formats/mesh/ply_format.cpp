@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -128,12 +129,26 @@ class PlyReader {
       want(v, {&uvs[1], 2});
     }
 
+    noteUnused(element, columns_);
     body_.readColumns(element, columns_);
     for (std::size_t i = 0; i < uvs.size(); i += 2) mesh_.uvs.push_back({uvs[i], uvs[i + 1]});
     if (colored)
       mesh_.materials =
           palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
     if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
+  }
+
+  /// Warns of the properties that nothing was made of; `used` are others than those of the columns.
+  void noteUnused(const Element& element, std::span<const Column> columns,
+                  std::initializer_list<int> used = {}) {
+    std::string names;
+    for (std::size_t i = 0; i < columns.size() && element.count > 0; ++i) {
+      const bool isUsed = columns[i].to || element.properties[i].name == "texnumber" ||
+                          std::find(used.begin(), used.end(), static_cast<int>(i)) != used.end();
+      if (!isUsed) names += (names.empty() ? "" : ", ") + element.properties[i].name.substr(0, 40);
+    }
+    if (!names.empty())
+      warnings_.warn(place(), "properties of \"" + element.name.substr(0, 40) + "\" are not shown: " + names);
   }
 
   void want(int property, Column column) { columns_[static_cast<std::size_t>(property)] = column; }
@@ -213,6 +228,7 @@ class PlyReader {
       lists.numbers = -1;
     if (const int number = element.find({"texnumber"}); number >= 0 && header_.textures.size() > 1)
       warnings_.warn(place(), "faces of several textures show the first: texnumber is ignored");
+    noteUnused(element, columns, {lists.items, lists.numbers});
     hasFaceUvs_ = lists.numbers >= 0;
     const bool direct = hasVertices_ && !hasFaceUvs_ && !hasFaceColors_;
     if (direct) mesh_.triangles.reserve(element.count);

@@ -53,7 +53,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kOperati
      {"join", "union"}}};
 
 template <std::size_t N>
-bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
+bool isListed(std::string_view word, const std::array<std::string_view, N>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
@@ -303,7 +303,7 @@ class Translator {
       emits(call);
     }
     const auto isTaken = [](std::string_view name) {
-      return isOneOf(name, kObjectFields) || name == "material";
+      return isListed(name, kObjectFields) || name == "material";
     };
     const std::string head = std::string(key(call)) + " { _0; _1; }";
     const Write own = rest(block, isTaken);
@@ -586,7 +586,7 @@ class Translator {
     if (reach > 0)
       fading = "constant_attenuation_coeff = 1; linear_attenuation_coeff = " + text(2 / reach) +
                "; quadratic_attenuation_coeff = " + text(3 / (reach * reach)) + "; ";
-    const auto rest = this->rest(block, [](std::string_view name) { return isOneOf(name, kSpotFields); });
+    const auto rest = this->rest(block, [](std::string_view name) { return isListed(name, kSpotFields); });
     make(call,
          "spot_light { _0; direction = " + text(*target - *position) + "; angle = " + text(cone) +
              "; full_angle = " + text(inner) + "; " + fading + "}",
@@ -616,7 +616,7 @@ class Translator {
 
   bool camera(Index call) {
     const Index block = value(call);
-    const auto rest = this->rest(block, [](std::string_view name) { return isOneOf(name, kCameraFields); });
+    const auto rest = this->rest(block, [](std::string_view name) { return isListed(name, kCameraFields); });
     const Real from = number(block, "time0", 0), to = number(block, "time1", 1);
     const bool blurs = word(block, "enable_motion_blur") == "true" && to > from;
     make(call,
@@ -693,8 +693,8 @@ bool mayBeTheirs(const Syntax& syntax) {
   for (std::uint32_t i = 0; i + 1 < nodes.size(); ++i) {
     if (nodes[i].kind != Kind::entry && nodes[i].kind != Kind::call) continue;
     const std::string_view key = Item(syntax, i).key();
-    if (isOneOf(key, kNodes) || isOneOf(key, kObjectFields) || isOneOf(key, kMaterialFields) ||
-        isOneOf(key, kSpotFields) || isOneOf(key, kCameraFields))
+    if (isListed(key, kNodes) || isListed(key, kObjectFields) || isListed(key, kMaterialFields) ||
+        isListed(key, kSpotFields) || isListed(key, kCameraFields))
       return true;
   }
   return false;
