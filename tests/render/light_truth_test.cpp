@@ -238,8 +238,8 @@ TEST(LightTruth, APaneTakesNoSunlightFromFogBehindIt) {
     SCOPED_TRACE(kind);
     if (std::string_view(kind) == "far point") continue;  // hardly any of its light gets there straight
     const Scene scene = belowSheets(glass, light, 1);
-    const auto meanBy = [&](IntegratorKind kind) {
-      settings.integrator = kind, settings.spp = 256;
+    const auto meanBy = [&](IntegratorKind by) {
+      settings.integrator = by, settings.spp = 256;
       return mean(picture(scene, settings));
     };
     EXPECT_NEAR(meanBy(IntegratorKind::bdpt) / meanBy(IntegratorKind::path), 1, 0.04);
