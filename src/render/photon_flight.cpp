@@ -68,7 +68,7 @@ void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   const Real middle = dot(way, ray.direction), radius = length(box.size()) / 2;
   const Real half2 = radius * radius - (dot(way, way) - middle * middle);
   if (!(half2 > 0) || !isInOpenAir(parallel.inside, world_)) return;
-  const Real first = middle - std::sqrt(half2);
+  const Real near = middle - std::sqrt(half2), first = parallel.panes > 0 ? std::max(0.0, near) : near;
   const Real last = std::min(middle + std::sqrt(half2), parallel.hit ? parallel.hit->t : kInfinity);
   const Ray within{ray.at(first), ray.direction};
   const Real depth = last > first ? fog_.depth(within, last - first) : 0;
@@ -136,9 +136,11 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     }
     if (f.bounces - f.panes >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
     if (!linked && !f.straight) return;
-    f.parallel = f.fromSky = false;
+    const bool pane = f.straight && f.light && !f.gathered;
+    f.parallel = f.parallel && pane;
+    f.fromSky = false;
     ++f.bounces;
-    f.panes += f.straight && f.light && !f.gathered;
+    f.panes += pane;
     cast(f);
   }
 }
