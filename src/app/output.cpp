@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kSettings = "Settings", *kDefaults = "defaults", *kPass = "Pass",
+constexpr const char *kSettings = "Settings", *kProgram = "Program", *kDefaults = "defaults", *kPass = "Pass",
                      *kIncomplete = "Incomplete", *kPartial = ".partial";
 /// The group of options that say how a picture is computed, and nothing of what it shows.
 constexpr std::string_view kResources = "Resources";
@@ -110,7 +110,10 @@ bool isFragmentOf(const Output& output, const Metadata& metadata) {
   try {
     Metadata stored = readMetadata(output.path);
     const bool incomplete = std::erase_if(stored, [](const auto& word) { return word.first == kIncomplete; });
-    return incomplete && whatCounts(stored, kPasses) == whatCounts(wordsOf(output, metadata), kPasses);
+    Metadata words = wordsOf(output, metadata);
+    for (Metadata* of : {&stored, &words})  // another build's part is one of the picture all the same
+      std::erase_if(*of, [](const auto& word) { return word.first == kProgram; });
+    return incomplete && whatCounts(stored, kPasses) == whatCounts(words, kPasses);
   } catch (const std::exception&) {  // whatever it is, it is not ours
     return false;
   }

@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/looks.h"
 #include "base/text.h"
 
 namespace trace {
 namespace {
+
+constinit thread_local std::int64_t looksOfThread = 0;
 
 /// With the innermost step first, as threads know them.
 std::string inWords(const std::vector<Budget::Step>& steps) {
@@ -56,8 +59,10 @@ std::string Budget::brokenOff() const {
   return inWords({broken_.begin(), broken_.begin() + brokenCount_});
 }
 
+std::int64_t looksAtBudget() { return looksOfThread; }
+
 void lookAtBudget() {
-  constexpr int kChecksBetweenLooks = 128;
+  ++looksOfThread;
   budgetOfThread.untilLook = kChecksBetweenLooks;
   if (budgetOfThread.budget) budgetOfThread.budget->look();
 }

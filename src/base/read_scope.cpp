@@ -41,12 +41,6 @@ void addReal(std::vector<std::string>& to, const std::vector<std::string>& paths
 
 ReadRules copyOfCurrent() { return rulesOfThread ? *rulesOfThread : ReadRules{}; }
 
-/// As a shell takes it for one word.
-std::string shellWord(const std::string& text) {
-  const bool plain = text.find_first_of(" \t\"'\\$&;()<>|*?`!#~") == text.npos;
-  return plain ? text : "\"" + text + "\"";
-}
-
 }  // namespace
 
 void ReadDenied::at(const Place& place) const {
@@ -77,6 +71,11 @@ ReadScope ReadScope::ofScene(const std::string& file) {
 ReadScope::~ReadScope() { rulesOfThread = before_; }
 
 std::shared_ptr<const ReadRules> ReadScope::current() { return rulesOfThread; }
+
+std::string shellWord(const std::string& text) {
+  const bool plain = text.find_first_of(" \t\"'\\$&;()<>|*?`!#~") == text.npos;
+  return plain ? text : "\"" + text + "\"";
+}
 
 bool mayRead(const std::string& path) {
   if (!rulesOfThread) return true;

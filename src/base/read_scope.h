@@ -47,6 +47,9 @@ class ReadScope {
   std::shared_ptr<const ReadRules> before_;
 };
 
+/// The text as one word of a command line.
+std::string shellWord(const std::string& text);
+
 /// Does not tell whether the file is there.
 bool mayRead(const std::string& path);
 

@@ -1,8 +1,11 @@
 // ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 #include "app/output.h"
@@ -10,6 +13,7 @@
 #include "app/session.h"
 #include "base/budget.h"
 #include "base/file.h"
+#include "base/read_scope.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/memory_limit.h"
@@ -47,6 +51,32 @@ std::string sparedText(const std::vector<NamedBytes>& files) {
     if (!file.spared.empty())
       text += "; " + keptText(file.spared) + ", for " + files.front().file + " did not name it";
   return text;
+}
+
+/// Which flag lets a scene read what the written files name outside of their folder (docs/security.md): of
+/// what the scene is made of, that of which the name, as seen from there, stands in one of them.
+std::string outsideText(const std::vector<NamedBytes>& files, const InputFiles& inputs) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path folder = fs::absolute(files.front().file, ignored).parent_path().lexically_normal();
+  const ReadScope nothingAllowed(std::make_shared<const ReadRules>());
+  const ReadScope rules = ReadScope::ofScene(files.front().file);
+  std::set<std::string> folders;
+  for (const InputFile& input : inputs.all()) {
+    if (mayRead(input.path)) continue;
+    const fs::path path = fs::absolute(input.path, ignored).lexically_normal();
+    const std::string there = path.lexically_relative(folder).string();
+    const auto isNamed = [&](const NamedBytes& file) {
+      return file.bytes.find(there) != std::string::npos ||
+             file.bytes.find(path.string()) != std::string::npos;
+    };
+    if (!std::any_of(files.begin(), files.end(), isNamed)) continue;
+    const std::string parent = fs::path(input.path).lexically_normal().parent_path().string();
+    folders.insert(parent.empty() ? "." : parent);
+  }
+  std::string flags;
+  for (const std::string& parent : folders) flags += " --allow-read " + shellWord(parent);
+  return flags.empty() ? "" : "; it names files outside its folder, which" + flags + " lets it read";
 }
 
 /// What the words of a flag say, read as a .ray file.
@@ -133,7 +163,7 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   for (const NamedBytes& file : files) writeFile(file.file, file.bytes);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return "wrote " + namesText(files) + " (" + contentsText(files.front(), scene) + ") in " +
-         durationText(seconds) + sparedText(files);
+         durationText(seconds) + sparedText(files) + outsideText(files, scene.inputs);
 }
 
 }  // namespace

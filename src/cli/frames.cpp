@@ -165,13 +165,14 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
       stopped = whyStopped(result);
       break;
     }
-    settleCheckpoint(session, result, arguments, files);
+    if (!saved.path.empty()) settleCheckpoint(session, result, arguments, files);
     if (!reportStatistics(arguments, session, result, saved.path, elapsed() - frameStart, console))
       code = kFailed;
     if (saved.elsewhere) {
       code = kFailed;
-      stopped = "could not write where it should, but " + saved.path + ": ";
-      ++done;
+      stopped = "frame " + std::to_string(missing[done]) + ": " +
+                (saved.path.empty() ? lostText(saved) : "wrote " + saved.path + whereText(saved, picture)) +
+                "; ";
       break;
     }
     removed += removedText(files);

@@ -113,11 +113,15 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   const SavedPicture saved = save(session, result, arguments, signals, files, progress, console);
   const std::string stopped = whyStopped(result);
   int code = saved.elsewhere ? kFailed : exitCode(result);
-  const std::string goesOn = settleCheckpoint(session, result, arguments, files);
+  const std::string goesOn = saved.path.empty() ? "" : settleCheckpoint(session, result, arguments, files);
   if (result.end == End::finished) reportOldCheckpoints(session, files, console);
   if (dark) console.warnings({&*dark, 1});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
+  if (saved.path.empty()) {
+    console.last(false, stopped + lostText(saved) + goesOn);
+    return code;
+  }
   std::string cleaned;
   if (const auto change = files.denoiseChange())
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";

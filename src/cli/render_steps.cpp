@@ -183,15 +183,21 @@ SavedPicture saveSomewhere(Session& session, PictureFiles& files, LastSteps fini
     if (error.fault() == Fault::limit) throw;
     console.error(error);
   }
-  const std::vector<std::string> inPlace = files.written();
+  std::vector<std::string> inPlace = files.written();
   namespace fs = std::filesystem;
+  std::error_code ignored;
   const fs::path folder = makeOwnFolder();
+  PictureFiles others = session.filesFor((folder / fs::path(files.path()).filename()).string());
   try {
-    PictureFiles others = session.filesFor((folder / fs::path(files.path()).filename()).string());
     return {session.save(others, finish), true, inPlace, finish};
-  } catch (...) {
-    std::error_code ignored;
+  } catch (const Error& error) {
     fs::remove(folder, ignored);  // if it is empty
+    inPlace.insert(inPlace.end(), others.written().begin(), others.written().end());
+    if (error.fault() == Fault::limit || inPlace.empty()) throw;
+    console.error(error);
+    return {"", true, inPlace, finish};
+  } catch (...) {
+    fs::remove(folder, ignored);
     throw;
   }
 }
@@ -243,13 +249,25 @@ SavedPicture save(Session& session, RenderResult& result, const Arguments& argum
   return saveSomewhere(session, files, LastSteps::plain, console);
 }
 
+namespace {
+
+/// "there is out.png".
+std::string thereText(const std::vector<std::string>& files) {
+  std::string names;
+  for (const std::string& name : files) names += (names.empty() ? "" : ", ") + name;
+  return std::string(files.size() == 1 ? "there is " : "there are ") + names;
+}
+
+}  // namespace
+
+std::string lostText(const SavedPicture& saved) {
+  return "not all files could be written; " + thereText(saved.inPlace);
+}
+
 std::string whereText(const SavedPicture& saved, const std::string& wanted) {
   if (!saved.elsewhere) return saved.path == wanted ? "" : "; " + keptText(wanted);
   if (saved.inPlace.empty()) return " instead of " + wanted;
-  std::string names;
-  for (const std::string& name : saved.inPlace) names += (names.empty() ? "" : ", ") + name;
-  return ", since not all files could be written in their place; there " +
-         std::string(saved.inPlace.size() == 1 ? "is " : "are ") + names;
+  return ", since not all files could be written in their place; " + thereText(saved.inPlace);
 }
 
 std::string removedText(const PictureFiles& files) {

@@ -39,9 +39,10 @@ void reportOldCheckpoints(const Session& session, const PictureFiles& files, con
 void reportLosses(const Session& session, const RenderResult& result, const Console& console);
 
 struct SavedPicture {
-  std::string path;        ///< the picture's name
+  std::string path;        ///< the picture's name; "" if it, or a pass, could be written nowhere
   bool elsewhere = false;  ///< not where it should be, nor beside it
-  /// Of one that is elsewhere: files that are in their places all the same, the picture first.
+  /// Of one that is elsewhere: files that are in their places all the same, the picture first. Of one that
+  /// could be written nowhere: those that could be.
   std::vector<std::string> inPlace{};
   LastSteps finish = LastSteps::all;
 };
@@ -51,6 +52,9 @@ struct SavedPicture {
 /// picture is written without the steps that take long; the end of `result` says so.
 SavedPicture save(Session& session, RenderResult& result, const Arguments& arguments, Signals& signals,
                   PictureFiles& files, Progress& progress, const Console& console);
+
+/// "not all files could be written; there is out.png", of a picture that has no path.
+std::string lostText(const SavedPicture& saved);
 
 /// Where the picture is, if it is not where it should be: "; old.png is kept as it is" and the like.
 std::string whereText(const SavedPicture& saved, const std::string& wanted);

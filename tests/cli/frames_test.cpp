@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "image/codec.h"
 #include "program.h"
 
@@ -87,6 +89,41 @@ TEST_F(Frames, EveryNthAndSingleOnes) {
   EXPECT_TRUE(exists("glow.0002.png") && !exists("glow.0001.png"));
   EXPECT_EQ(render({"-o", "one.png"}, "3").code, 0);
   EXPECT_TRUE(exists("one.png"));
+}
+
+TEST_F(Frames, ThoseOfAnotherBuildAreRenderedAgain) {
+  EXPECT_EQ(render().code, 0);
+  EXPECT_TRUE(contains(render().last, "nothing to write"));
+  // The same picture with the same words, but for those that another program would have put there.
+  const Picture picture = readPicture(path("glow.0002.png"));
+  Metadata words = readMetadata(path("glow.0002.png"));
+  const auto program =
+      std::find_if(words.begin(), words.end(), [](const auto& word) { return word.first == "Program"; });
+  ASSERT_NE(program, words.end());
+  EXPECT_TRUE(contains(program->second, "sources "));
+  program->second = "commit 0000000, sources 0123456789abcdef";
+  writePicture(path("glow.0002.png"), picture, Rounding::truncate, words);
+  EXPECT_TRUE(contains(render().last, "(1 frame, 8x4; 4 already there)"));
+  words.erase(program);  // a program that did not say it
+  writePicture(path("glow.0003.png"), picture, Rounding::truncate, words);
+  EXPECT_TRUE(contains(render().last, "(1 frame, 8x4; 4 already there)"));
+  EXPECT_TRUE(contains(render().last, "nothing to write"));
+}
+
+TEST_F(Frames, ThoseOfOtherOptionsAreRenderedAgain) {
+  const std::vector<std::vector<std::string>> options{
+      {"--spp", "4"},      {"--depth", "3"},     {"--integrator", "path"}, {"--sampling", "sobol"},
+      {"--seed", "7"},     {"--shutter", "0.1"}, {"--like", "ut"},         {"--tone", "reinhard"},
+      {"--exposure", "1"}, {"--bloom", "0.2"},   {"--region", "0,0,4,4"},  {"-w", "10"}};
+  EXPECT_EQ(render().code, 0);
+  for (const auto& option : options) {
+    const Run r = render(option);
+    if (r.code == 2) continue;  // no such option
+    EXPECT_TRUE(contains(r.last, "(5 frames")) << option[0] << r.err;
+    EXPECT_TRUE(contains(render(option).last, "nothing to write")) << option[0];
+    EXPECT_TRUE(contains(render().last, "(5 frames")) << option[0];
+  }
+  EXPECT_TRUE(contains(render({"-t", "1"}).last, "nothing to write"));  // which changes no pixel
 }
 
 TEST_F(Frames, WrongOnesAreRefused) {

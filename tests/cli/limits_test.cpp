@@ -45,9 +45,18 @@ class Limits : public ProgramTest {
           kBegin + std::string("julia { iteration = sine; iterations = 50; mandelbrot = true; }"));
     write("glass.ray", kPanes);
     write("mesh.ray", kBegin + std::string(kFineMesh));
+    write("terrain.ray", kBegin + std::string("terrain { points = 4097; octaves = 16; }"));
+    write("plant.ray", kBegin + std::string("plant { iterations = 12; }"));
+    write("solids.ray", std::string(kBegin) +
+                            "difference { objects = { mandelbox { iterations = 30; scale = -1.5; }\n"
+                            "union { objects = { isosurface { formula = \"sin(1000000*x*y*z)\"; }\n"
+                            "mandelbulb { iterations = 30; } }; }\n"
+                            "julia { iteration = sine; iterations = 50; } }; }\n");
   }
 
-  static std::vector<std::string> scenes() { return {"copies", "sweep", "waves", "julia", "glass", "mesh"}; }
+  static std::vector<std::string> scenes() {
+    return {"copies", "sweep", "waves", "julia", "glass", "mesh", "terrain", "plant", "solids"};
+  }
 
   /// Runs the command for each scene with a limit of a fifth of a second. Where one goes on and on, ctest
   /// ends the test.
@@ -58,7 +67,9 @@ class Limits : public ProgramTest {
       words.insert(words.end(), after.begin(), after.end());
       words.insert(words.end(), {"--time-limit", "0.2"});
       const Run r = run(words);
-      const bool ended = r.code == 0 || r.code == kLimit || r.code == 6;  // 6: lint found something
+      const bool refused = r.code == 3 && r.err.find("folds finer than") != std::string::npos;  // by convert
+      const bool ended =
+          r.code == 0 || r.code == kLimit || r.code == 6 || refused;  // 6: lint found something
       EXPECT_TRUE(ended) << scene << ": " << r.code << "\n" << r.err;
       const bool tooManyRays = r.err.find("takes more than 200000 rays") != std::string::npos;  // of explain
       if (r.code == kLimit && !tooManyRays) {
@@ -73,7 +84,27 @@ TEST_F(Limits, LintEndsInTime) { expectEnds({"lint"}, {"-r", "60"}); }
 TEST_F(Limits, BenchEndsInTime) { expectEnds({"bench"}, {"-w", "2000"}); }
 TEST_F(Limits, InfoEndsInTime) { expectEnds({"info"}, {}); }
 TEST_F(Limits, ExplainEndsInTime) { expectEnds({"explain"}, {"-r", "60", "--pixel", "200,200"}); }
+TEST_F(Limits, StereogramEndsInTime) {
+  expectEnds({"stereogram"}, {"-o", "dots.png", "--size", "2000x2000"});
+}
+TEST_F(Limits, FramesEndInTime) { expectEnds({"render"}, {"-r", "60", "--frames", "0-2", "-o", "f.##.png"}); }
 TEST_F(Limits, ConvertEndsInTime) { expectEnds({"convert"}, {"out.obj"}); }
+
+/// Without a limit, too: what no mesh can follow is refused after some lines of the grid.
+TEST_F(Limits, WhatFoldsTooFinelyForAMeshIsRefusedAtOnce) {
+  for (const char* out : {"out.obj", "out.ply"}) {
+    const Run r = run({"convert", "waves.ray", out});
+    EXPECT_EQ(r.code, 3) << out;
+    EXPECT_TRUE(contains(r.err, "folds")) << out;
+    EXPECT_FALSE(exists(out));
+  }
+  write("both.ray", kBegin + std::string("isosurface { formula = \"sin(1000000000*x*y*z)\"; }\nsphere { }"));
+  const Run both = run({"convert", "both.ray", "out.obj"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_TRUE(contains(both.err, "left out, as they cannot become triangles: 1 isosurface"));
+  EXPECT_TRUE(contains(both.last, "1 object"));
+  EXPECT_EQ(run({"convert", "waves.ray", "out.ray"}).code, 0);  // which holds every shape
+}
 
 TEST_F(Limits, GradeEndsInTime) {
   std::filesystem::create_directory(path("scenes"));
@@ -99,7 +130,8 @@ TEST_F(Limits, DiffEndsInTime) {
 }
 
 TEST_F(Limits, TheMessageSaysWhatWasDoneAndHowFar) {
-  const Run converted = run({"convert", "waves.ray", "out.obj", "--time-limit", "0.1"});
+  write("bulb.ray", kBegin + std::string("mandelbulb { power = 3; iterations = 30; }"));
+  const Run converted = run({"convert", "bulb.ray", "out.obj", "--time-limit", "0.1"});
   EXPECT_EQ(converted.code, kLimit);
   EXPECT_TRUE(contains(converted.err,
                        "error: the time limit of 0.1 s is over while converting the scene, making triangles "

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "image/codec.h"
 #include "program.h"
@@ -42,6 +43,40 @@ TEST_F(CliReading, OneFlagLetsASceneReadItsTextures) {
   for (const char* command : {"info", "lint"})
     EXPECT_EQ(run({command, "home/a.ray", "--allow-read", "textures"}), 0) << command << said_;
   EXPECT_EQ(run({"convert", "home/a.ray", "home/b.ray", "--allow-read=textures"}), 0) << said_;
+}
+
+/// The flags that the last line of convert names are all that the result needs, from the same folder.
+TEST_F(CliReading, ConvertSaysWhichFlagItsResultNeeds) {
+  std::filesystem::create_directories(folder_ / "out/deep");
+  const std::vector<std::string> outs{"out/deep/a.ray", "out/a.obj", "out/a.ply", "out/a.out", "home/b.ray"};
+  for (const std::string& out : outs) {
+    writeFile(folder_ / "home/a.ray",
+              "SBT-raytracer 1.0\nambient_light { color = (1, 1, 1); }\nbox {\n  material = { diffuse = "
+              "map(\"../textures/red.png\"); };\n}\n");
+    EXPECT_EQ(run({"convert", "home/a.ray", out, "--allow-read", "textures"}), 0) << said_;
+    const std::size_t begin = said_.find("; it names files outside its folder, which");
+    ASSERT_NE(begin, said_.npos) << out << said_;
+    std::istringstream words(said_.substr(begin));
+    std::vector<std::string> flags;
+    for (std::string word; words >> word;)
+      if (word == "--allow-read") flags.push_back(word), words >> word, flags.push_back(word);
+    EXPECT_EQ(flags.size(), 2u) << said_;
+    run({"info", out});
+    EXPECT_TRUE(says("is outside the scene's folder")) << out << said_;
+    std::vector<std::string> info{"info", out};
+    info.insert(info.end(), flags.begin(), flags.end());
+    EXPECT_EQ(run(info), 0) << said_;
+    EXPECT_FALSE(says("is outside the scene's folder")) << out << said_;
+  }
+}
+
+TEST_F(CliReading, ConvertIsSilentWhereNoFlagIsNeeded) {
+  std::filesystem::create_directories(folder_ / "home/below");
+  writePicture(folder_ / "home/below/red.png", Picture(2, 2));
+  writeFile(folder_ / "home/c.ray",
+            "SBT-raytracer 1.0\nbox { material = { diffuse = map(\"below/red.png\"); }; }\n");
+  EXPECT_EQ(run({"convert", "home/c.ray", "home/d.ray"}), 0) << said_;
+  EXPECT_FALSE(says("allow-read")) << said_;
 }
 
 TEST_F(CliReading, ASceneCannotAllowItself) {

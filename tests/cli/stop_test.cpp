@@ -1,5 +1,6 @@
 // Renders that take long: progress, and all the ways to end them early without losing what is done.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -180,6 +181,25 @@ TEST_F(Stop, TheLastLineSaysWhichFilesAreInTheirPlaceAllTheSame) {
   const auto there = std::filesystem::directory_iterator(path("temporary"))->path();
   for (const char* name : {"out.png", "out.depth.exr", "out.id.exr"})
     EXPECT_EQ(readPicture((there / name).string()).width, 1400) << name;
+}
+
+/// A limit of the size of files takes the place of a full disk: what is small is written, a pass is not,
+/// nowhere.
+TEST_F(Stop, WhereNothingTakesAllFilesTheLastLineSaysWhichAreThere) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit less = before;
+  less.rlim_cur = 20000;
+  ::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &less), 0);
+  const Run r = run({"white.ray", "out.png", "-w", "200", "--passes", "depth,normal", "--resume=never"});
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  ::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_TRUE(contains(r.last, "not all files could be written; there "));
+  EXPECT_TRUE(contains(r.last, "out.png"));
+  EXPECT_EQ(r.last.find("nothing written"), r.last.npos) << r.last;
+  EXPECT_TRUE(exists("out.png"));
 }
 
 /// A picture that is traced in a moment; to take its noise out takes long.

@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include "base/looks.h"
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/cone.h"
+#include "geometry/shapes/csg.h"
 #include "geometry/shapes/cube.h"
+#include "geometry/shapes/isosurface.h"
+#include "geometry/shapes/julia.h"
+#include "geometry/shapes/mandelbox.h"
+#include "geometry/shapes/mandelbulb.h"
 #include "geometry/shapes/quadric.h"
 #include "geometry/shapes/rounded_box.h"
 #include "geometry/shapes/sphere.h"
@@ -76,6 +82,44 @@ TEST(Tessellate, ShapesHaveTheirBoundsAndTheirArea) {
       const double expected = crossingsAlong(shape, bounds, axis);
       EXPECT_NEAR(shadowAlong(corners, axis), expected, 0.06 * size * size) << name << " along axis " << axis;
     }
+  }
+}
+
+/// A function that changes its sign a billion times along each line, by itself and in solids.
+TEST(Tessellate, WhatNoGridFollowsIsGivenUp) {
+  Isosurface waves;
+  waves.formula = "sin(1000000000*x*y*z)";
+  const Shape folded(waves);
+  const Operands operands({{"", Sphere{}, {}, 0}, {"", folded, {}, 0}});
+  for (const Shape& shape : {folded, Shape(Intersection{operands})}) {
+    const std::int64_t before = looksAtBudget();
+    EXPECT_TRUE(tessellate(shape, 64).empty()) << shape.keyword();
+    EXPECT_LT(looksAtBudget() - before, 20000)
+        << shape.keyword();  // a whole grid of such lines takes millions
+  }
+}
+
+TEST(Tessellate, FractalsOfManyIterationsAreFollowed) {
+  Julia sine;
+  sine.iteration = Iteration::sine, sine.iterations = 50, sine.mandelbrot = true;
+  Mandelbox box;
+  box.iterations = 30;
+  for (const Shape& shape : {Shape(sine), Shape(box), Shape(Mandelbulb{.iterations = 30, .materials = {}})}) {
+    const std::int64_t before = looksAtBudget();
+    int followed = 0;
+    EXPECT_GT(tessellate(shape, 64, kFarthest, &followed).size(), 300u) << shape.keyword();
+    EXPECT_LT(looksAtBudget() - before, 300000) << shape.keyword();  // some of them would take a million
+    EXPECT_GE(followed, 8);
+    EXPECT_LE(followed, 64);
+  }
+}
+
+TEST(Tessellate, UsualShapesHaveAsManyStepsAsAreAskedFor) {
+  for (const ShapeType& type : shapeTypes()) {
+    if (type.keyword == Mesh::kKeyword) continue;
+    int followed = 0;
+    tessellate(typical(type), 24, kFarthest, &followed);
+    EXPECT_EQ(followed, 24) << type.keyword;
   }
 }
 

@@ -183,7 +183,7 @@ class Writer {
       warn("shapes other than spheres and meshes become triangles");
       add(o, *surface, object);
     } else {
-      return warn("left out, as it has no end: " + kind);
+      return warn("left out, as it has no end, or folds too fine for triangles: " + kind);
     }
     file_.objects.push_back(std::move(o));
   }

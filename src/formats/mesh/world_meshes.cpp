@@ -78,6 +78,8 @@ const ImageMap* pictureOf(const Material& material) {
 std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
   const Place place{scene.file, 0, 0, {}};
   std::vector<WorldMesh> meshes;
+  constexpr int kSteps = 64;
+  int fewest = kSteps;
   bool sampled = false;
   std::map<std::string, std::size_t> leftOut;
   Work work("making triangles of the objects", static_cast<std::int64_t>(scene.objects.size()));
@@ -87,7 +89,10 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
     std::optional<MeshData> triangles;
     const auto mesh = displacedMesh(object, scene.materials);
     if (!mesh) {
-      triangles = tessellated(object.shape, 64, pictureOf(scene.materials.at(object.material)) != nullptr);
+      int followed = kSteps;
+      triangles = tessellated(object.shape, kSteps, pictureOf(scene.materials.at(object.material)) != nullptr,
+                              &followed);
+      if (triangles) fewest = std::min(fewest, followed);
       sampled |= triangles.has_value();
     }
     if ((mesh || triangles) && invertible(object.worldFromObject))
@@ -96,15 +101,22 @@ std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
     else
       ++leftOut[std::string(object.shape.keyword())];
   }
+  const char *kHolds = "a .ray file holds every shape",
+             *kWhy =
+                 "no mesh follows what has no end, or folds finer than a 64th of the shape; a .ray file "
+                 "holds every shape";
   std::string kinds;
   for (const auto& [kind, count] : leftOut)
     kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
   if (meshes.empty())
     throw Error(Fault::scene, place,
                 "expected a scene with meshes, found " + (kinds.empty() ? "no object" : kinds),
-                "a .ray file holds every shape");
+                kinds.empty() ? kHolds : kWhy);
   if (sampled) messages.warn(place, "shapes other than meshes become triangles");
-  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds);
+  if (fewest < kSteps)
+    messages.warn(place, "a surface that folds finely becomes triangles in " + std::to_string(fewest) +
+                             " steps along it, not " + std::to_string(kSteps) + ", which would take minutes");
+  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds, kWhy);
   warnOfTheRest(scene, place, messages);
   return meshes;
 }

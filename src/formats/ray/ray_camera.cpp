@@ -53,12 +53,23 @@ class CameraReader {
       hasFov_ = true;
       if (horizontalFov_ > 0) findings_.warn(item, "fov is ignored, since horizontal_fov is given");
     }
+    if (key == "position" && !isShorter(camera_.position))
+      findings_.expected(item.value(), key, "a place at most 1e75 from the origin");
+    if ((key == "viewdir" && !isLength(camera_.viewdir)) || (key == "updir" && !isLength(camera_.updir)))
+      findings_.expected(item.value(), key, "a direction between 1e-75 and 1e75 long");
     if (key == "viewdir") viewdir_ = item;
     if (key == "updir") updir_ = item;
     if (key == "fov" && item.value().is(Kind::number) && !(camera_.fov > 0 && camera_.fov < 180))
       findings_.expected(item.value(), key, "an angle between 0 and 180 degrees");
     if (key == "aspectratio" && item.value().is(Kind::number) && !(camera_.aspectratio > 0))
       findings_.expected(item.value(), key, "a number above 0, width / height");
+  }
+
+  // What can be squared, as whatever is in a World (render/number_range.h): said here, where the place is
+  // known.
+  static bool isShorter(const Vec3& v) { return maxComponent(abs(v)) <= 1e75; }
+  static bool isLength(const Vec3& v) {
+    return v == Vec3{} || (isShorter(v) && maxComponent(abs(v)) >= 1e-75);  // 0 is told as no direction
   }
 
   void unknown(const Item& item) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/budget.h"
+#include "base/looks.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/traced.h"
 #include "math/transform.h"
@@ -19,6 +20,12 @@ constexpr Real kCrease = 0.6;
 constexpr Real kPull = 1e-3;
 /// How far the outermost lines stay inside the bounds, in shares of the longest side.
 constexpr Real kInset = 1e-7;
+/// Looks at the budget that all lines of a grid may take: a minute's work at most. One line through a usual
+/// shape takes one or two, one through a Mandelbulb of 10 iterations 50.
+constexpr double kMostLooks = 1 << 17;
+/// And a line, on average, where a surface is found at all. The search gives up at 150: then what it finds is
+/// noise.
+constexpr double kMostOfALine = 120;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 struct Sample {
@@ -44,10 +51,23 @@ class SampleGrid {
     heads_.assign(cells(0) * cells(1) * cells(2), kNone);
   }
 
+  /// The looks that all lines of the grid will take, told by some that are scattered over it; nothing where
+  /// the search cannot follow the shape.
+  std::optional<double> looks(const TracedShape& shape) {
+    constexpr std::size_t kTried = 64;
+    const std::vector<Line> all = lines();
+    const std::size_t tried = std::min(kTried, all.size());
+    const std::int64_t start = looksAtBudget();
+    for (std::size_t i = 0; i < tried; ++i) {
+      find(shape, all[i * all.size() / tried]);
+      if (static_cast<double>(looksAtBudget() - start) > kMostOfALine * static_cast<double>(tried)) return {};
+    }
+    return static_cast<double>(looksAtBudget() - start) * static_cast<double>(all.size()) /
+           static_cast<double>(tried);
+  }
+
   void sample(const TracedShape& shape) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (std::size_t j = 1; j + 1 < lines_[next(axis)].size(); ++j)
-        for (std::size_t k = 1; k + 1 < lines_[after(axis)].size(); ++k) sampleLine(shape, axis, j, k);
+    for (const Line& line : lines()) sampleLine(shape, line);
   }
 
   std::vector<SurfaceCorner> triangles(bool solid) {
@@ -70,12 +90,24 @@ class SampleGrid {
   }
 
  private:
+  struct Line {
+    int axis;
+    std::size_t j, k;  ///< its place in the two others
+  };
   struct Edge {
     int axis;
     std::size_t i, j, k;  ///< interval along the axis, lines along the two others
     Vec3 normal;
     std::uint32_t material;
   };
+
+  std::vector<Line> lines() const {
+    std::vector<Line> all;
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t j = 1; j + 1 < lines_[next(axis)].size(); ++j)
+        for (std::size_t k = 1; k + 1 < lines_[after(axis)].size(); ++k) all.push_back({axis, j, k});
+    return all;
+  }
 
   static int next(int axis) { return (axis + 1) % 3; }
   static int after(int axis) { return (axis + 2) % 3; }
@@ -90,19 +122,27 @@ class SampleGrid {
     return (at[2] * cells(1) + at[1]) * cells(0) + at[0];
   }
 
-  void sampleLine(const TracedShape& shape, int axis, std::size_t j, std::size_t k) {
+  /// The crossings of the line, in their order, into found_; returns the ray along it.
+  Ray find(const TracedShape& shape, const Line& line) {
     checkBudget();
-    const std::vector<Real>& along = lines_[axis];
+    const std::vector<Real>& along = lines_[line.axis];
     Ray ray;
-    ray.origin[axis] = along.front();
-    ray.origin[next(axis)] = lines_[next(axis)][j];
-    ray.origin[after(axis)] = lines_[after(axis)][k];
-    ray.direction[axis] = 1;
+    ray.origin[line.axis] = along.front();
+    ray.origin[next(line.axis)] = lines_[next(line.axis)][line.j];
+    ray.origin[after(line.axis)] = lines_[after(line.axis)][line.k];
+    ray.direction[line.axis] = 1;
     found_.clear();
     const auto keep = [&](const Crossing& crossing) { found_.push_back(crossing); };
     const Real end = along.back() - along.front();
     shape.crossings(ray, {0, end}, keep);
     std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    return ray;
+  }
+
+  void sampleLine(const TracedShape& shape, const Line& line) {
+    const auto [axis, j, k] = line;
+    const std::vector<Real>& along = lines_[axis];
+    const Ray ray = find(shape, line);
     std::size_t last = kNone;
     for (const Crossing& crossing : found_) {
       const Real x = ray.origin[axis] + crossing.t;
@@ -199,11 +239,17 @@ Box3 drawnBounds(const Shape& shape, const Box3& within) {
   return shape.is<Mesh>() ? box : cutOff(box, within);
 }
 
-std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within) {
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within, int* followed) {
+  if (followed) *followed = divisions;
   if (const auto* mesh = shape.as<Mesh>()) return meshCorners(*mesh->data);
   const TracedShape form = prepare(shape);
   const Box3 box = cutOff(form.bounds(), within);
   if (!(maxComponent(box.size()) > 0)) return {};
+  const std::optional<double> looks = SampleGrid(box, divisions).looks(form);
+  if (!looks) return {};
+  if (*looks > kMostLooks)
+    divisions = std::max(8, static_cast<int>(divisions * std::sqrt(kMostLooks / *looks)));
+  if (followed) *followed = divisions;
   SampleGrid grid(box, divisions);
   grid.sample(form);
   return grid.triangles(form.solid());

@@ -205,7 +205,8 @@ MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, R
 
 }  // namespace
 
-std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped) {
+std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped, int* followed) {
+  if (followed) *followed = steps;
   if (shape.is<Mesh>()) return {};
   const TracedShape form = prepare(shape);
   const Box3 box = form.bounds();
@@ -214,7 +215,7 @@ std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped) 
   Builder builder(steps);
   const bool known = visitAs<Sphere, Cube, Square, Cylinder, Cone, Conic>(
       shape, [&](const auto& s) { add(builder, s, steps); });
-  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps));
+  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps, kFarthest, followed));
   if (mesh.triangles.empty()) return {};
   mesh.twoSided = !solid;
   return mapped ? withTextureCoordinates(mesh, form, maxComponent(box.size())) : mesh;

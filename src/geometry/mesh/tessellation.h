@@ -9,8 +9,9 @@
 namespace trace {
 
 /// In the shape's own space, with normals, in that many steps around or along its longest side. Nothing for a
-/// shape that is a mesh, or has no end, or nothing to see. `mapped`: with the texture coordinates of the
-/// shape.
-std::optional<MeshData> tessellated(const Shape& shape, int steps = 64, bool mapped = false);
+/// shape that is a mesh, or has no end, or nothing to see, or finer folds than can be followed. `mapped`:
+/// with the texture coordinates of the shape.
+std::optional<MeshData> tessellated(const Shape& shape, int steps = 64, bool mapped = false,
+                                    int* followed = nullptr);
 
 }  // namespace trace

@@ -209,7 +209,7 @@ Jet TracedJulia::functionValue(const Vec3& p, const Vec3& direction) const {
   Real growth = shape_.mandelbrot ? 0 : 1;
   for (int i = 0; i < shape_.iterations; ++i) {  // to the last: only so it is continuous
     growth = grown(growth, q, 0);
-    if (isBlurred(growth)) break;
+    if (isBlurred(growth, i)) break;
     d = stepSlope(q, d);
     if (shape_.mandelbrot) d = d + along;
     q = step(q) + c;
@@ -231,7 +231,7 @@ Interval TracedJulia::functionSigns(const Vec3& center, Real radius) const {
   Real growth = shape_.mandelbrot ? 0 : 1;
   for (int i = 0; i < shape_.iterations; ++i) {
     growth = grown(growth, q, r);
-    if (isBlurred(growth)) return {-1, 1};  // for some places of the ball the number before is the last
+    if (isBlurred(growth, i)) return {-1, 1};  // for some places of the ball the number before is the last
     r = (r * stretch(q, r) + (shape_.mandelbrot ? radius : 0)) * kRounding;
     q = step(q);
     r += size(q) * gammaError(64);
@@ -256,7 +256,7 @@ Jet TracedJulia::powerValue(const Vec3& p, const Vec3& direction) const {
   for (int i = 0;; ++i) {
     const Real square = dot(q, q), product = dot(q, d);
     growth = growth * julia::stretch<kIteration>(std::sqrt(square)) + share;
-    if (i == set_.iterations || growth > set_.mostGrowth)
+    if (i == set_.iterations || (i >= JuliaSet::kSurely && growth > set_.mostGrowth))
       return {square - set_.escapes[i] * set_.escapes[i], 2 * product};
     if (i > 0 && square > kEscaped * kEscaped) return {1, 0};
     d = julia::slope<kIteration>(q, d, square, product) + more;
@@ -313,7 +313,7 @@ SurfacePoint TracedJulia::surface(const Ray& ray, const Crossing& crossing) cons
   Vec3 gradient = p;
   for (int i = 0; i < shape_.iterations; ++i) {
     growth = grown(growth, q, 0);
-    if ((blurred = isBlurred(growth))) break;
+    if ((blurred = isBlurred(growth, i))) break;
     const Real s = size(q);
     const Real longer = stretch(q, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {

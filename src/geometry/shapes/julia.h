@@ -102,7 +102,7 @@ class TracedJulia {
   /// From here on the numbers of neighbours in the search have nothing in common: what follows is dust, of
   /// which each ray would meet other grains (solve/escape_search.h). The number before counts as the last.
   Real mostGrowth() const { return kEscaped / (kReach * detail()); }
-  bool isBlurred(Real growth) const { return growth > mostGrowth(); }
+  bool isBlurred(Real growth, int i) const { return i >= JuliaSet::kSurely && growth > mostGrowth(); }
   Vec2 trapUv(const Vec3& p) const;
   /// value() and the sign over a ball where the step is no power.
   Jet functionValue(const Vec3& p, const Vec3& direction) const;

@@ -59,7 +59,7 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
     // Where an orbit may end here, what follows tells nothing of it.
     const Double4 farthest = (s + w * (l + all(0.5) * (w * m))) * up;
     growth = (julia::stretch<kIteration>(farthest) * growth + share) * up;
-    open &= ~less(mostGrowth, growth);
+    if (i >= JuliaSet::kSurely) open &= ~less(mostGrowth, growth);
     if (open == 0) return known;
     const Double4 longer = julia::stretch<kIteration>(s);
     const Double4 turn = kIteration == Iteration::cube ? all(6) * s : all(3);  // of the step's slope

@@ -10,6 +10,7 @@ namespace trace {
 
 struct JuliaSet {
   static constexpr int kMostIterations = 50;
+  static constexpr int kSurely = 6;  ///< so many numbers count however far apart they have come
 
   julia::Number<Real> constant;
   Real share;  ///< of the place in what is added at each step: 0, or 1 for a Mandelbrot set

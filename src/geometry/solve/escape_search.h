@@ -79,6 +79,7 @@ class EscapeSearch {
   static constexpr Real kHuge = 1e60;
   /// In sizes of half the box, some steps of the search: what is finer is not told apart.
   static constexpr Real kDetail = 0x1p-14;
+  static constexpr int kSurely = 6;
 
   /// How far apart the orbits of places are, for one unit between the places: at most, within r of w.
   Real grown(Real growth, const Vec3& w, Real r) const {
@@ -86,7 +87,10 @@ class EscapeSearch {
   }
   /// The orbits of neighbours in the search have nothing in common any more. What follows is dust: each ray
   /// would meet other grains of it, and the place that one finds would lie in the shadow of others.
-  bool isBlurred(Real growth) const { return growth * step_.half() * kDetail > step_.radius(); }
+  /// The first numbers always count: their turns are few, and hold no dust.
+  bool isBlurred(Real growth, int i) const {
+    return i >= kSurely && growth * step_.half() * kDetail > step_.radius();
+  }
 
   /// By how much the square of the orbit's greatest distance passes that of the radius; the slope is along
   /// the direction.
@@ -98,7 +102,7 @@ class EscapeSearch {
     Real growth = step_.unit();
     for (int i = 0; i < step_.iterations(); ++i) {  // to the last: only so it is continuous
       growth = grown(growth, w, 0);
-      if (isBlurred(growth)) break;
+      if (isBlurred(growth, i)) break;
       const Affine f = step_.step(w);
       w = f.offset + c;
       d = linear(f, d) + along * step_.shareOfPlace();
@@ -125,7 +129,7 @@ class EscapeSearch {
       inside = inside && (l + r) * kRounding < step_.radius();
       if (i == step_.iterations()) return inside ? Interval{-1, -1} : Interval{-1, 1};
       growth = grown(growth, w, r);
-      if (isBlurred(growth)) return {-1, 1};  // for some places of the ball this may be the last number
+      if (isBlurred(growth, i)) return {-1, 1};  // for some places of the ball this may be the last number
       r = (r * step_.stretch(w, r) + share) * kRounding;
       w = step_.value(w);
       r += length(w) * gammaError(64);
@@ -152,7 +156,7 @@ class EscapeSearch {
           square > step_.radius() * step_.radius() * (1 + 1e-6))
         return gradient;
       growth = grown(growth, w, 0);
-      if ((blurred = isBlurred(growth))) return gradient;
+      if ((blurred = isBlurred(growth, i))) return gradient;
       const Affine f = step_.step(w);
       moved = moved * step_.stretch(w, 0) + (length(f.offset) + length(c)) * gammaError(32);
       Affine linearPart = f;
