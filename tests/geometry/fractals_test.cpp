@@ -157,7 +157,7 @@ TEST(Mandelbulb, OfAConstantOfZeroIsABallHoweverOftenItIsRepeated) {
   for (const int power : {2, 8, 16}) {
     SCOPED_TRACE(power);
     expectABall(Mandelbulb{.power = power, .iterations = 30, .julia = true, .constant = {}, .materials = {}},
-                random, power == 2 ? 8e-3 : 4e-4);  // near the axis of 2, the seventh number is the last
+                random, 4e-4);
   }
 }
 

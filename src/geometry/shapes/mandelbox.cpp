@@ -13,6 +13,7 @@ class MandelboxStep {
 
   Real radius() const { return radius_; }
   Real half() const { return 1; }
+  int surely() const { return 6; }
   int iterations() const { return shape_.iterations; }
   Trap trap() const { return shape_.trap; }
   bool colored() const { return !shape_.materials.empty(); }

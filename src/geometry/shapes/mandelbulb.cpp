@@ -1,6 +1,7 @@
 #include "geometry/shapes/mandelbulb.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/solve/escape_search.h"
 
@@ -31,6 +32,7 @@ class MandelbulbStep {
 
   Real radius() const { return radius_; }
   Real half() const { return radius_; }
+  int surely() const { return surely_; }
   int iterations() const { return shape_.iterations; }
   Trap trap() const { return shape_.trap; }
   bool colored() const { return !shape_.materials.empty(); }
@@ -45,6 +47,7 @@ class MandelbulbStep {
  private:
   Mandelbulb shape_;
   Real radius_;
+  int surely_;
 };
 
 MandelbulbStep::MandelbulbStep(const Mandelbulb& shape) : shape_(shape) {
@@ -52,6 +55,9 @@ MandelbulbStep::MandelbulbStep(const Mandelbulb& shape) : shape_(shape) {
   shape_.iterations = std::clamp(shape.iterations, 1, 30);
   // From here on |w^p + c| >= |w| (|w|^(p-1) - 1) > |w|.
   radius_ = max(std::pow(2.0, 1.0 / (shape_.power - 1)), shape.julia ? length(shape.constant) : 0);
+  // Neighbours part by `power` at each step at least where the surface is smooth: a low power shows detail
+  // late.
+  surely_ = std::max(6, static_cast<int>(14 / std::log2(shape_.power)));
 }
 
 Vec3 MandelbulbStep::value(const Vec3& w) const {

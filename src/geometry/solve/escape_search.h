@@ -17,6 +17,7 @@ namespace trace {
 /// Step gives
 ///   radius()                what is farther out has escaped
 ///   half()                  half the width of the box
+///   surely()                so many numbers of an orbit always count
 ///   iterations(), trap(), colored(): does a crossing tell how near its orbit came, as a TrapPart?
 ///   start(p), constant(p)   w and c of a place p; of which shareOfPlace(), 0 or 1, is how c follows p
 ///   unit()                  the length in the orbit's space of one in that of the ray
@@ -79,7 +80,6 @@ class EscapeSearch {
   static constexpr Real kHuge = 1e60;
   /// In sizes of half the box, some steps of the search: what is finer is not told apart.
   static constexpr Real kDetail = 0x1p-14;
-  static constexpr int kSurely = 6;
 
   /// How far apart the orbits of places are, for one unit between the places: at most, within r of w.
   Real grown(Real growth, const Vec3& w, Real r) const {
@@ -89,7 +89,7 @@ class EscapeSearch {
   /// would meet other grains of it, and the place that one finds would lie in the shadow of others.
   /// The first numbers always count: their turns are few, and hold no dust.
   bool isBlurred(Real growth, int i) const {
-    return i >= kSurely && growth * step_.half() * kDetail > step_.radius();
+    return i >= step_.surely() && growth * step_.half() * kDetail > step_.radius();
   }
 
   /// By how much the square of the orbit's greatest distance passes that of the radius; the slope is along
