@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/denoising.h"
+#include "app/version.h"
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -175,7 +176,8 @@ Metadata describe(const Scene& scene, const Settings& settings) {
       changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
   return {{"Software", "Trace " TRACE_VERSION},
           {"Title", fs::path(scene.file).filename().string()},
-          {kSettings, changed.empty() ? kDefaults : changed}};
+          {kSettings, changed.empty() ? kDefaults : changed},
+          {kProgram, programText()}};
 }
 
 Picture finished(Picture rendered, const Settings& settings) {

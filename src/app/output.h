@@ -32,7 +32,7 @@ bool keepsWords(const std::string& path);
 /// words.
 bool isRendered(const Output& output, const Size& size, const Metadata& metadata);
 
-/// Program version, scene's name, and the settings that differ from the defaults, as the picture keeps them:
+/// Version and build of the program, name of the scene, and the settings that differ from the defaults:
 /// all but those of the group Resources, which do not change the picture.
 Metadata describe(const Scene& scene, const Settings& settings);
 

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "app/render_warnings.h"
-#include "app/version.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
@@ -220,7 +219,6 @@ RenderResult Session::renderPicture() {
 
 Metadata Session::metadata() const {
   Metadata words = describe(scene_, settings_);
-  words.emplace_back("Program", programText());
   words.emplace_back("Scene", fingerprint_);
   return words;
 }

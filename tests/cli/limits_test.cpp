@@ -46,7 +46,7 @@ class Limits : public ProgramTest {
     write("glass.ray", kPanes);
     write("mesh.ray", kBegin + std::string(kFineMesh));
     write("terrain.ray", kBegin + std::string("terrain { points = 4097; octaves = 16; }"));
-    write("plant.ray", kBegin + std::string("plant { iterations = 12; }"));
+    write("plant.ray", kBegin + std::string("plant { iterations = 10; }"));
     write("solids.ray", std::string(kBegin) +
                             "difference { objects = { mandelbox { iterations = 30; scale = -1.5; }\n"
                             "union { objects = { isosurface { formula = \"sin(1000000*x*y*z)\"; }\n"

@@ -22,12 +22,12 @@ using namespace trace;
 constexpr std::uint8_t kWholeFile = 0x80;
 
 const std::string& picture() {
-  static const std::string path = [] {
+  static const std::string& path = *new std::string([] {  // lives until the folder is gone
     std::string folder = (std::filesystem::temp_directory_path() / "fuzz-XXXXXX").string();
     if (!mkdtemp(folder.data())) std::abort();
     std::atexit([] { std::filesystem::remove_all(std::filesystem::path(picture()).parent_path()); });
     return folder + "/out.png";
-  }();
+  }());
   return path;
 }
 Checkpoint checkpoint() { return Checkpoint(picture(), {}, {}, "fuzz"); }
