@@ -85,7 +85,7 @@ TEST_F(Limits, BenchEndsInTime) { expectEnds({"bench"}, {"-w", "2000"}); }
 TEST_F(Limits, InfoEndsInTime) { expectEnds({"info"}, {}); }
 TEST_F(Limits, ExplainEndsInTime) { expectEnds({"explain"}, {"-r", "60", "--pixel", "200,200"}); }
 TEST_F(Limits, StereogramEndsInTime) {
-  expectEnds({"stereogram"}, {"-o", "dots.png", "--size", "2000x2000"});
+  expectEnds({"stereogram"}, {"-o", "dots.png", "-w", "2000", "--height", "2000"});
 }
 TEST_F(Limits, FramesEndInTime) { expectEnds({"render"}, {"-r", "60", "--frames", "0-2", "-o", "f.##.png"}); }
 TEST_F(Limits, ConvertEndsInTime) { expectEnds({"convert"}, {"out.obj"}); }
