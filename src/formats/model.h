@@ -28,7 +28,7 @@ struct Model {
   /// Where the file colours its points: MeshData::materials are indices into these, which stand for the
   /// object's material with this colour as diffuse and ambient.
   std::vector<Color> colors;
-  InputFiles inputs;  ///< files that this one names
+  InputFiles inputs;       ///< files that this one names
   bool saysSides = false;  ///< the format knows Material::sides; otherwise a file by itself shows both
 };
 

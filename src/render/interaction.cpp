@@ -19,8 +19,8 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
       material(whitted(*bsdf_)) {
   const World& world = tracer.world();
   const Settings& settings = tracer.settings();
-  // The inside of glass is shaded with its normal turned to the eye, and so is the back of what is shaded from
-  // both sides; other opaque things are lit from outside only.
+  // The inside of glass is shaded with its normal turned to the eye, and so is the back of what is shaded
+  // from both sides; other opaque things are lit from outside only.
   transmits = material.transmits();
   const Vec3& shading = hit.surface.shading;
   const bool turned = hit.twoSided ? hit.isBehind(ray.direction) : hit.leaving && transmits;

@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "math/warp.h"
+#include "shading/scattering.h"
 
 namespace trace {
 namespace {

@@ -314,10 +314,10 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   Statistics uncounted;
   std::optional<Found> nearest;
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
-    const bool opaque = world_.opaque(found.object) || (!(world_.opacityAt(ray, found) < 1) &&
-                                                        (settings_.glassShadows == GlassShadows::black ||
-                                                         isBlack(world_.filter(ray, found)) ||
-                                                         gathers(*world_.bsdfAt(ray, found))));
+    const bool opaque = world_.opaque(found.object) ||
+                        (!(world_.opacityAt(ray, found) < 1) &&
+                         (settings_.glassShadows == GlassShadows::black ||
+                          isBlack(world_.filter(ray, found)) || gathers(*world_.bsdfAt(ray, found))));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

@@ -21,7 +21,7 @@ struct MetallicRoughness {
   std::optional<Color> glossy;  ///< what it mirrors, of KHR_materials_pbrSpecularGlossiness
   bool unlit = false;           ///< it shows its base colour in any light
   bool doubleSided = false;
-  bool paintsPoints = false;    ///< some mesh has colours of points, which multiply the base colour
+  bool paintsPoints = false;  ///< some mesh has colours of points, which multiply the base colour
 
   // What light passes through. One that is not solid is a thin sheet, which bends nothing.
   double transmission = 0, index = 1.5;
