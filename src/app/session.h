@@ -88,8 +88,7 @@ class Session {
   const Film& film() const { return *film_; }
   Film& film() { return *film_; }  ///< to fill with what was rendered before
   Picture picture() const { return pictureOfFilm(*film_, settings_); }
-  /// How the picture is made, in words: those of describe(), Program, which
-  /// build made it, and Scene, the fingerprint of what was read.
+  /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of the files read.
   Metadata metadata() const;
   /// The files of a picture of that name, for save().
   PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs}; }

@@ -41,8 +41,8 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
 struct SavedPicture {
   std::string path;        ///< the picture's name; "" if it, or a pass, could be written nowhere
   bool elsewhere = false;  ///< not where it should be, nor beside it
-  /// Of one that is elsewhere: files that are in their places all the same, the picture first. Of one that
-  /// could be written nowhere: those that could be.
+  /// Files that are in their places although the picture is elsewhere, the picture first; or, if it could be
+  /// written nowhere, the files that could be.
   std::vector<std::string> inPlace{};
   LastSteps finish = LastSteps::all;
 };

@@ -62,11 +62,11 @@ float whiteOf(const std::vector<Vec3f>& colors) {
 /// Keywords of the format, in lower case.
 constexpr std::array<std::string_view, 2> kThin{"l", "p"};
 constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
-/// What belongs to curves and surfaces, which are reported by themselves.
+/// Keywords of curves and surfaces, which are reported by themselves.
 constexpr std::array<std::string_view, 15> kOfCurves{"vp",   "cstype", "deg",   "bmat",  "step",
                                                      "parm", "trim",   "hole",  "scrv",  "sp",
                                                      "end",  "con",    "ctech", "stech", "mg"};
-/// What the format has besides, and Trace does not show.
+/// Other keywords of the format, which Trace does not show.
 constexpr std::array<std::string_view, 10> kNotShown{"bevel",     "c_interp", "d_interp", "lod", "shadow_obj",
                                                      "trace_obj", "maplib",   "usemap",   "csh", "call"};
 

@@ -20,7 +20,7 @@ class Evaluator : protected Names {
  protected:
   /// The value of a node.
   Value eval(std::uint32_t index, const Scoped& scope);
-  /// Of brackets within an expression, which group where they hold one value.
+  /// The value of brackets within an expression, which group where they hold one value.
   Value grouped(std::uint32_t tuple, const Scoped& scope);
   bool isTrue(const Value& value, std::uint32_t index);
   /// The value of a name that takes no arguments.
