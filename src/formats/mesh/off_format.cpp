@@ -88,7 +88,7 @@ class OffReader {
     if (kind.normal) mesh_.normals.push_back(vector("a normal's three numbers"));
     if (kind.color) {
       colors_.push_back(vector("a colour's four numbers"));
-      words_.number("a colour's four numbers");
+      alphas_.push_back(words_.number("a colour's four numbers"));
     }
     if (!kind.uv) return;
     const double u = words_.number("two texture coordinates"), v = words_.number("two texture coordinates");
@@ -104,6 +104,9 @@ class OffReader {
         words_.fail("expected colours that are finite numbers");
     }
     const double scale = most > 1 ? 1.0 / 255 : 1;
+    if (const auto clear = std::count_if(alphas_.begin(), alphas_.end(), [&](double a) { return a * scale < 1; });
+        clear > 0)
+      warn("the transparency of points is left out", "alpha of points");
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors_) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys())
@@ -200,6 +203,7 @@ class OffReader {
   Messages& messages_;
   MeshData mesh_;
   std::vector<Vec3f> colors_;
+  std::vector<double> alphas_;  ///< of points, with their colours
   std::vector<std::uint32_t> face_;
   WarningsByKind warnings_;
   std::optional<Message> lost_;  ///< the first that costs a face
