@@ -32,7 +32,8 @@ std::string fieldTable(std::span<const KnownField> fields) {
     std::string names;
     for (; i < fields.size() && fields[i].fate == first.fate && fields[i].becomes == first.becomes; ++i)
       names += (names.empty() ? "" : " ") + codeOf(fields[i].field);
-    text += "| " + names + " | " + std::string(fateName(first.fate)) + " | " + std::string(first.becomes) + " |\n";
+    text += "| " + names + " | " + std::string(fateName(first.fate)) + " | " + std::string(first.becomes) +
+            " |\n";
   }
   return text;
 }
@@ -54,7 +55,8 @@ Every field of another program's format is one of four:
 * **refused**: a file that needs it is not read. The error says so.
 * **not needed**: it says nothing about a still picture. Nothing is reported.
 
-What is in none of these tables is reported as not known.
+Words, nodes and properties that no table has are reported as not known. Parts of pictures and fields of VRML's groups that no
+table has are passed over.
 
 Trace knows a file by its content. Where that leaves it open, as for an OFF file without its first word, the suffix
 decides. A file that is written has the format of its suffix. `ray info FILE` says what was found in a file.
@@ -80,41 +82,52 @@ taken with a warning. Only files below the scene's folder may be read ([security
 
 std::span<const KnownFormat> knownFormats() {
   static const std::array kAll{
-      KnownFormat{"obj", "OBJ",
-                  "An object for each group or object and material. A material file that is not there is a warning. What should be a "
-                  "number and is none costs the faces that use it. Colours of points multiply the material's.",
-                  knownObjFields()},
-      KnownFormat{"obj", "MTL, the materials of OBJ",
-                  "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it has one of `Pr Pm Ps Pc "
-                  "aniso`. Keywords may be in other letters. Options of a map may stand before or after its name.",
-                  knownMtlFields()},
+      KnownFormat{
+          "obj", "OBJ",
+          "An object for each group or object and material. A material file that is not there is a warning. "
+          "What should be a "
+          "number and is none costs the faces that use it. Colours of points multiply the material's.",
+          knownObjFields()},
+      KnownFormat{
+          "obj", "MTL, the materials of OBJ",
+          "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it has one of "
+          "`Pr Pm Ps Pc "
+          "aniso`. Keywords may be in other letters. Options of a map may stand before or after its name.",
+          knownMtlFields()},
       KnownFormat{"ply", "PLY",
-                  "Text and binary, of both byte orders, with elements in any order and numbers of any type. Whole-number colours "
+                  "Text and binary, of both byte orders, with elements in any order and numbers of any type. "
+                  "Whole-number colours "
                   "count to 255 or 65535, others to 1.",
                   knownPlyFields()},
       KnownFormat{"stl", "STL",
-                  "Text and binary. A binary file called `.stl` may have more bytes than its facets take.", knownStlFields()},
+                  "Text and binary. A binary file called `.stl` may have more bytes than its facets take.",
+                  knownStlFields()},
       KnownFormat{"off", "OFF", "Text. A file called `.off` may lack its first word.", knownOffFields()},
       KnownFormat{"gltf", "glTF 2.0",
-                  "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, shaders and lights. A value "
+                  "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, "
+                  "shaders and lights. A value "
                   "out of its range is a warning. What is no JSON is an error with line and column.",
                   knownGltfFields()},
-      KnownFormat{"gltf", "Extensions of glTF",
-                  "[mesh-files.md](mesh-files.md#materials-of-gltf) says what a material with extensions becomes.",
-                  knownGltfExtensionFields()},
-      KnownFormat{"inventor", "Open Inventor and VRML 1.0",
-                  "Text, also compressed with gzip. Lights shine on everything, not only on what follows them. "
-                  "[course-formats.md](course-formats.md#open-inventor-vrml-10-vrml97) has more.",
-                  knownInventorFields()},
+      KnownFormat{
+          "gltf", "Extensions of glTF",
+          "[mesh-files.md](mesh-files.md#materials-of-gltf) says what a material with extensions becomes.",
+          knownGltfExtensionFields()},
+      KnownFormat{
+          "inventor", "Open Inventor and VRML 1.0",
+          "Text, also compressed with gzip. Lights shine on everything, not only on what follows them. "
+          "[course-formats.md](course-formats.md#open-inventor-vrml-10-vrml97) has more.",
+          knownInventorFields()},
       KnownFormat{"inventor", "VRML97", "Text, also compressed with gzip.", knownVrml97Fields()},
       KnownFormat{"PNG", "PNG",
-                  "Colours are taken as they are, and decoded as sRGB where a scene says so. So a gamma or a profile of another "
+                  "Colours are taken as they are, and decoded as sRGB where a scene says so. So a gamma or a "
+                  "profile of another "
                   "kind is reported.",
                   knownPngFields()},
       KnownFormat{"JPEG", "JPEG", "Grey, colour and CMYK of 8 bits.", knownJpegFields()},
       KnownFormat{"BMP", "BMP", "All heads of Windows and OS/2.", knownBmpFields()},
       KnownFormat{"TGA", "TGA", "Version 1 and 2.", knownTgaFields()},
-      KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.", knownHdrFields()},
+      KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.",
+                  knownHdrFields()},
       KnownFormat{"EXR", "OpenEXR", "All compressions that OpenEXR reads.", knownExrFields()},
   };
   return kAll;
@@ -124,8 +137,8 @@ std::string formatsMarkdown() {
   std::string text(kPageHead);
   text += "| scene format | suffixes | what it is | |\n|---|---|---|---|\n";
   for (const SceneFormat& format : sceneFormats())
-    text += "| `" + std::string(format.name) + "` | " + suffixesOf(format) + " | " + std::string(format.help) + " | " +
-            (format.write ? "read and written" : "read") + " |\n";
+    text += "| `" + std::string(format.name) + "` | " + suffixesOf(format) + " | " +
+            std::string(format.help) + " | " + (format.write ? "read and written" : "read") + " |\n";
   text += "\n| picture format | suffixes | what it is |\n|---|---|---|\n";
   for (const PictureFormat& format : pictureFormats()) {
     std::string list;
@@ -134,7 +147,8 @@ std::string formatsMarkdown() {
   }
   text += kPageCommon;
   for (const KnownFormat& format : knownFormats())
-    text += "\n## " + std::string(format.title) + "\n\n" + std::string(format.text) + "\n\n" + fieldTable(format.fields);
+    text += "\n## " + std::string(format.title) + "\n\n" + std::string(format.text) + "\n\n" +
+            fieldTable(format.fields);
   return text;
 }
 

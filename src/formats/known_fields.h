@@ -1,5 +1,5 @@
-// THE table of the fields of other programs' formats, and what becomes of each: docs/formats.md is made of it, and
-// tests/formats has a probe for each row (tests/formats/probes.h).
+// THE table of the fields of other programs' formats, and what becomes of each: docs/formats.md is made of
+// it, and tests/formats has a probe for each row (tests/formats/probes.h).
 //
 // A field that has no row is reported when it is met, as not known.
 #pragma once
@@ -18,7 +18,7 @@ struct KnownField {
     idle,      ///< it says nothing about a still picture, and nothing is said of it
   };
 
-  std::string_view field;    ///< as the format writes it
+  std::string_view field;  ///< as the format writes it
   Fate fate = Fate::shown;
   std::string_view becomes;  ///< what it is in Trace, or why it is not shown; may be empty
 };

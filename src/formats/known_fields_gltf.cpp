@@ -1,4 +1,5 @@
-// What becomes of the fields of glTF. Source: Khronos Group, glTF 2.0 Specification, chapter 5, and its extensions.
+// What becomes of the fields of glTF. Source: Khronos Group, glTF 2.0 Specification, chapter 5, and its
+// extensions.
 #include <array>
 
 #include "formats/known_fields.h"
@@ -150,10 +151,10 @@ constexpr std::array kGltfExtensionRows{
     KnownField{"KHR_texture_transform.rotation", kShown, ""},
     KnownField{"KHR_texture_transform.scale", kShown, ""},
     KnownField{"KHR_texture_transform.texCoord", kShown, ""},
-    KnownField{"KHR_texture_basisu", kReported, "a picture of another kind beside it is shown"},
-    KnownField{"EXT_texture_webp", kReported, "a picture of another kind beside it is shown"},
-    KnownField{"EXT_texture_avif", kReported, "a picture of another kind beside it is shown"},
-    KnownField{"MSFT_texture_dds", kReported, "a picture of another kind beside it is shown"},
+    KnownField{"KHR_texture_basisu", kReported, "a checker, unless the texture has a source of another kind"},
+    KnownField{"EXT_texture_webp", kReported, "a checker, unless the texture has a source of another kind"},
+    KnownField{"EXT_texture_avif", kReported, "a checker, unless the texture has a source of another kind"},
+    KnownField{"MSFT_texture_dds", kReported, "a checker, unless the texture has a source of another kind"},
     KnownField{"KHR_draco_mesh_compression", kRefused, "unless the mesh is there a second time"},
     KnownField{"EXT_meshopt_compression", kRefused, ""},
     KnownField{"EXT_mesh_gpu_instancing", kReported, ""},

@@ -122,12 +122,14 @@ std::string unshown(const std::vector<std::string>& names, const ShownChannels& 
   size_t count = 0;
   for (const std::string& name : names) {
     const bool isPart = name.starts_with(layer) && name.find('.', layer.size()) == std::string::npos;
-    const bool isShown = std::find(found.shown.begin(), found.shown.end(), name) != found.shown.end() ||
-                         (found.isChroma && (name == layer + "Y" || name == layer + "RY" || name == layer + "BY"));
+    const bool isShown =
+        std::find(found.shown.begin(), found.shown.end(), name) != found.shown.end() ||
+        (found.isChroma && (name == layer + "Y" || name == layer + "RY" || name == layer + "BY"));
     if (!isPart || isShown || ++count > kMostNamed) continue;
     list += (list.empty() ? "" : ", ") + name;
   }
-  return list.empty() ? "" : "channels that are not shown: " + list + (count > kMostNamed ? " and others" : "");
+  return list.empty() ? ""
+                      : "channels that are not shown: " + list + (count > kMostNamed ? " and others" : "");
 }
 
 /// R, G and B, or Y with RY and BY, or Y; or those of the first layer; or the first channel, as a grey.

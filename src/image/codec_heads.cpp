@@ -1,8 +1,9 @@
-// What the heads of picture files say beside the pixels: how the picture lies, and what of it is not shown. One
-// station of codec.cpp's table.
+// What the heads of picture files say beside the pixels: how the picture lies, and what of it is not shown.
+// One station of codec.cpp's table.
 //
-// Sources: PNG (ISO/IEC 15948, W3C's third edition, section 11.3); JFIF 1.02; JEITA CP-3451 (EXIF), tag 0x0112; ICC.1,
-// annex B (profiles in files); Microsoft, "Bitmap Header Types"; Truevision TGA 2.0, section C.6 (extension area).
+// Sources: PNG (ISO/IEC 15948, W3C's third edition, section 11.3); JFIF 1.02; JEITA CP-3451 (EXIF), tag
+// 0x0112; ICC.1, annex B (profiles in files); Microsoft, "Bitmap Header Types"; Truevision TGA 2.0, section
+// C.6 (extension area).
 #include <zlib.h>
 
 #include <algorithm>
@@ -75,7 +76,8 @@ std::string pngColorRemark(std::string_view png) {
     if (type == "iCCP") {
       hasProfile = true;
       const std::size_t name = data.find('\0');
-      profile = profileRemark(inflated(data.substr(std::min(name == data.npos ? name : name + 2, data.size()))));
+      profile =
+          profileRemark(inflated(data.substr(std::min(name == data.npos ? name : name + 2, data.size()))));
     }
     if (type == "cICP") {
       hasProfile = true;
@@ -199,7 +201,8 @@ std::string tgaRemark(std::string_view tga) {
     remark(all, "the transparency of its 16-bit pixels is not shown");
   if (ratio(kAspect) != 1 && ratio(kAspect) != 0) remark(all, kPixelsNotSquare);
   if (ratio(kGamma) != 1 && ratio(kGamma) != 0) remark(all, "its gamma is not taken into account");
-  if (littleIn(extension, kCorrection) != 0) remark(all, "its table of corrected colours is not taken into account");
+  if (littleIn(extension, kCorrection) != 0)
+    remark(all, "its table of corrected colours is not taken into account");
   return all;
 }
 

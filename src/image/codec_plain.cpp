@@ -188,7 +188,8 @@ class HdrHead {
     if (const auto f = numbers(after(line, "COLORCORR="), 3); f[0] > 0 && f[1] > 0 && f[2] > 0)
       scale_ *= Color(1 / f[0], 1 / f[1], 1 / f[2]);
     if (!after(line, "PRIMARIES=").empty()) primaries_ = true;
-    if (const auto ratio = numbers(after(line, "PIXASPECT="), 1); ratio[0] > 0 && ratio[0] != 1) stretched_ = true;
+    if (const auto ratio = numbers(after(line, "PIXASPECT="), 1); ratio[0] > 0 && ratio[0] != 1)
+      stretched_ = true;
   }
 
   static std::string_view after(std::string_view line, std::string_view key) {

@@ -1,8 +1,7 @@
 // PNG, TGA and JPEG, and BMP to be written, through stb_image and stb_image_write, the only file that sees
-// them. PNG files are written elsewhere (codec_png.cpp). One station of codec.cpp's table. Source: Sean Barrett's
-// public-domain headers, stb_image 2.27 and
-// stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
-// source below notices, so that a truncated file is refused.
+// them. PNG files are written elsewhere (codec_png.cpp). One station of codec.cpp's table. Source: Sean
+// Barrett's public-domain headers, stb_image 2.27 and stb_image_write 1.16. stb reads zeros behind the end of
+// a file and calls the result a picture; the source below notices, so that a truncated file is refused.
 #include <algorithm>
 #include <climits>
 #include <cstdlib>

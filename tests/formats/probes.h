@@ -1,5 +1,5 @@
-// Probes of formats: for each row of the table of known fields (formats/known_fields.h) a file with the field and one
-// without it. What the row says must become of it is what the reader does.
+// Probes of formats: for each row of the table of known fields (formats/known_fields.h) a file with the field
+// and one without it. What the row says must become of it is what the reader does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,9 +24,9 @@ struct Probe {
 
 /// What reading a file came to.
 struct Outcome {
-  std::string seen;                ///< all that a picture of it depends on
-  std::vector<std::string> told;   ///< warnings
-  std::vector<int> lines;          ///< where they are
+  std::string seen;               ///< all that a picture of it depends on
+  std::vector<std::string> told;  ///< warnings
+  std::vector<int> lines;         ///< where they are
   std::optional<std::string> error{};
 };
 
@@ -59,14 +59,17 @@ void expectProbes(std::span<const KnownField> rows, const std::vector<Probe>& pr
     if (row->fate == Fate::refused) {
       ASSERT_FALSE(probe.told.empty());
       EXPECT_TRUE(with.error && with.error->find(probe.told) != std::string::npos)
-          << with.error.value_or("it is read") << "\n" << all;
+          << with.error.value_or("it is read") << "\n"
+          << all;
       continue;
     }
     EXPECT_FALSE(with.error) << with.error.value_or("");
     if (row->fate == Fate::shown) {
       EXPECT_NE(with.seen, without.seen) << "it is not shown\n" << all;
       EXPECT_EQ(all.find("not shown"), std::string::npos) << all;
-      if (!probe.same.empty()) EXPECT_EQ(with.seen, read(probe.same).seen);
+      if (!probe.same.empty()) {
+        EXPECT_EQ(with.seen, read(probe.same).seen);
+      }
     } else if (row->fate == Fate::idle) {
       EXPECT_EQ(with.seen, without.seen);
       EXPECT_EQ(all, "");
@@ -74,7 +77,9 @@ void expectProbes(std::span<const KnownField> rows, const std::vector<Probe>& pr
       ASSERT_FALSE(probe.told.empty());
       EXPECT_EQ(fresh.size(), 1u) << all;
       EXPECT_NE(all.find(probe.told), std::string::npos) << "told: " << all;
-      if (hasLines && !lines.empty()) EXPECT_GT(lines.front(), 0) << all;
+      if (hasLines && !lines.empty()) {
+        EXPECT_GT(lines.front(), 0) << all;
+      }
     }
   }
   for (const KnownField& row : rows)

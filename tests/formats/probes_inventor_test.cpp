@@ -42,18 +42,22 @@ const std::map<std::string, std::string> kBeside{
 TEST(Probes, OfInventor) {
   Nodes n("#Inventor V2.1 ascii\n");
   const std::string ball = "Sphere { }", two = "Sphere { } Cube { }";
-  n.all.push_back({"#Inventor binary", "#Inventor V2.1 ascii\n" + ball, "#Inventor V2.1 binary\n\1\2\3", "binary"});
+  n.all.push_back(
+      {"#Inventor binary", "#Inventor V2.1 ascii\n" + ball, "#Inventor V2.1 binary\n\1\2\3", "binary"});
   n.add("DEF and USE", "DEF a " + ball + " USE a", "DEF a " + ball);
   n.add("field value ~", ball, "Sphere { radius 2 ~ }");
-  n.add("= Engine", ball, "Sphere { radius 1 = ElapsedTime { } . timeOut } Cube { width 2 = ElapsedTime { } . timeOut }",
+  n.add("= Engine", ball,
+        "Sphere { radius 1 = ElapsedTime { } . timeOut } Cube { width 2 = ElapsedTime { } . timeOut }",
         "routes and engines");
   n.all.back().without = "#Inventor V2.1 ascii\n" + two;
   n.add("unknown nodes", ball, "Sfere { Sphere { } } Sfere { }", "\"Sfere\" is not rendered");
   n.add("unknown fields", ball, "Sphere { colour 1 }", "unknown field \"colour\"");
   const auto holder = [&](const std::string& node) {
-    n.add(node, "Translation { translation 1 0 0 } " + two, node + " { Translation { translation 1 0 0 } Sphere { } } Cube { }");
+    n.add(node, "Translation { translation 1 0 0 } " + two,
+          node + " { Translation { translation 1 0 0 } Sphere { } } Cube { }");
   };
-  for (const char* node : {"Separator", "TransformSeparator", "Selection", "Annotation", "WWWAnchor"}) holder(node);
+  for (const char* node : {"Separator", "TransformSeparator", "Selection", "Annotation", "WWWAnchor"})
+    holder(node);
   n.add("Group", ball, "Group { Translation { translation 1 0 0 } } Sphere { }");
   n.add("Switch.whichChild", "Switch { " + two + " }", "Switch { whichChild 1 " + two + " }");
   n.add("LOD", "Cube { }", "LOD { range [ 5 ] " + two + " }");
@@ -83,10 +87,12 @@ TEST(Probes, OfInventor) {
           points + colors + "MaterialBinding { value PER_FACE_INDEXED } %");
   n.field("IndexedFaceSet.normalIndex", "[ 1, 2 ]", faces,
           points + normals + "NormalBinding { value PER_FACE_INDEXED } %");
-  n.field("IndexedFaceSet.textureCoordIndex", "[ 2, 1, 0, -1, 3, 2, 0, -1 ]", faces, points + uvs + picture + "%");
+  n.field("IndexedFaceSet.textureCoordIndex", "[ 2, 1, 0, -1, 3, 2, 0, -1 ]", faces,
+          points + uvs + picture + "%");
   n.field("IndexedFaceSet.vertexProperty", "VertexProperty { vertex [ 0 0 0, 3 0 0, 3 3 0, 0 3 1 ] }", faces,
           points + "%");
-  n.field("IndexedTriangleStripSet.coordIndex", "[ 0, 1, 2, 3, -1 ]", "coordIndex [ 0, 1, 2, -1 ]", points + "%");
+  n.field("IndexedTriangleStripSet.coordIndex", "[ 0, 1, 2, 3, -1 ]", "coordIndex [ 0, 1, 2, -1 ]",
+          points + "%");
   n.field("FaceSet.numVertices", "[ 3 ]", "", points + "%");
   n.field("FaceSet.startIndex", "1", "numVertices [ 3 ]", points + "%");
   n.field("TriangleStripSet.numVertices", "[ 4 ]", "", points + "%");
@@ -95,9 +101,10 @@ TEST(Probes, OfInventor) {
   n.field("QuadMesh.verticesPerColumn", "3", "verticesPerRow 2 verticesPerColumn 2",
           "Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0, 0 2 0, 1 2 0 ] } %");
   const std::string face = "IndexedFaceSet { " + faces + " }";
-  n.field("Coordinate3.point", "[ 0 0 0, 3 0 0, 1 1 0, 0 1 1 ]", "point [ 0 0 0, 1 0 0, 1 1 0, 0 1 1 ]", "% " + face);
+  n.field("Coordinate3.point", "[ 0 0 0, 3 0 0, 1 1 0, 0 1 1 ]", "point [ 0 0 0, 1 0 0, 1 1 0, 0 1 1 ]",
+          "% " + face);
   n.field("Normal.vector", "[ 0 0 1, 0 1 1, 0 0 1, 0 0 1 ]", "", points + "% " + face);
-  n.field("TextureCoordinate2.point", "[ 0 0, 1 0, 1 1, 0 1 ]", "", points + picture + "% " + face);
+  n.field("TextureCoordinate2.point", "[ 0 0, 2 0, 2 2, 0 2 ]", "", points + picture + "% " + face);
   const std::string around = points + "IndexedFaceSet { vertexProperty % " + faces + " }";
   n.field("VertexProperty.vertex", "[ 0 0 0, 3 0 0, 3 3 0, 0 3 1 ]", "", around);
   n.field("VertexProperty.normal", "[ 0 0 1, 0 1 1, 0 0 1, 0 0 1 ]", "", around);
@@ -109,7 +116,8 @@ TEST(Probes, OfInventor) {
   n.field("NormalBinding.value", "PER_FACE", "", points + normals + "% " + face);
   n.field("TextureCoordinateBinding.value", "PER_VERTEX", "",
           points + "TextureCoordinate2 { point [ 0 0, 1 0, 1 1, 0 1, .5 .5, .1 .1 ] } " + picture +
-              "% IndexedFaceSet { coordIndex [ 3, 1, 2, -1, 0, 2, 3, -1 ] textureCoordIndex [ 2, 1, 0, -1, 3, 2, 0, -1 ] }");
+              "% IndexedFaceSet { coordIndex [ 3, 1, 2, -1, 0, 2, 3, -1 ] textureCoordIndex [ 2, 1, 0, -1, "
+              "3, 2, 0, -1 ] }");
   n.field("ShapeHints.vertexOrdering", "CLOCKWISE", "", points + "% " + face);
   n.field("ShapeHints.shapeType", "SOLID", "vertexOrdering COUNTERCLOCKWISE", points + "% " + face);
   n.field("ShapeHints.faceType", "UNKNOWN_FACE_TYPE", "", points + "% " + face);
@@ -131,8 +139,8 @@ TEST(Probes, OfInventor) {
         "Translation { translation 1 2 3 } ResetTransform { } Cube { }");
   n.field("Units.units", "FEET", "", moved);
 
-  for (const char* f : {"Material.ambientColor", "Material.diffuseColor", "Material.specularColor",
-                        "Material.emissiveColor"})
+  for (const char* f :
+       {"Material.ambientColor", "Material.diffuseColor", "Material.specularColor", "Material.emissiveColor"})
     n.field(f, "0.1 0.2 0.3", "", "% Sphere { }");
   n.field("Material.shininess", "0.7", "", "% Sphere { }");
   n.field("Material.transparency", "0.7", "", "% Sphere { }");
@@ -178,12 +186,33 @@ TEST(Probes, OfInventor) {
         "the first camera; others are left out (2 times, first here)");
   n.field("DrawStyle.style", "LINES", "", inner, "DrawStyle LINES is not rendered");
 
-  for (const char* node :
-       {"AsciiText", "Text2", "Text3", "PointSet", "LineSet", "IndexedLineSet", "MarkerSet", "NurbsCurve",
-        "NurbsSurface", "IndexedNurbsCurve", "IndexedNurbsSurface", "NurbsProfile", "TextureCoordinatePlane",
-        "TextureCoordinateEnvironment", "TextureCoordinateDefault", "TextureCoordinateFunction", "SurroundScale",
-        "AntiSquish", "Blinker", "Pendulum", "Rotor", "Shuttle", "PathSwitch", "ClipPlane", "TransformManip",
-        "Coordinate4", "Texture3"}) {
+  for (const char* node : {"AsciiText",
+                           "Text2",
+                           "Text3",
+                           "PointSet",
+                           "LineSet",
+                           "IndexedLineSet",
+                           "MarkerSet",
+                           "NurbsCurve",
+                           "NurbsSurface",
+                           "IndexedNurbsCurve",
+                           "IndexedNurbsSurface",
+                           "NurbsProfile",
+                           "TextureCoordinatePlane",
+                           "TextureCoordinateEnvironment",
+                           "TextureCoordinateDefault",
+                           "TextureCoordinateFunction",
+                           "SurroundScale",
+                           "AntiSquish",
+                           "Blinker",
+                           "Pendulum",
+                           "Rotor",
+                           "Shuttle",
+                           "PathSwitch",
+                           "ClipPlane",
+                           "TransformManip",
+                           "Coordinate4",
+                           "Texture3"}) {
     const std::string name(node);
     n.add(name, ball, name + " { } " + name + " { } " + ball,
           "\"" + name + "\" is not rendered and is left out (2 times, first here)");
@@ -198,11 +227,13 @@ TEST(Probes, OfVrml97) {
   Nodes n("#VRML V2.0 utf8\n");
   const std::string ball = "Shape { geometry Sphere { } }", box = "Shape { geometry Box { } }";
   const std::string lit = "Shape { appearance Appearance { material Material { } } geometry % }";
-  n.add("ROUTE", ball, ball + " DEF T TimeSensor { } DEF P PositionInterpolator { } " +
-                           "ROUTE T.fraction_changed TO P.set_fraction ROUTE P.value_changed TO Q.set_translation",
+  n.add("ROUTE", ball,
+        ball + " DEF T TimeSensor { } DEF P PositionInterpolator { } " +
+            "ROUTE T.fraction_changed TO P.set_fraction ROUTE P.value_changed TO Q.set_translation",
         "routes and engines are not run: nothing moves or reacts (2 times, first here)");
   n.add("PROTO", box, "PROTO Ball [ ] { " + ball + " } Ball { }");
-  const std::string proto = "PROTO Ball [ field SFFloat size 1 ] { Shape { geometry Sphere { radius IS size } } } ";
+  const std::string proto =
+      "PROTO Ball [ field SFFloat size 1 ] { Shape { geometry Sphere { radius IS size } } } ";
   n.add("IS", proto + "Ball { }", proto + "Ball { size 2 }");
   n.add("PROTO: eventIn", "PROTO Ball [ ] { " + ball + " } Ball { }",
         "PROTO Ball [ eventIn SFTime start eventOut SFTime end ] { " + ball + " } Ball { }");
@@ -220,7 +251,8 @@ TEST(Probes, OfVrml97) {
   n.field("Transform.bboxSize", "1 2 3", inside);
   n.field("Anchor.children", "[ " + ball + " ]", "", box + " %");
   n.field("Anchor.url", "\"a.html\"", inside);
-  n.add("Billboard", "Group { " + inside + " }", "Billboard { " + inside + " }", "it is not turned to the camera");
+  n.add("Billboard", "Group { " + inside + " }", "Billboard { " + inside + " }",
+        "it is not turned to the camera");
   n.field("Collision.children", "[ " + ball + " ]", "", box + " %");
   n.field("Collision.proxy", ball, inside);
   n.field("Switch.whichChoice", "1", "choice [ " + ball + " " + box + " ]", box + " %");
@@ -228,35 +260,40 @@ TEST(Probes, OfVrml97) {
   n.field("LOD.range", "[ 5 ]", "level [ " + ball + " " + box + " ]");
   n.add("Inline.url", box, box + " Inline { url \"ball.iv\" }");
   n.add("Shape.geometry", box, box + " Shape { geometry Sphere { } }");
-  n.add("Shape.appearance", ball, "Shape { appearance Appearance { material Material { } } geometry Sphere { } }");
+  n.add("Shape.appearance", ball,
+        "Shape { appearance Appearance { material Material { } } geometry Sphere { } }");
   const std::string looks = "Shape { appearance % geometry Sphere { } }";
   n.field("Appearance.material", "Material { }", "", looks);
   n.field("Appearance.texture", "ImageTexture { url \"p.png\" }", "", looks);
-  n.field("Appearance.textureTransform", "TextureTransform { scale 2 2 }", "texture ImageTexture { url \"p.png\" }",
-          looks);
+  n.field("Appearance.textureTransform", "TextureTransform { scale 2 2 }",
+          "texture ImageTexture { url \"p.png\" }", looks);
   const std::string stuff = "Shape { appearance Appearance { material % } geometry Sphere { } }";
   n.field("Material.ambientIntensity", "0.7", "", stuff);
   for (const char* f : {"diffuseColor", "specularColor", "emissiveColor"})
     n.field(std::string("Material.") + f, "0.1 0.2 0.3", "", stuff);
   n.field("Material.shininess", "0.7", "", stuff);
   n.field("Material.transparency", "0.7", "", stuff);
-  const std::string painted = "Shape { appearance Appearance { material Material { } texture % } geometry Sphere { } }";
+  const std::string painted =
+      "Shape { appearance Appearance { material Material { } texture % } geometry Sphere { } }";
   n.field("ImageTexture.url", "[ \"not_there.png\", \"p.png\" ]", "", painted);
   n.field("ImageTexture.repeatS", "FALSE", "url \"p.png\"", painted);
   n.field("ImageTexture.repeatT", "FALSE", "url \"p.png\"", painted);
   n.field("PixelTexture.image", "1 1 3 0xff0000", "", painted);
   n.add("MovieTexture", stuff.substr(0, stuff.find('%')) + "Material { } } geometry Sphere { } }",
-        stuff.substr(0, stuff.find('%')) + "Material { } texture MovieTexture { url \"a.mpg\" } } geometry Sphere { } }",
+        stuff.substr(0, stuff.find('%')) +
+            "Material { } texture MovieTexture { url \"a.mpg\" } } geometry Sphere { } }",
         "a.mpg");
   const std::string placed =
-      "Shape { appearance Appearance { texture ImageTexture { url \"p.png\" } textureTransform % } geometry Sphere { } }";
+      "Shape { appearance Appearance { texture ImageTexture { url \"p.png\" } textureTransform % } geometry "
+      "Sphere { } }";
   n.field("TextureTransform.translation", "0.5 0", "", placed);
   n.field("TextureTransform.rotation", "0.5", "", placed);
   n.field("TextureTransform.scale", "2 2", "", placed);
   n.field("TextureTransform.center", "0.5 0.5", "rotation 0.5", placed);
 
   n.field("Box.size", "1 2 3", "", lit);
-  for (const char* f : {"Sphere.radius", "Cone.bottomRadius", "Cone.height", "Cylinder.radius", "Cylinder.height"})
+  for (const char* f :
+       {"Sphere.radius", "Cone.bottomRadius", "Cone.height", "Cylinder.radius", "Cylinder.height"})
     n.field(f, "3", "", lit);
   for (const char* f : {"Cone.side", "Cone.bottom", "Cylinder.side", "Cylinder.top", "Cylinder.bottom"})
     n.field(f, "FALSE", "", lit);
@@ -335,15 +372,15 @@ TEST(Probes, OfVrml97) {
           "% " + box);
   for (const char* side : {"front", "back", "left", "right", "top", "bottom"})
     n.field(std::string("Background.") + side + "Url", "\"p.png\"", domed, "% " + box);
-  n.add("a second Background", "Background { } " + box, "Background { } Background { skyColor [ 1 0 0 ] } " + box,
-        "the first Background");
+  n.add("a second Background", "Background { } " + box,
+        "Background { } Background { skyColor [ 1 0 0 ] } " + box, "the first Background");
   n.add("Fog", box, "Fog { visibilityRange 5 } " + box, "\"Fog\" is not rendered");
   n.add("Script", box, "Script { url \"a.js\" field SFBool on TRUE eventIn SFTime start } " + box,
         "\"Script\" is not rendered");
-  for (const char* node :
-       {"TimeSensor", "TouchSensor", "ProximitySensor", "VisibilitySensor", "PlaneSensor", "SphereSensor",
-        "CylinderSensor", "ColorInterpolator", "CoordinateInterpolator", "NormalInterpolator",
-        "OrientationInterpolator", "PositionInterpolator", "ScalarInterpolator", "Sound", "AudioClip", "WorldInfo"})
+  for (const char* node : {"TimeSensor", "TouchSensor", "ProximitySensor", "VisibilitySensor", "PlaneSensor",
+                           "SphereSensor", "CylinderSensor", "ColorInterpolator", "CoordinateInterpolator",
+                           "NormalInterpolator", "OrientationInterpolator", "PositionInterpolator",
+                           "ScalarInterpolator", "Sound", "AudioClip", "WorldInfo"})
     n.add(node, box, std::string(node) + " { } " + box);
   expectProbes(knownVrml97Fields(), n.all, true, SceneProbes("probe.wrl", kBeside));
 }

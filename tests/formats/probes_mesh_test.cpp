@@ -26,7 +26,8 @@ TEST(Probes, OfObj) {
       {"vn", points + "vn 0 0 1\nf 1//1 2//1 3//1\n", points + "vn 0 1 1\nf 1//1 2//1 3//1\n"},
       {"f", points + "v 1 1 0\n" + face, points + "v 1 1 0\nf 1 2 4 3\n"},
       {"f -1", points + "v 1 1 0\n" + face, points + "v 1 1 0\nf -4 -3 -1\n"},
-      {"f v/vt", points + "vt 0 0\nvt 1 0\nvt 0 1\n" + face, points + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"},
+      {"f v/vt", points + "vt 0 0\nvt 1 0\nvt 0 1\n" + face,
+       points + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"},
       {"f v//vn", points + "vn 0 1 1\n" + face, points + "vn 0 1 1\nf 1//1 2//1 3//1\n"},
       {"fo", plain, plain + "fo 1 2 3\nfo 1 2 3\n", "curves and surfaces"},
       {"o", plain, points + "o table\n" + face},
@@ -42,14 +43,14 @@ TEST(Probes, OfObj) {
       {"curv2", plain, plain + "curv2 1 2\n", "curves and surfaces"},
       {"surf", plain, plain + "surf 0 1 0 1 1 2 3\n", "curves and surfaces"},
   };
-  for (const char* word : {"vp 1 2", "cstype bspline", "deg 2", "bmat u 1 0 0 1", "step 1", "parm u 0 1", "trim 0 1 1",
-                           "hole 0 1 1", "scrv 0 1 1", "sp 1", "end", "con 1 0 1 1 2 0 1 1", "ctech cparm 1",
-                           "stech cparma 1 1", "mg 1 0.5"}) {
+  for (const char* word : {"vp 1 2", "cstype bspline", "deg 2", "bmat u 1 0 0 1", "step 1", "parm u 0 1",
+                           "trim 0 1 1", "hole 0 1 1", "scrv 0 1 1", "sp 1", "end", "con 1 0 1 1 2 0 1 1",
+                           "ctech cparm 1", "stech cparma 1 1", "mg 1 0.5"}) {
     const std::string text(word);
     probes.push_back(row(text.substr(0, text.find(' ')), text));
   }
-  for (const char* word : {"bevel on", "c_interp on", "d_interp on", "lod 1", "shadow_obj a.obj", "trace_obj a.obj",
-                           "maplib a.map", "usemap a", "call a.obj", "csh a"}) {
+  for (const char* word : {"bevel on", "c_interp on", "d_interp on", "lod 1", "shadow_obj a.obj",
+                           "trace_obj a.obj", "maplib a.map", "usemap a", "call a.obj", "csh a"}) {
     const std::string text(word), key = text.substr(0, text.find(' '));
     probes.push_back(row(key, text, "\"" + key + "\" is not shown (2 times, first here)"));
   }
@@ -110,8 +111,8 @@ TEST(Probes, OfMtl) {
   add("map_d", "map_d p.png");
   for (const char* key : {"map_Tr", "map_norm", "decal", "refl", "map_refl"})
     add(key, std::string(key) + " p.png", "p.png");
-  for (const char* key : {"map_Pr", "map_Pm", "map_Ps", "norm", "map_Bump", "map_bump", "bump", "disp", "map_Disp",
-                          "map_disp"})
+  for (const char* key :
+       {"map_Pr", "map_Pm", "map_Ps", "norm", "map_Bump", "map_bump", "bump", "disp", "map_Disp", "map_disp"})
     add(key, std::string(key) + " p.png");
   add("bump beside norm", "bump q.png", "q.png", "norm p.png\n");
   add("disp beside bump", "disp q.png", "q.png", "bump p.png\n");
@@ -141,9 +142,9 @@ struct PlyProbe {
               faceValues = "", elements = "", values = "";
 
   std::string text() const {
-    std::string all = "ply\n" + head +
-                      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + point +
-                      "element face 1\nproperty list uchar int " + list + "\n" + face + elements + "end_header\n";
+    std::string all =
+        "ply\n" + head + "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + point +
+        "element face 1\nproperty list uchar int " + list + "\n" + face + elements + "end_header\n";
     for (const char* at : {"0 0 0", "1 0 0", "0 1 0"}) all += at + pointValues + "\n";
     return all + "3 0 1 2" + faceValues + "\n" + values;
   }
@@ -157,18 +158,21 @@ std::string floats(std::initializer_list<const char*> names) {
 
 TEST(Probes, OfPly) {
   const std::string plain = PlyProbe{}.text();
-  const auto point = [](const std::string& field, std::initializer_list<const char*> names, const std::string& values,
-                        const std::string& told = {}) {
-    return Probe{field, PlyProbe{}.text(), PlyProbe{.point = floats(names), .pointValues = values}.text(), told};
+  const auto point = [](const std::string& field, std::initializer_list<const char*> names,
+                        const std::string& values, const std::string& told = {}) {
+    return Probe{field, PlyProbe{}.text(), PlyProbe{.point = floats(names), .pointValues = values}.text(),
+                 told};
   };
-  const auto face = [](const std::string& field, std::initializer_list<const char*> names, const std::string& values,
-                       const std::string& told = {}) {
-    return Probe{field, PlyProbe{}.text(), PlyProbe{.face = floats(names), .faceValues = values}.text(), told};
+  const auto face = [](const std::string& field, std::initializer_list<const char*> names,
+                       const std::string& values, const std::string& told = {}) {
+    return Probe{field, PlyProbe{}.text(), PlyProbe{.face = floats(names), .faceValues = values}.text(),
+                 told};
   };
   const auto binary = [](bool big) {
-    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
-                        "_endian 1.0\nelement vertex 3\nproperty short x\nproperty short y\nproperty short z\n"
-                        "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
+    std::string bytes =
+        std::string("ply\nformat binary_") + (big ? "big" : "little") +
+        "_endian 1.0\nelement vertex 3\nproperty short x\nproperty short y\nproperty short z\n"
+        "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n";
     for (int number : {0, 0, 0, 2, 0, 0, 0, 1, 0}) {
       const char low = static_cast<char>(number);
       bytes += big ? std::string{'\0', low} : std::string{low, '\0'};
@@ -219,18 +223,22 @@ TEST(Probes, OfPly) {
       {"face: texcoord", plain,
        PlyProbe{.face = "property list uchar float texcoord\n", .faceValues = " 6 0 0 1 0 0 1"}.text()},
       {"face: texnumber", cornered("", ""), cornered("property int texnumber\n", " 1"), "texnumber"},
-      face("face: other properties", {"nx", "quality"}, " 1 1", "properties of \"face\" are not shown: nx, quality"),
+      face("face: other properties", {"nx", "quality"}, " 1 1",
+           "properties of \"face\" are not shown: nx, quality"),
       {"tristrips", plain,
-       PlyProbe{.elements = "element tristrips 1\nproperty list int int vertex_indices\n", .values = "3 0 2 1\n"}
+       PlyProbe{.elements = "element tristrips 1\nproperty list int int vertex_indices\n",
+                .values = "3 0 2 1\n"}
            .text()},
       {"edge", plain,
-       PlyProbe{.elements = "element edge 1\nproperty int vertex1\nproperty int vertex2\n", .values = "0 1\n"}.text(),
+       PlyProbe{.elements = "element edge 1\nproperty int vertex1\nproperty int vertex2\n", .values = "0 1\n"}
+           .text(),
        "elements \"edge\" are not shown: 1"},
       {"other elements", plain,
        PlyProbe{.elements = "element material 1\nproperty int ambient_red\n", .values = "0\n"}.text(),
        "elements \"material\" are not shown: 1"},
   };
-  const SceneProbes read("probe.ply", {{"p.png", test::smallPng(255, 0, 0)}, {"q.png", test::smallPng(0, 0, 255)}});
+  const SceneProbes read("probe.ply",
+                         {{"p.png", test::smallPng(255, 0, 0)}, {"q.png", test::smallPng(0, 0, 255)}});
   expectProbes(knownPlyFields(), probes, false, read);
 }
 
@@ -245,7 +253,8 @@ TEST(Probes, OfStl) {
     return "solid " + name + "\n" + facets + "endsolid " + end + "\n";
   };
   const std::string plain = solid("a", facet("0 0 1", "0 1 0"));
-  const auto binary = [](const std::string& header, const std::vector<float>& last, const std::string& attribute) {
+  const auto binary = [](const std::string& header, const std::vector<float>& last,
+                         const std::string& attribute) {
     std::string bytes = header;
     bytes.resize(80, ' ');
     bytes += std::string("\1\0\0\0", 4);
@@ -291,14 +300,15 @@ TEST(Probes, OfOff) {
       {"NOFF", plain, off("NOFF", " 0 1 1")},
       {"COFF", plain, off("COFF", " 1 0 0 1")},
       {"STOFF", plain, off("STOFF", " 0.5 0.5")},
-      {"4OFF", plain, off("4OFF", " 1"), "4OFF"},
-      {"nOFF", plain, "nOFF\n3\n" + plain.substr(4), "nOFF"},
-      {"BINARY", plain, off("OFF BINARY", ""), "inary"},
+      {"4OFF", plain, off("4OFF", " 1"), "points of three dimensions"},
+      {"nOFF", plain, "nOFF\n3\n" + plain.substr(4), "points of three dimensions"},
+      {"BINARY", plain, off("OFF BINARY", ""), "binary OFF"},
       {"number of edges", plain, edges},
-      {"transparency of a point", off("COFF", " 1 0 0 1"), off("COFF", " 1 0 0 0.5"), "transparency of points"},
+      {"transparency of a point", off("COFF", " 1 0 0 1"), off("COFF", " 1 0 0 0.5"),
+       "transparency of points"},
       {"colour of a face", plain, off("OFF", "", " 1.0 0.0 0.0")},
-      {"colour of a face beside those of points", off("COFF", " 1 0 0 1"), off("COFF", " 1 0 0 1", " 0.0 1.0 0.0"),
-       "colours of faces are left out"},
+      {"colour of a face beside those of points", off("COFF", " 1 0 0 1"),
+       off("COFF", " 1 0 0 1", " 0.0 1.0 0.0"), "colours of faces are left out"},
       {"colour of a face as a number of a table", plain, off("OFF", "", " 4"), "numbers of a table"},
       {"transparency of a face", off("OFF", "", " 1.0 0.0 0.0"), off("OFF", "", " 1.0 0.0 0.0 0.5"),
        "transparency of faces"},

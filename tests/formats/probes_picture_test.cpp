@@ -1,4 +1,5 @@
-// Probes of picture formats: a picture of two by two with one field more or less. What is seen are its samples.
+// Probes of picture formats: a picture of two by two with one field more or less. What is seen are its
+// samples.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -25,7 +26,8 @@ Outcome readProbe(const std::string& bytes) {
     outcome.seen = std::to_string(raster.width) + " " + std::to_string(raster.channels) + ":";
     std::visit(
         [&](const auto& samples) {
-          for (const auto sample : samples) outcome.seen += " " + std::to_string(static_cast<double>(sample) / raster.most);
+          for (const auto sample : samples)
+            outcome.seen += " " + std::to_string(static_cast<double>(sample) / raster.most);
         },
         raster.samples);
     if (const std::string remark = pictureRemark(bytes); !remark.empty()) outcome.told.push_back(remark);
@@ -54,7 +56,7 @@ std::string little(std::uint32_t value, int bytes = 4) {
   for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i);
   return text;
 }
-std::string little(float value) {
+std::string littleFloat(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   return little(bits);
@@ -67,7 +69,8 @@ std::string padded(std::string text, std::size_t size) {
 
 /// One entry of EXIF: how the picture lies.
 std::string exif(int orientation) {
-  return raw("MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0") + static_cast<char>(orientation) + raw("\0\0\0\0\0\0");
+  return raw("MM\0\x2a\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0") + static_cast<char>(orientation) +
+         raw("\0\0\0\0\0\0");
 }
 
 // --- PNG ---------------------------------------------------------------------------------------------------
@@ -75,17 +78,20 @@ std::string exif(int orientation) {
 std::string packed(const std::string& bytes) {
   std::string room(compressBound(bytes.size()), '\0');
   uLongf size = room.size();
-  compress(reinterpret_cast<Bytef*>(room.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  compress(reinterpret_cast<Bytef*>(room.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
   return room.substr(0, size);
 }
 
-const std::string kRows = raw("\0\xff\0\0\0\xff\0\0\0\0\xff\xff\xff\xff");  // red, green; blue, white, unfiltered
+const std::string kRows =
+    raw("\0\xff\0\0\0\xff\0\0\0\0\xff\xff\xff\xff");  // red, green; blue, white, unfiltered
 
-std::string png(const std::string& chunks, const std::string& rows = kRows, int depth = 8, int type = 2, int laced = 0,
-                int width = 2, int height = 2) {
+std::string png(const std::string& chunks, const std::string& rows = kRows, int depth = 8, int type = 2,
+                int laced = 0, int width = 2, int height = 2) {
   return "\x89PNG\r\n\x1a\n" +
          pngChunk("IHDR", big(static_cast<std::uint32_t>(width)) + big(static_cast<std::uint32_t>(height)) +
-                              static_cast<char>(depth) + static_cast<char>(type) + raw("\0\0") + static_cast<char>(laced)) +
+                              static_cast<char>(depth) + static_cast<char>(type) + raw("\0\0") +
+                              static_cast<char>(laced)) +
          chunks + pngChunk("IDAT", packed(rows)) + pngChunk("IEND", "");
 }
 
@@ -139,7 +145,8 @@ TEST(Probes, OfPng) {
 TEST(Probes, OfJpeg) {
   const std::string plain = readFile(test::sourceFolder() + "/tests/corpus/pictures/sphere.jpg");
   const auto segment = [](int marker, const std::string& body) {
-    return std::string("\xff") + static_cast<char>(marker) + big(static_cast<std::uint32_t>(body.size() + 2), 2) + body;
+    return std::string("\xff") + static_cast<char>(marker) +
+           big(static_cast<std::uint32_t>(body.size() + 2), 2) + body;
   };
   const auto with = [&](const std::string& more) { return plain.substr(0, 2) + more + plain.substr(2); };
   const std::size_t jfif = plain.find(raw("JFIF\0")), frame = plain.find("\xff\xc0");
@@ -150,7 +157,8 @@ TEST(Probes, OfJpeg) {
   arithmetic[frame + 1] = '\xc9';
   lossless[frame + 1] = '\xc3';
   twelve[frame + 4] = 12;
-  const std::size_t length = static_cast<unsigned char>(plain[jfif - 2]) << 8 | static_cast<unsigned char>(plain[jfif - 1]);
+  const std::size_t length =
+      static_cast<unsigned char>(plain[jfif - 2]) << 8 | static_cast<unsigned char>(plain[jfif - 1]);
   const std::string bare = plain.substr(0, 2) + plain.substr(jfif - 2 + length);
   const auto adobe = [&](char transform) {
     return bare.substr(0, 2) + segment(0xee, raw("Adobe\0\x64\0\0\0\0") + transform) + bare.substr(2);
@@ -158,7 +166,9 @@ TEST(Probes, OfJpeg) {
   Picture red(2, 2), blue(2, 2);
   red.pixels.assign(4, Color(1, 0, 0));
   blue.pixels.assign(4, Color(0, 0, 1));
-  const auto encoded = [](const Picture& picture) { return encodePicture(pictureFormatFor("a.jpg"), picture); };
+  const auto encoded = [](const Picture& picture) {
+    return encodePicture(pictureFormatFor("a.jpg"), picture);
+  };
   expectPictures(
       knownJpegFields(),
       {{"pixels", encoded(red), encoded(blue)},
@@ -168,7 +178,8 @@ TEST(Probes, OfJpeg) {
        {"no end marker", plain, plain.substr(0, plain.rfind("\xff\xd9")), "lacks its end marker"},
        {"JFIF: density", plain, dense, "not square"},
        {"EXIF: orientation", plain, with(segment(0xe1, raw("Exif\0\0") + exif(3)))},
-       {"ICC profile", plain, with(segment(0xe2, raw("ICC_PROFILE\0\1\1") + "a profile of wide colours")), "ICC"},
+       {"ICC profile", plain, with(segment(0xe2, raw("ICC_PROFILE\0\1\1") + "a profile of wide colours")),
+        "ICC"},
        {"Adobe: transform", adobe(1), adobe(0)},
        {"comment", plain, with(segment(0xfe, "a ball"))},
        {"other segments", plain, with(segment(0xe1, raw("http://ns.adobe.com/xap/1.0/\0") + "<x/>"))}});
@@ -182,7 +193,8 @@ const std::string kPalette = raw("\0\0\xff\0\0\xff\0\0\xff\0\0\0\xff\xff\xff\0")
 struct BmpProbe {
   std::uint32_t headSize = 40;
   int width = 2, height = 2, bits = 8;
-  std::uint32_t compression = 0, planes = 1, size = 0, perMetreX = 0, perMetreY = 0, colors = 4, important = 0;
+  std::uint32_t compression = 0, planes = 1, size = 0, perMetreX = 0, perMetreY = 0, colors = 4,
+                important = 0;
   std::string rest = "", between = kPalette, pixels = raw("\2\3\0\0\0\1\0\0");
 
   std::string bytes() const {
@@ -192,20 +204,23 @@ struct BmpProbe {
                        little(perMetreX) + little(perMetreY) + little(colors) + little(important) + rest;
     head.resize(headSize, '\0');
     const auto start = static_cast<std::uint32_t>(14 + head.size() + between.size());
-    return "BM" + little(start + static_cast<std::uint32_t>(pixels.size())) + little(0) + little(start) + head + between +
-           pixels;
+    return "BM" + little(start + static_cast<std::uint32_t>(pixels.size())) + little(0) + little(start) +
+           head + between + pixels;
   }
 };
 
 TEST(Probes, OfBmp) {
   const std::string plain = BmpProbe{}.bytes();
   const std::string masks = raw("\xff\0\0\0\0\xff\0\0\0\0\xff\0"),  // red is the lowest byte
-      colors = raw("\0\0\xff\x80\xff\xff\xff\x80\xff\0\0\x80\0\xff\0\x80"), swapped = raw("\xff\0\0\0\xff\xff\xff\0\0\0\xff\0\0\xff\0\0");
+      colors = raw("\0\0\xff\x80\xff\xff\xff\x80\xff\0\0\x80\0\xff\0\x80"),
+                    swapped = raw("\xff\0\0\0\xff\xff\xff\0\0\0\xff\0\0\xff\0\0");
   const BmpProbe masked{.bits = 32, .compression = 3, .between = masks, .pixels = colors};
-  const auto wide = [](const std::string& rest, const std::string& pixels = BmpProbe{}.pixels, std::uint32_t head = 108) {
+  const auto wide = [](const std::string& rest, const std::string& pixels = BmpProbe{}.pixels,
+                       std::uint32_t head = 108) {
     return BmpProbe{.headSize = head, .rest = rest, .pixels = pixels}.bytes();
   };
-  const std::string srgb = std::string(16, '\0') + "BGRs", own = std::string(16, '\0') + little(0) + std::string(36, '\1');
+  const std::string srgb = std::string(16, '\0') + "BGRs",
+                    own = std::string(16, '\0') + little(0) + std::string(36, '\1');
   const std::string nothing = std::string(36, '\0') + std::string(12, '\0');
   const BmpProbe few{.colors = 2, .between = kPalette.substr(0, 8), .pixels = raw("\0\1\0\0\1\3\0\0")};
   expectPictures(
@@ -216,14 +231,19 @@ TEST(Probes, OfBmp) {
        {"bits", plain, BmpProbe{.bits = 4, .pixels = raw("\x12\0\0\0\x03\0\0\0")}.bytes()},
        {"compression 1, 2", BmpProbe{.pixels = raw("\0\0\0\0\0\0\0\0")}.bytes(),
         BmpProbe{.compression = 1, .pixels = raw("\1\2\1\3\0\0\1\0\1\1\0\1")}.bytes(), "", plain},
-       {"compression 3, 6", BmpProbe{.bits = 32, .between = "", .pixels = swapped}.bytes(), masked.bytes()},
+       {"compression 3, 6", BmpProbe{.bits = 32, .between = "", .pixels = colors}.bytes(), masked.bytes(), "",
+        BmpProbe{.bits = 32, .between = "", .pixels = swapped}.bytes()},
        {"compression 4, 5", plain, BmpProbe{.bits = 24, .compression = 5}.bytes(), "compression of kind 5"},
        {"size of the pixels", plain, BmpProbe{.size = 8}.bytes()},
        {"pixels per metre", plain, BmpProbe{.perMetreX = 1000, .perMetreY = 2000}.bytes(), "not square"},
        {"number of colours", BmpProbe{.pixels = few.pixels}.bytes(), few.bytes()},
        {"important colours", plain, BmpProbe{.important = 1}.bytes()},
        {"alpha mask", masked.bytes(),
-        BmpProbe{.headSize = 56, .bits = 32, .compression = 3, .rest = masks + raw("\0\0\0\xff"), .between = "",
+        BmpProbe{.headSize = 56,
+                 .bits = 32,
+                 .compression = 3,
+                 .rest = masks + raw("\0\0\0\xff"),
+                 .between = "",
                  .pixels = colors}
             .bytes()},
        {"calibrated primaries and gamma", wide(srgb), wide(own), "primaries and gamma"},
@@ -231,7 +251,8 @@ TEST(Probes, OfBmp) {
         wide(std::string(16, '\0') + "DEBM" + nothing + little(0) + little(142) + little(8),
              BmpProbe{}.pixels + "profile!", 124),
         "ICC"},
-       {"intent", wide(srgb, BmpProbe{}.pixels, 124), wide(srgb + nothing + little(4), BmpProbe{}.pixels, 124)}});
+       {"intent", wide(srgb, BmpProbe{}.pixels, 124),
+        wide(srgb + nothing + little(4), BmpProbe{}.pixels, 124)}});
 }
 
 // --- TGA ---------------------------------------------------------------------------------------------------
@@ -244,8 +265,8 @@ struct TgaProbe {
   std::string map = "", pixels = kTgaColors, behind = "";
 
   std::string bytes() const {
-    std::string head = std::string() + static_cast<char>(name.size()) + static_cast<char>(map.empty() ? 0 : 1) +
-                       static_cast<char>(type);
+    std::string head = std::string() + static_cast<char>(name.size()) +
+                       static_cast<char>(map.empty() ? 0 : 1) + static_cast<char>(type);
     head += map.empty() ? little(0, 4) + '\0'
                         : little(static_cast<std::uint32_t>(first), 2) +
                               little(static_cast<std::uint32_t>(map.size() / 3), 2) + '\x18';
@@ -258,14 +279,16 @@ struct TgaProbe {
     std::string area = padded(little(495, 2), 495);
     area[494] = 3;
     for (const auto& [at, value] : values) area.replace(at, value.size(), value);
-    return head + area + little(static_cast<std::uint32_t>(head.size())) + little(0) + "TRUEVISION-XFILE." + '\0';
+    return head + area + little(static_cast<std::uint32_t>(head.size())) + little(0) + "TRUEVISION-XFILE." +
+           '\0';
   }
 };
 
 TEST(Probes, OfTga) {
   const std::string plain = TgaProbe{}.bytes();
   const std::string clear = raw("\0\0\x80\x80\0\x80\0\x80\x80\0\0\x80\x80\x80\x80\x80");
-  const TgaProbe alpha{.depth = 32, .descriptor = 0x28, .pixels = clear}, grey{.type = 3, .depth = 8, .pixels = raw("\0\x40\x80\xff")};
+  const TgaProbe alpha{.depth = 32, .descriptor = 0x28, .pixels = clear},
+      grey{.type = 3, .depth = 8, .pixels = raw("\0\x40\x80\xff")};
   const TgaProbe mapped{.type = 1, .depth = 8, .map = kTgaColors, .pixels = raw("\0\1\2\3")};
   TgaProbe later = mapped;
   later.first = 2;
@@ -288,13 +311,18 @@ TEST(Probes, OfTga) {
        {"origin", plain, TgaProbe{.descriptor = 0x10}.bytes()},
        {"interleaving", plain, TgaProbe{.descriptor = 0x60}.bytes(), "interleaved"},
        {"extension: attributes", alpha.extended({}), alpha.extended({{494, "\4"}}), "",
-        TgaProbe{.depth = 32, .descriptor = 0x28,
-                 .pixels = raw("\0\0\xff\x80\0\xff\0\x80\xff\0\0\x80\xff\xff\xff\x80")}.bytes()},
-       {"extension: pixel aspect ratio", plain, TgaProbe{}.extended({{474, little(2, 2) + little(1, 2)}}), "not square"},
+        TgaProbe{.depth = 32,
+                 .descriptor = 0x28,
+                 .pixels = raw("\0\0\xff\x80\0\xff\0\x80\xff\0\0\x80\xff\xff\xff\x80")}
+            .bytes()},
+       {"extension: pixel aspect ratio", plain, TgaProbe{}.extended({{474, little(2, 2) + little(1, 2)}}),
+        "not square"},
        {"extension: gamma", plain, TgaProbe{}.extended({{478, little(22, 2) + little(10, 2)}}), "gamma"},
-       {"extension: colour correction", plain, TgaProbe{}.extended({{482, little(999)}}), "corrected colours"},
+       {"extension: colour correction", plain, TgaProbe{}.extended({{482, little(999)}}),
+        "corrected colours"},
        {"extension: author and other words", plain, TgaProbe{}.extended({{2, "somebody"}})}});
-  EXPECT_EQ(readProbe(alpha.extended({{494, std::string(1, '\0')}})).seen, readProbe(TgaProbe{.depth = 32, .pixels = clear}.bytes()).seen);
+  EXPECT_EQ(readProbe(alpha.extended({{494, std::string(1, '\0')}})).seen,
+            readProbe(TgaProbe{.depth = 32, .pixels = clear}.bytes()).seen);
 }
 
 // --- HDR ---------------------------------------------------------------------------------------------------
@@ -311,19 +339,19 @@ TEST(Probes, OfHdr) {
   for (char c : red) run += raw("\x88") + c;
   std::string eight;
   for (int i = 0; i < 8; ++i) eight += red;
-  expectPictures(
-      knownHdrFields(),
-      {{"FORMAT", plain, hdr("", "-Y 1 +X 2", red + green, "32-bit_rle_xyze")},
-       {"FORMAT of another kind", plain, hdr("", "-Y 1 +X 2", red + green, "64-bit"), "was expected, found 64-bit"},
-       {"EXPOSURE", plain, hdr("EXPOSURE=2\n")},
-       {"COLORCORR", plain, hdr("COLORCORR=2 1 1\n")},
-       {"PRIMARIES", plain, hdr("PRIMARIES=0.7 0.3 0.2 0.7 0.1 0.1 0.3 0.3\n"), "primaries"},
-       {"PIXASPECT", plain, hdr("PIXASPECT=2\n"), "not square"},
-       {"VIEW", plain, hdr("VIEW= -vtv -vp 0 0 0\n")},
-       {"SOFTWARE", plain, hdr("SOFTWARE=a program\n")},
-       {"# comment", plain, hdr("# a row\n")},
-       {"orientation", plain, hdr("", "-Y 1 -X 2"), "", hdr("", "-Y 1 +X 2", green + red)},
-       {"run lengths", plain, hdr("", "-Y 1 +X 8", run), "", hdr("", "-Y 1 +X 8", eight)}});
+  expectPictures(knownHdrFields(),
+                 {{"FORMAT", plain, hdr("", "-Y 1 +X 2", red + green, "32-bit_rle_xyze")},
+                  {"FORMAT of another kind", plain, hdr("", "-Y 1 +X 2", red + green, "64-bit"),
+                   "was expected, found 64-bit"},
+                  {"EXPOSURE", plain, hdr("EXPOSURE=2\n")},
+                  {"COLORCORR", plain, hdr("COLORCORR=2 1 1\n")},
+                  {"PRIMARIES", plain, hdr("PRIMARIES=0.7 0.3 0.2 0.7 0.1 0.1 0.3 0.3\n"), "primaries"},
+                  {"PIXASPECT", plain, hdr("PIXASPECT=2\n"), "not square"},
+                  {"VIEW", plain, hdr("VIEW= -vtv -vp 0 0 0\n")},
+                  {"SOFTWARE", plain, hdr("SOFTWARE=a program\n")},
+                  {"# comment", plain, hdr("# a row\n")},
+                  {"orientation", plain, hdr("", "-Y 1 -X 2"), "", hdr("", "-Y 1 +X 2", green + red)},
+                  {"run lengths", plain, hdr("", "-Y 1 +X 8", run), "", hdr("", "-Y 1 +X 8", eight)}});
 }
 
 // --- EXR ---------------------------------------------------------------------------------------------------
@@ -344,7 +372,7 @@ struct ExrProbe {
     return text;
   }
   static std::string sample(float value, int type) {
-    if (type == 2) return little(value);
+    if (type == 2) return littleFloat(value);
     if (type == 0) return little(static_cast<std::uint32_t>(value));
     return little(value == 0 ? 0u : value == 1 ? 0x3c00u : 0x3800u, 2);  // 0.5
   }
@@ -360,21 +388,25 @@ struct ExrProbe {
     std::string list;
     for (const Layer& layer : layers)
       list += layer.name + '\0' + little(static_cast<std::uint32_t>(layer.type)) + raw("\0\0\0\0") +
-              little(static_cast<std::uint32_t>(layer.sampling)) + little(static_cast<std::uint32_t>(layer.sampling));
+              little(static_cast<std::uint32_t>(layer.sampling)) +
+              little(static_cast<std::uint32_t>(layer.sampling));
     return attribute("channels", "chlist", list + '\0') + attribute("compression", "compression", raw("\0")) +
            attribute("dataWindow", "box2i", data) + attribute("displayWindow", "box2i", display) +
            attribute("lineOrder", "lineOrder", std::string(1, lineOrder)) +
-           attribute("pixelAspectRatio", "float", little(aspect)) +
-           attribute("screenWindowCenter", "v2f", little(center) + little(0.0f)) +
-           attribute("screenWindowWidth", "float", little(width)) +
-           (tiled ? attribute("tiles", "tiledesc", little(2) + little(2) + raw("\0")) : "") + part + more + '\0';
+           attribute("pixelAspectRatio", "float", littleFloat(aspect)) +
+           attribute("screenWindowCenter", "v2f", littleFloat(center) + littleFloat(0.0f)) +
+           attribute("screenWindowWidth", "float", littleFloat(width)) +
+           (tiled ? attribute("tiles", "tiledesc", little(2) + little(2) + raw("\0")) : "") + part + more +
+           '\0';
   }
   std::string row(int y) const {
     std::string text;
     for (const Layer& layer : layers)
       for (std::size_t x = 0; x < 2; ++x)
-        if (layer.sampling == 1) text += sample(layer.values[2 * static_cast<std::size_t>(y) + x], layer.type);
-        else if (x == 0 && y == 0) text += sample(layer.values[0], layer.type);
+        if (layer.sampling == 1)
+          text += sample(layer.values[2 * static_cast<std::size_t>(y) + x], layer.type);
+        else if (x == 0 && y == 0)
+          text += sample(layer.values[0], layer.type);
     return text;
   }
   std::string bytes() const {
@@ -382,11 +414,12 @@ struct ExrProbe {
     std::string file = raw("\x76\x2f\x31\x01") +
                        little(2u | (tiled ? 0x200u : 0u) | (deep ? 0x800u : 0u) | (parts > 1 ? 0x1000u : 0u));
     for (int part = 0; part < parts; ++part)
-      file += header(named ? attribute("name", "string", std::string("part") + static_cast<char>('a' + part)) +
-                                 attribute("type", "string", deep ? "deepscanline" : "scanlineimage") +
-                                 attribute("chunkCount", "int", little(2)) +
-                                 (deep ? attribute("version", "int", little(1)) : "")
-                           : "");
+      file +=
+          header(named ? attribute("name", "string", std::string("part") + static_cast<char>('a' + part)) +
+                             attribute("type", "string", deep ? "deepscanline" : "scanlineimage") +
+                             attribute("chunkCount", "int", little(2)) +
+                             (deep ? attribute("version", "int", little(1)) : "")
+                       : "");
     if (parts > 1) file += '\0';
     std::vector<std::string> chunks;
     for (int part = 0; part < parts; ++part) {
@@ -401,12 +434,15 @@ struct ExrProbe {
         chunks.push_back(number + little(static_cast<std::uint32_t>(first + y)) +
                          little(static_cast<std::uint32_t>(row(y).size())) + row(y));
     }
-    std::size_t at = file.size() + 8 * chunks.size();
+    // Of rows that go upward, the last is the first in the file; the offsets are always in the order of y.
     std::string offsets, body;
     for (const std::string& chunk : chunks) {
+      std::size_t at = file.size() + 8 * chunks.size();
+      const auto same = static_cast<std::size_t>(&chunk - chunks.data());
+      for (std::size_t i = 0; i < chunks.size(); ++i)
+        if (lineOrder == 0 ? i < same : i > same) at += chunks[i].size();
       offsets += little(static_cast<std::uint32_t>(at)) + little(0);
-      at += chunk.size();
-      body += chunk;
+      body = lineOrder == 0 ? body + chunk : chunk + body;
     }
     return file + offsets + body;
   }
@@ -432,39 +468,40 @@ TEST(Probes, OfExr) {
   P shifted;
   shifted.display = P::box(0, 0, 2, 2);
   std::string primaries;
-  for (float n : {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.3333f, 0.3333f}) primaries += little(n);
+  for (float n : {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.3333f, 0.3333f}) primaries += littleFloat(n);
   P moved = shifted;
   moved.data = P::box(1, 1, 2, 2);
   auto chroma = std::vector<P::Layer>{{"BY", half}, {"RY", half}, {"Y", {0, 1, 0, 1}}};
   P upward;
   upward.lineOrder = 1;
-  expectPictures(
-      knownExrFields(),
-      {{"R, G, B", grey.bytes(), plain},
-       {"A", plain, P{.layers = withAlpha}.bytes()},
-       {"Y", plain, grey.bytes()},
-       {"Y, RY, BY", grey.bytes(), P{.layers = chroma}.bytes()},
-       {"one channel", plain, P{.layers = {{"G", {0, 1, 0, 1}}}}.bytes(), "", grey.bytes()},
-       {"other channels", plain, P{.layers = withDepth}.bytes(), "channels that are not shown: Z"},
-       {"layers", plain, P{.layers = withLayer}.bytes(), "layers are not shown"},
-       {"types half, float, uint", grey.bytes(), P{.layers = halves}.bytes(), "", plain},
-       {"sampling", plain, P{.layers = coarse}.bytes(), "lower resolution"},
-       {"parts", plain, P{.parts = 2}.bytes(), "only the first of its parts is shown"},
-       {"deep data", plain, P{.deep = true}.bytes(), "deep"},
-       {"tiles", grey.bytes(), P{.tiled = true}.bytes(), "", plain},
-       {"compression", grey.bytes(), encodePicture(pictureFormatFor("a.exr"), quad), "", plain},
-       {"lineOrder", plain, upward.bytes()},
-       {"dataWindow", shifted.bytes(), moved.bytes()},
-       {"displayWindow", plain, shifted.bytes()},
-       {"pixelAspectRatio", plain, P{.aspect = 2}.bytes(), "not square"},
-       {"screenWindowCenter", plain, P{.center = 1}.bytes()},
-       {"screenWindowWidth", plain, P{.width = 3}.bytes()},
-       {"chromaticities", plain, more("chromaticities", "chromaticities", primaries)},
-       {"whiteLuminance", plain, more("whiteLuminance", "float", little(100.0f)), "luminance of its white"},
-       {"adoptedNeutral", plain, more("adoptedNeutral", "v2f", little(0.3f) + little(0.3f)), "adopted white"},
-       {"envmap", plain, more("envmap", "envmap", raw("\1")), "sides of its cube"},
-       {"wrapmodes", plain, more("wrapmodes", "string", "clamp"), "wrap modes"},
-       {"other attributes", plain, more("owner", "string", "somebody")}});
+  expectPictures(knownExrFields(),
+                 {{"R, G, B", grey.bytes(), plain},
+                  {"A", plain, P{.layers = withAlpha}.bytes()},
+                  {"Y", plain, grey.bytes()},
+                  {"Y, RY, BY", grey.bytes(), P{.layers = chroma}.bytes()},
+                  {"one channel", plain, P{.layers = {{"G", {0, 1, 0, 1}}}}.bytes(), "", grey.bytes()},
+                  {"other channels", plain, P{.layers = withDepth}.bytes(), "channels that are not shown: Z"},
+                  {"layers", plain, P{.layers = withLayer}.bytes(), "layers are not shown"},
+                  {"types half, float, uint", grey.bytes(), P{.layers = halves}.bytes(), "", plain},
+                  {"sampling", plain, P{.layers = coarse}.bytes(), "lower resolution"},
+                  {"parts", plain, P{.parts = 2}.bytes(), "only the first of its parts is shown"},
+                  {"deep data", plain, P{.deep = true}.bytes(), "deep"},
+                  {"tiles", grey.bytes(), P{.tiled = true}.bytes(), "", plain},
+                  {"compression", grey.bytes(), encodePicture(pictureFormatFor("a.exr"), quad), "", plain},
+                  {"lineOrder", plain, upward.bytes()},
+                  {"dataWindow", shifted.bytes(), moved.bytes()},
+                  {"displayWindow", plain, shifted.bytes()},
+                  {"pixelAspectRatio", plain, P{.aspect = 2}.bytes(), "not square"},
+                  {"screenWindowCenter", plain, P{.center = 1}.bytes()},
+                  {"screenWindowWidth", plain, P{.width = 3}.bytes()},
+                  {"chromaticities", plain, more("chromaticities", "chromaticities", primaries)},
+                  {"whiteLuminance", plain, more("whiteLuminance", "float", littleFloat(100.0f)),
+                   "luminance of its white"},
+                  {"adoptedNeutral", plain,
+                   more("adoptedNeutral", "v2f", littleFloat(0.3f) + littleFloat(0.3f)), "adopted white"},
+                  {"envmap", plain, more("envmap", "envmap", raw("\1")), "sides of its cube"},
+                  {"wrapmodes", plain, more("wrapmodes", "string", "clamp"), "wrap modes"},
+                  {"other attributes", plain, more("owner", "string", "somebody")}});
 }
 
 }  // namespace

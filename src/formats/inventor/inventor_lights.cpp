@@ -13,7 +13,8 @@ namespace trace::inventor {
 
 void Reader::environment(const Values& v, State&) {
   if (const std::string_view fog = v.word("fogType", "NONE"); fog != "NONE")
-    warn(v.node(), "the fog of an Environment is not rendered: fogType " + std::string(fog.substr(0, 40)), "fog");
+    warn(v.node(), "the fog of an Environment is not rendered: fogType " + std::string(fog.substr(0, 40)),
+         "fog");
   ambient_ = shine(v.color("ambientColor", Color(1)), v.number("ambientIntensity", 0.2));
   const Vec3 a = v.vector("attenuation", {0, 0, 1});  // squared, linear, constant
   fading_ = {a.z, a.y, a.x};

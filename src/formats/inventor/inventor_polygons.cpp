@@ -9,7 +9,7 @@ namespace trace::inventor {
 
 Reader::MeshKey Reader::keyOf(const Values& v, const State& s) {
   const int flags = (s.ordered ? 1 : 0) + (s.counterClockwise ? 2 : 0) + (s.solid ? 4 : 0);
-  return {&v.node(),         v.env(),         s.points.get(), s.normals.get(), s.uvs.get(), s.paint.get(),
+  return {&v.node(),         v.env(),         s.points.get(), s.normals.get(), s.uvs.get(),  s.paint.get(),
           s.materialBinding, s.normalBinding, s.uvBinding,    flags,           s.creaseAngle};
 }
 

@@ -301,8 +301,8 @@ class GltfReader {
   std::size_t withoutUvs_ = 0;
   std::size_t otherCameras_ = 0;  ///< behind the first
   std::size_t clearColors_ = 0;   ///< meshes with colours of points that are transparent
-  std::size_t leftOver_ = 0;  ///< corners that make no triangle
-  std::size_t flat_ = 0;      ///< objects that their transform makes flat
+  std::size_t leftOver_ = 0;      ///< corners that make no triangle
+  std::size_t flat_ = 0;          ///< objects that their transform makes flat
 };
 
 }  // namespace

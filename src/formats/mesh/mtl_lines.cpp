@@ -232,6 +232,7 @@ class MtlCheck {
     std::string text(key);
     const std::string_view picture = pictureOf(words, [&](const MapOption& option, std::string_view name,
                                                           const std::vector<std::string_view>& values) {
+      if (name == "-cc") return;  // which tinyobjloader would take for the picture
       text += ' ' + std::string(name);
       for (std::string_view value : values) text += ' ' + std::string(value);
       for (auto i = static_cast<int>(values.size()); i < option.words; ++i)
@@ -303,12 +304,12 @@ class MtlCheck {
   }
 
   void map(std::string_view at, std::string_view key, LineWords words) {
-    const std::string_view picture = pictureOf(words, [&](const MapOption&, std::string_view name,
-                                                          const std::vector<std::string_view>& values) {
-      const bool isBlend = name == "-blendu" || name == "-blendv";
-      if (!listed(kMapOptionsUsed, name) || (isBlend && !values.empty() && sameWord(values[0], "off")))
-        warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
-    });
+    const std::string_view picture = pictureOf(
+        words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>& values) {
+          const bool isBlend = name == "-blendu" || name == "-blendv";
+          if (!listed(kMapOptionsUsed, name) || (isBlend && !values.empty() && sameWord(values[0], "off")))
+            warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
+        });
     if (picture.empty()) return warn(at, std::string(key) + ": expected the name of a picture");
     if (pictures_.find(picture) == pictures_.end()) {
       Place where = place(picture);

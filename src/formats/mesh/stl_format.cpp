@@ -109,7 +109,8 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
       solid.corner(vectorAt(bytes.data() + at + 12 * corner));
   }
   if (colored > 0)
-    messages.warn(place, "the colours of facets, their last two bytes, are not shown: " + std::to_string(colored));
+    messages.warn(place,
+                  "the colours of facets, their last two bytes, are not shown: " + std::to_string(colored));
   if (bytes.substr(0, kHeader).find("COLOR=") != bytes.npos)
     messages.warn(place, "the colour of the header, COLOR=, is not shown");
   Model model;
