@@ -72,7 +72,7 @@ struct Arguments {
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool lightImage = false;            ///< explain: --light-image
-  bool markdown = false;              ///< features: as docs/options.md
+  bool markdown = false;              ///< features: as docs/options.md; convert: docs/formats.md
   std::string examples;               ///< features: --examples, the folder of the scenes
   std::array<int, 2> size{256, 256};  ///< texture: --size, width and height
   std::optional<double> across;       ///< texture: --across, steps of the pattern

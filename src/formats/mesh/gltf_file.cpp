@@ -145,6 +145,10 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
     changed = upgradedGltfFile(json, bytes);
     bytes = changed;
   }
+  if (plainGltfPictures(json)) {
+    changed = upgradedGltfFile(json, bytes);
+    bytes = changed;
+  }
   Messages found;
   const auto report = [&] {
     for (const Message& message : found.all()) messages.warn(message.place, message.what, message.hint);

@@ -36,13 +36,28 @@ std::optional<Kind> kindOf(std::string_view word) {
   return sameWord(word, "OFF") && !isNDimensional ? std::optional(kind) : std::nullopt;
 }
 
+/// 4OFF, nOFF, C4nOFF ...: points of other than three dimensions.
+bool isOtherDimension(std::string_view word) {
+  constexpr std::string_view kEnd = "OFF";
+  if (word.size() <= kEnd.size() || !sameWord(word.substr(word.size() - kEnd.size()), kEnd)) return false;
+  const std::string_view start = word.substr(0, word.size() - kEnd.size());
+  return start.find_first_not_of("STCN4n") == start.npos && start.find_first_of("4n") != start.npos;
+}
+
 class OffReader {
  public:
   OffReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : file_(file), words_(file, bytes, '#'), messages_(messages) {}
+      : file_(file), size_(bytes.size()), words_(file, bytes, '#'), messages_(messages) {}
 
   Model read() {
-    std::optional<Kind> kind = kindOf(words_.next());
+    const std::string_view first = words_.next();
+    if (isOtherDimension(first))
+      words_.fail("expected points of three dimensions, as in OFF, COFF or NOFF", first);
+    std::optional<Kind> kind = kindOf(first);
+    const std::size_t afterFirst = size_ - words_.left();
+    if (const std::string_view word = words_.next(); kind && sameWord(word, "BINARY"))
+      words_.fail("binary OFF is not read: expected text", word);
+    words_.skipTo(afterFirst);
     if (!kind) {  // old files begin with the counts
       kind.emplace();
       words_.skipTo(0);
@@ -88,7 +103,7 @@ class OffReader {
     if (kind.normal) mesh_.normals.push_back(vector("a normal's three numbers"));
     if (kind.color) {
       colors_.push_back(vector("a colour's four numbers"));
-      words_.number("a colour's four numbers");
+      alphas_.push_back(words_.number("a colour's four numbers"));
     }
     if (!kind.uv) return;
     const double u = words_.number("two texture coordinates"), v = words_.number("two texture coordinates");
@@ -104,6 +119,10 @@ class OffReader {
         words_.fail("expected colours that are finite numbers");
     }
     const double scale = most > 1 ? 1.0 / 255 : 1;
+    if (const auto clear =
+            std::count_if(alphas_.begin(), alphas_.end(), [&](double a) { return a * scale < 1; });
+        clear > 0)
+      warn("the transparency of points is left out", "alpha of points");
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors_) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys())
@@ -196,10 +215,12 @@ class OffReader {
   }
 
   const std::string& file_;
+  std::size_t size_;  ///< of the file, in bytes
   Words words_;
   Messages& messages_;
   MeshData mesh_;
   std::vector<Vec3f> colors_;
+  std::vector<double> alphas_;  ///< of points, with their colours
   std::vector<std::uint32_t> face_;
   WarningsByKind warnings_;
   std::optional<Message> lost_;  ///< the first that costs a face
@@ -214,7 +235,9 @@ class OffReader {
 
 bool recognisesOff(std::string_view bytes) {
   const std::string none;
-  return kindOf(Words(none, bytes.substr(0, 4096), '#').next()).has_value();
+  Words words(none, bytes.substr(0, 4096), '#');
+  const std::string_view first = words.next();
+  return kindOf(first).has_value() || isOtherDimension(first);
 }
 
 bool mayBeOff(std::string_view bytes) {
