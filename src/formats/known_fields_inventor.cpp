@@ -32,7 +32,7 @@ constexpr std::array kInventorRows{
     KnownField{"WWWInline.name", kShown, "a scene or mesh"},
     KnownField{"Array.numElements1", kShown, ""},
     KnownField{"Array.separation1", kShown, ""},
-    KnownField{"Array.origin1", kShown, ""},
+    KnownField{"Array.origin", kShown, ""},
     KnownField{"MultipleCopy.matrix", kShown, ""},
     KnownField{"Sphere.radius", kShown, ""},
     KnownField{"Cube.width", kShown, ""},

@@ -67,7 +67,7 @@ TEST(Probes, OfInventor) {
   n.add("WWWInline.name", "Cube { }", "Cube { } WWWInline { name \"ball.iv\" }");
   n.field("Array.numElements1", "3", ball);
   n.field("Array.separation1", "2 0 0", "numElements1 2 " + ball);
-  n.field("Array.origin1", "CENTER", "numElements1 2 " + ball);
+  n.field("Array.origin", "CENTER", "numElements1 2 " + ball);
   n.field("MultipleCopy.matrix", "[ 1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1 ]", ball, "Cube { } %");
   n.field("Sphere.radius", "2");
   for (const char* f : {"Cube.width", "Cube.height", "Cube.depth", "Cone.bottomRadius", "Cone.height",

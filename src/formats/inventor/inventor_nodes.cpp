@@ -136,9 +136,7 @@ constexpr std::array kRules{
     Rule{" Array ", "separation1", Takes::vector},
     Rule{" Array ", "separation2", Takes::vector},
     Rule{" Array ", "separation3", Takes::vector},
-    Rule{" Array ", "origin1", Takes::word, 0, 0, " FIRST CENTER LAST "},
-    Rule{" Array ", "origin2", Takes::word, 0, 0, " FIRST CENTER LAST "},
-    Rule{" Array ", "origin3", Takes::word, 0, 0, " FIRST CENTER LAST "},
+    Rule{" Array ", "origin", Takes::word, 0, 0, " FIRST CENTER LAST "},
     // looks
     Rule{" Material ", "ambientColor", Takes::color, 0, 1, {}, In::old},
     Rule{" Material ", "ambientIntensity", Takes::number, 0, 1, {}, In::vrml2},

@@ -329,12 +329,10 @@ void Reader::billboard(const Values& v, State& state) {
 void Reader::array(const Values& v, State& state) {
   const auto count = [&](const char* name) { return std::clamp(v.number(name, 1), 1.0, 10000.0); };
   // Which of the copies stands where the node is: the first, the middle of all, or the last.
-  const auto start = [&](const char* origin, const char* name) {
-    const std::string_view word = v.word(origin, "FIRST");
-    return word == "LAST" ? 1 - count(name) : word == "CENTER" ? (1 - count(name)) / 2 : 0;
-  };
-  const Real i0 = start("origin1", "numElements1"), j0 = start("origin2", "numElements2"),
-             k0 = start("origin3", "numElements3");
+  const std::string_view origin = v.word("origin", "FIRST");
+  const Real share = origin == "LAST" ? 1 : origin == "CENTER" ? 0.5 : 0;
+  const auto start = [&](const char* name) { return share * (1 - count(name)); };
+  const Real i0 = start("numElements1"), j0 = start("numElements2"), k0 = start("numElements3");
   for (int k = 0; k < count("numElements3"); ++k)
     for (int j = 0; j < count("numElements2"); ++j)
       for (int i = 0; i < count("numElements1"); ++i) {
