@@ -117,7 +117,8 @@ TEST(Obj, SaysWhereANumberIsNone) {
 
 TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
   const test::Folder folder;
-  writeFile(folder / "a.mtl", "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nillum 4\n");
+  writeFile(folder / "a.mtl",
+            "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nillum 4\n");
   const std::string triangle = "# a comment that ends in C:\\\nv 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\n";
   const auto read = [&](const std::string& rest) {
     Messages messages;

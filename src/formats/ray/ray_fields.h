@@ -145,7 +145,8 @@ void readField(Findings& findings, const Field& f, const Item& value, Value& to)
       return findings.expected(value, f.keyword,
                                "a whole number from " + toText(f.least) + " to " + toText(f.most));
   if (f.unit == "degrees" && value.is(Kind::number) && value.source().ends_with("deg"))
-    return findings.expected(value, f.keyword, "a number of degrees", "write it without deg, which makes radians");
+    return findings.expected(value, f.keyword, "a number of degrees",
+                             "write it without deg, which makes radians");
   read(findings, f.keyword, value, to);
 }
 
