@@ -168,8 +168,8 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
          durationText(seconds) + sparedText(files) + outsideText(files, scene.inputs);
 }
 
-/// What vrml2out, the courses' converter, wrote of a VRML or Inventor file: x.out beside x.wrl. Empty for
-/// files of another name.
+/// The file that vrml2out, the courses' converter, wrote for a VRML or Inventor file: x.out next to x.wrl.
+/// Empty for files with another suffix.
 std::string courseOutput(const std::string& in) {
   const std::filesystem::path path(in);
   const std::string suffix = path.extension().string();

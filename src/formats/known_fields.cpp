@@ -85,43 +85,38 @@ std::span<const KnownFormat> knownFormats() {
       KnownFormat{
           "obj", "OBJ",
           "An object for each group or object and material. A material file that is not there is a warning. "
-          "What should be a "
-          "number and is none costs the faces that use it. Colours of points multiply the material's.",
+          "A bad number costs only the faces that use it. Colours of points multiply the material's.",
           knownObjFields()},
-      KnownFormat{
-          "obj", "MTL, the materials of OBJ",
-          "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it has one of "
-          "`Pr Pm Ps Pc "
-          "aniso`. Keywords may be in other letters. Options of a map may stand before or after its name.",
-          knownMtlFields()},
+      KnownFormat{"obj", "MTL, the materials of OBJ",
+                  "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it "
+                  "has one of `Pr Pm Ps Pc aniso`. Keywords may be in other letters. Options of a map may "
+                  "stand before or after its name.",
+                  knownMtlFields()},
       KnownFormat{"ply", "PLY",
                   "Text and binary, of both byte orders, with elements in any order and numbers of any type. "
-                  "Whole-number colours "
-                  "count to 255 or 65535, others to 1.",
+                  "Whole-number colours count to 255 or 65535, others to 1.",
                   knownPlyFields()},
       KnownFormat{"stl", "STL",
                   "Text and binary. A binary file called `.stl` may have more bytes than its facets take.",
                   knownStlFields()},
       KnownFormat{"off", "OFF", "Text. A file called `.off` may lack its first word.", knownOffFields()},
-      KnownFormat{"gltf", "glTF 2.0",
-                  "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, "
-                  "shaders and lights. A value "
-                  "out of its range is a warning. What is no JSON is an error with line and column.",
-                  knownGltfFields()},
+      KnownFormat{
+          "gltf", "glTF 2.0",
+          "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, shaders and "
+          "lights. A value out of its range is a warning. Invalid JSON is an error with line and column.",
+          knownGltfFields()},
       KnownFormat{
           "gltf", "Extensions of glTF",
           "[mesh-files.md](mesh-files.md#materials-of-gltf) says what a material with extensions becomes.",
           knownGltfExtensionFields()},
-      KnownFormat{
-          "inventor", "Open Inventor and VRML 1.0",
-          "Text, also compressed with gzip. Lights shine on everything, not only on what follows them. "
-          "[course-formats.md](course-formats.md#open-inventor-vrml-10-vrml97) has more.",
-          knownInventorFields()},
+      KnownFormat{"inventor", "Open Inventor and VRML 1.0",
+                  "Text, also compressed with gzip. Lights shine on everything, not only on what follows "
+                  "them. [course-formats.md](course-formats.md#open-inventor-vrml-10-vrml97) has more.",
+                  knownInventorFields()},
       KnownFormat{"inventor", "VRML97", "Text, also compressed with gzip.", knownVrml97Fields()},
       KnownFormat{"PNG", "PNG",
                   "Colours are taken as they are, and decoded as sRGB where a scene says so. So a gamma or a "
-                  "profile of another "
-                  "kind is reported.",
+                  "profile of another kind is reported.",
                   knownPngFields()},
       KnownFormat{"JPEG", "JPEG", "Grey, colour and CMYK of 8 bits.", knownJpegFields()},
       KnownFormat{"BMP", "BMP", "All heads of Windows and OS/2.", knownBmpFields()},

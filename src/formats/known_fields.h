@@ -1,7 +1,7 @@
-// THE table of the fields of other programs' formats, and what becomes of each: docs/formats.md is made of
-// it, and tests/formats has a probe for each row (tests/formats/probes.h).
+// THE table of the fields of other programs' formats, each with how Trace treats it: docs/formats.md is made
+// from it, and tests/formats has a probe for each row (tests/formats/probes.h).
 //
-// A field that has no row is reported when it is met, as not known.
+// Readers report a field without a row as unknown.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What becomes of the fields of glTF. Source: Khronos Group, glTF 2.0 Specification, chapter 5, and its
+// How Trace treats the fields of glTF. Source: Khronos Group, glTF 2.0 Specification, chapter 5, and its
 // extensions.
 #include <array>
 

@@ -1,4 +1,4 @@
-// What becomes of the nodes and fields of Inventor, VRML 1.0 and VRML97. Sources: Inventor's node reference;
+// How Trace treats the nodes and fields of Inventor, VRML 1.0 and VRML97. Sources: Inventor's node reference;
 // the specifications of VRML 1.0 and VRML97 (ISO/IEC 14772-1:1997, section 6).
 #include <array>
 

@@ -1,6 +1,6 @@
-// What becomes of the fields of OBJ, MTL, PLY, STL and OFF. Sources: Wavefront, Advanced Visualizer, appendix
-// B1; Greg Turk, "The PLY Polygon File Format"; 3D Systems, "StereoLithography Interface Specification";
-// Geomview's OFF(5).
+// How Trace treats the fields of OBJ, MTL, PLY, STL and OFF. Sources: Wavefront, Advanced Visualizer,
+// appendix B1; Greg Turk, "The PLY Polygon File Format"; 3D Systems, "StereoLithography Interface
+// Specification"; Geomview's OFF(5).
 #include <array>
 
 #include "formats/known_fields.h"

@@ -1,4 +1,4 @@
-// What becomes of the fields of pictures. Sources: PNG (ISO/IEC 15948); JFIF 1.02, EXIF 2.3, ITU T.81;
+// How Trace treats the fields of pictures. Sources: PNG (ISO/IEC 15948); JFIF 1.02, EXIF 2.3, ITU T.81;
 // Microsoft, "Bitmap Header Types"; Truevision, TGA 2.0; Greg Ward, Radiance picture format; OpenEXR,
 // "Standard Attributes".
 #include <array>

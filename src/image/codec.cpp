@@ -79,8 +79,6 @@ std::string encodeTga(const Picture& picture, Rounding rounding, const Metadata&
 std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata& metadata) {
   return withJpegComments(encodeJpegByStb(toBytes(picture, rounding)), metadata);
 }
-}  // namespace
-
 Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);
   // stb takes a PNG that is too large for one of another type.
@@ -94,9 +92,6 @@ Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
     checkClaimedSize(number(kWidth), number(kHeight), bytes.size(), kPackedPixelsPerByte, limits);
   return oriented(decodeByStb(bytes, limits), pngOrientation(bytes));
 }
-
-namespace {
-
 Metadata noMetadata(std::string_view) { return {}; }
 std::string noRemark(std::string_view) { return {}; }
 

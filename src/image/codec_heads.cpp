@@ -1,4 +1,4 @@
-// What the heads of picture files say beside the pixels: how the picture lies, and what of it is not shown.
+// The heads of picture files: the orientation they say, and remarks on properties that are not shown.
 // One station of codec.cpp's table.
 //
 // Sources: PNG (ISO/IEC 15948, W3C's third edition, section 11.3); JFIF 1.02; JEITA CP-3451 (EXIF), tag

@@ -54,29 +54,27 @@ Raster decodeByStb(std::string_view bytes, const PictureLimits& limits);
 /// As EXIF's orientation says. A JPEG may lack its end marker.
 Raster decodeJpeg(std::string_view bytes, const PictureLimits& limits);
 std::string jpegRemark(std::string_view bytes);
-/// What the segments before the picture say of it that is not shown.
+/// Names the properties in the segments before the picture that are not shown.
 std::string jpegHeadRemark(std::string_view jpeg);
-/// What EXIF, which begins with II or MM, says of how the picture lies.
+/// The orientation that an EXIF block says, which begins with II or MM.
 Orientation orientationOfExif(std::string_view exif);
 Orientation pngOrientation(std::string_view png);
-/// What the fourth channel of a TGA file is.
+/// The meaning of the fourth channel of a TGA file.
 enum class TgaAlpha { none, separate, premultiplied };
 TgaAlpha tgaAlpha(std::string_view tga);
 Raster decodeTga(std::string_view bytes, const PictureLimits& limits);
 std::string tgaRemark(std::string_view bytes);
 Raster decodeBmp(std::string_view bytes, const PictureLimits& limits);
 
-std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
 std::string bmpRemark(std::string_view bytes);
-/// As its eXIf chunk says.
-Raster decodePng(std::string_view bytes, const PictureLimits& limits);
 std::string pngRemark(std::string_view bytes);
+std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
 
 /// Puts the parts of a remark together.
 inline void remark(std::string& all, std::string_view part) {
   all += (all.empty() || part.empty() ? "" : "; ") + std::string(part);
 }
-/// What is said of a colour profile; "" for one of sRGB, the colours that are expected.
+/// The remark about a colour profile; "" for sRGB, which is expected.
 std::string profileRemark(std::string_view profile);
 
 /// P2, P3, P5 or P6.

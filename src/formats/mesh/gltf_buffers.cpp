@@ -15,7 +15,7 @@ bool isDigit(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
 }
 
-/// A buffer, or a picture, of which tinygltf knows the same forms.
+/// The media types that tinygltf decodes, in buffers and in pictures.
 constexpr std::string_view kDataMark = ";base64,", kDataForms[] = {"application/octet-stream",
                                                                    "text/plain",
                                                                    "application/gltf-buffer",
@@ -24,13 +24,14 @@ constexpr std::string_view kDataMark = ";base64,", kDataForms[] = {"application/
                                                                    "image/bmp",
                                                                    "image/gif"};
 
-/// Whether tinygltf finds the bytes behind this head, which is without "data:".
+/// Whether tinygltf decodes the bytes after this head, which starts after "data:".
 bool isKnownData(std::string_view head) {
   return std::any_of(std::begin(kDataForms), std::end(kDataForms), [&](std::string_view form) {
     return head.starts_with(form) && head.substr(form.size()) == kDataMark;
   });
 }
 
+/// A buffer or an embedded picture.
 class BufferCheck {
  public:
   BufferCheck(const Place& place, std::string_view list, std::size_t number)
