@@ -1,4 +1,4 @@
-// ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
+// ray convert IN [OUT]: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <algorithm>
 #include <chrono>

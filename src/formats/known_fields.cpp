@@ -51,8 +51,8 @@ This page is made by `./dev docs` from the program's table of fields. A test rea
 Every field of another program's format is one of four:
 
 * **shown**: the picture depends on it.
-* **reported**: it is left out, with one warning. The warning counts all of its kind and has the place of the first.
-* **refused**: a file that needs it is not read. The error says so.
+* **reported**: it is left out, with one warning. The warning counts all of its kind, and names the line of one in most text formats.
+* **refused**: a file that needs it is not read, and the error says so. A refused texture becomes a checker, with a warning.
 * **not needed**: it says nothing about a still picture. Nothing is reported.
 
 Words, nodes and properties that no table has are reported as not known. Parts of pictures and fields of VRML's groups that no
@@ -87,11 +87,12 @@ std::span<const KnownFormat> knownFormats() {
           "An object for each group or object and material. A material file that is not there is a warning. "
           "A bad number costs only the faces that use it. Colours of points multiply the material's.",
           knownObjFields()},
-      KnownFormat{"obj", "MTL, the materials of OBJ",
-                  "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it "
-                  "has one of `Pr Pm Ps Pc aniso`. Keywords may be in other letters. Options of a map may "
-                  "stand before or after its name.",
-                  knownMtlFields()},
+      KnownFormat{
+          "obj", "MTL, the materials of OBJ",
+          "A material becomes [Phong](shading.md), or [principled](materials.md#principled) if it "
+          "has one of `Pr Pm Ps Pc aniso`. Keywords may be in upper or lower case. Options of a map may "
+          "stand before or after its name.",
+          knownMtlFields()},
       KnownFormat{"ply", "PLY",
                   "Text and binary, of both byte orders, with elements in any order and numbers of any type. "
                   "Whole-number colours count to 255 or 65535, others to 1.",
@@ -115,7 +116,8 @@ std::span<const KnownFormat> knownFormats() {
                   knownInventorFields()},
       KnownFormat{"inventor", "VRML97", "Text, also compressed with gzip.", knownVrml97Fields()},
       KnownFormat{"PNG", "PNG",
-                  "Colours are taken as they are, and decoded as sRGB where a scene says so. So a gamma or a "
+                  "All bit depths and colour types are read. Colours are taken as they are, and decoded as "
+                  "sRGB where a scene says so. So a gamma or a "
                   "profile of another kind is reported.",
                   knownPngFields()},
       KnownFormat{"JPEG", "JPEG", "Grey, colour and CMYK of 8 bits.", knownJpegFields()},

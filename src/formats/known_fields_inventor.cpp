@@ -10,7 +10,8 @@ namespace {
 using namespace known;
 
 constexpr std::string_view kActs = "acts by a ROUTE, which is reported", kSeen = "no matter of what is seen",
-                           kCut = "nothing is cut off", kPolygons = "all polygons keep their dents";
+                           kCut = "nothing is cut off",
+                           kPolygons = "polygons of up to 64 corners keep their dents anyway";
 
 constexpr std::array kInventorRows{
     KnownField{"#Inventor binary", kRefused, ""},

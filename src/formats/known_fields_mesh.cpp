@@ -178,7 +178,7 @@ constexpr std::array kStlRows{
     KnownField{"solid", kShown, "an object of that name"},
     KnownField{"facet normal", kShown, "a facet that runs against it is turned, with a warning"},
     KnownField{"vertex", kShown, "equal corners become one point"},
-    KnownField{"endsolid", kIdle, "the name again"},
+    KnownField{"endsolid", kIdle, "its name says nothing; a text that lacks the word is refused as cut off"},
     KnownField{"binary: header", kIdle, "80 bytes of any text"},
     KnownField{"binary: header COLOR=", kReported, "a program's own word"},
     KnownField{"binary: number of facets", kShown, "bytes behind them are ignored with a warning"},

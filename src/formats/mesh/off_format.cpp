@@ -72,7 +72,7 @@ class OffReader {
     if (kind->color) takeColors();
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
     if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
-    if (hasFaceColors_) paintFaces();
+    if (faceColors_.count > 0) paintFaces();
     warnings_.report(messages_);
     if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
     if (unusable_ > 0)
@@ -92,6 +92,15 @@ class OffReader {
     return static_cast<std::size_t>(number);
   }
 
+  /// The number of times that something came, and the place of the first.
+  struct Times {
+    Place first{};
+    std::size_t count = 0;
+    void add(const Words& words) {
+      if (count++ == 0) first = words.place();
+    }
+  };
+
   Vec3f vector(const char* what) {
     const double x = words_.number(what), y = words_.number(what), z = words_.number(what);
     return Vec3f(Vec3{x, y, z});
@@ -103,7 +112,9 @@ class OffReader {
     if (kind.normal) mesh_.normals.push_back(vector("a normal's three numbers"));
     if (kind.color) {
       colors_.push_back(vector("a colour's four numbers"));
-      alphas_.push_back(words_.number("a colour's four numbers"));
+      const double alpha = words_.number("a colour's four numbers");
+      if (alpha < 1) clear_.add(words_);
+      if (alpha < 255) clearOf255_.add(words_);
     }
     if (!kind.uv) return;
     const double u = words_.number("two texture coordinates"), v = words_.number("two texture coordinates");
@@ -119,10 +130,9 @@ class OffReader {
         words_.fail("expected colours that are finite numbers");
     }
     const double scale = most > 1 ? 1.0 / 255 : 1;
-    if (const auto clear =
-            std::count_if(alphas_.begin(), alphas_.end(), [&](double a) { return a * scale < 1; });
-        clear > 0)
-      warn("the transparency of points is left out", "alpha of points");
+    const Times& clear = most > 1 ? clearOf255_ : clear_;
+    if (clear.count > 0)
+      messages_.warn(clear.first, "the transparency of points is left out: " + std::to_string(clear.count));
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors_) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys())
@@ -178,14 +188,15 @@ class OffReader {
     appendPolygon(mesh_, face_);
     constexpr float kPlain = 0.7f;  // as plainMaterial()
     const std::uint32_t painted = palette_.number(color.value_or(Vec3f{kPlain, kPlain, kPlain}));
-    hasFaceColors_ = hasFaceColors_ || color;
+    if (color) faceColors_.add(words_);
     triangleColors_.resize(mesh_.triangles.size(), painted);
   }
 
   /// Each triangle gets points of its own, with its colour.
   void paintFaces() {
     if (!mesh_.materials.empty())
-      return warn("colours of faces are left out: their points have some", "faces");
+      return messages_.warn(faceColors_.first, "colours of faces are left out, since points have some: " +
+                                                   std::to_string(faceColors_.count));
     struct Painted {
       std::uint32_t point, color;
     };
@@ -220,13 +231,13 @@ class OffReader {
   Messages& messages_;
   MeshData mesh_;
   std::vector<Vec3f> colors_;
-  std::vector<double> alphas_;  ///< of points, with their colours
+  Times clear_, clearOf255_;  ///< points whose alpha is below 1, or below 255
+  Times faceColors_;
   std::vector<std::uint32_t> face_;
   WarningsByKind warnings_;
   std::optional<Message> lost_;  ///< the first that costs a face
   Unique<Vec3f> palette_;
   std::vector<std::uint32_t> triangleColors_;
-  bool hasFaceColors_ = false;
   std::size_t unusable_ = 0;
   Model model_;
 };
