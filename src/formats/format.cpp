@@ -87,7 +87,7 @@ constexpr std::array kFormats{
                 .suffixes = kGltf,
                 .help = "glTF 2.0 scenes, text and binary",
                 .recognises = recognisesGltf,
-                .readModel = readGltf},
+                .readModelAt = readGltf},
 };
 
 /// What bytes that are no scene look like.
@@ -216,6 +216,12 @@ auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) 
               "need less");
 }
 
+/// By a row that reads models.
+Model modelBy(const SceneFormat& row, const std::string& file, std::string_view text, Messages& messages,
+              SceneTime& time) {
+  return row.readModelAt ? row.readModelAt(file, text, messages, time) : row.readModel(file, text, messages);
+}
+
 }  // namespace
 
 std::span<const SceneFormat> sceneFormats() { return kFormats; }
@@ -250,7 +256,7 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
     return asNamed(format, [&] {
       if (format.row.readAt) return format.row.readAt(file, text, messages, time);
       if (format.row.read) return format.row.read(file, text, messages);
-      return sceneOf(format.row.readModel(file, text, messages), file, format.row.name);
+      return sceneOf(modelBy(format.row, file, text, messages, time), file, format.row.name);
     });
   });
   InputFiles inputs;
@@ -265,14 +271,20 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
   return scene;
 }
 
-Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time) {
   const ReadScope scope = ReadScope::ofScene(file);
   return withinMemory(file, bytes, [&] {
     const TextFront front(file, bytes, messages);
-    const FoundFormat format = formatOf(file, front.text(), "a mesh",
-                                        [](const SceneFormat& row) { return row.readModel != nullptr; });
-    return asNamed(format, [&] { return format.row.readModel(file, front.text(), messages); });
+    const FoundFormat format = formatOf(file, front.text(), "a mesh", [](const SceneFormat& row) {
+      return row.readModel || row.readModelAt;
+    });
+    return asNamed(format, [&] { return modelBy(format.row, file, front.text(), messages, time); });
   });
+}
+
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages) {
+  SceneTime time;
+  return readModel(file, bytes, messages, time);
 }
 
 const SceneFormat& writableFormatFor(const std::string& file) {

@@ -49,7 +49,7 @@ struct Rewritten {
 };
 
 /// A row of the table. A format has `read` or `readAt`, or, if it holds meshes that other scenes may name,
-/// `readModel`.
+/// `readModel` or `readModelAt`.
 struct SceneFormat {
   std::string_view name;
   std::span<const std::string_view> suffixes;  ///< lower case with the dot, the usual one first
@@ -63,6 +63,8 @@ struct SceneFormat {
   Scene (*readAt)(const std::string& file, std::string_view bytes, Messages& messages,
                   SceneTime& time) = nullptr;
   Model (*readModel)(const std::string& file, std::string_view bytes, Messages& messages) = nullptr;
+  Model (*readModelAt)(const std::string& file, std::string_view bytes, Messages& messages,
+                       SceneTime& time) = nullptr;
   /// The scene as `file`, and what belongs beside it, as pictures. Warns of what the format cannot hold;
   /// throws Error(Fault::scene) if nothing is left.
   std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
@@ -86,7 +88,9 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
 /// cannot be read.
 bool changesWithTime(const std::string& file, std::string_view bytes);
 
-/// The meshes in the bytes of a file of a format with `readModel`. Throws as readScene().
+/// The meshes in the bytes of a file of a format with `readModel`, as they are at the time. Throws as readScene().
+Model readModel(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time);
+/// At the time 0.
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages);
 
 /// The row that writes files of that name, by its suffix in any case. Throws Error(Fault::usage).

@@ -80,7 +80,7 @@ constexpr std::array kTgaRows{
     KnownField{"first entry of the colour map", kRefused, "other than 0"},
     KnownField{"x and y of the screen", kIdle, ""},
     KnownField{"depth", kShown, "8, 16, 24, 32"},
-    KnownField{"bits of alpha", kShown, "0: the fourth byte says nothing"},
+    KnownField{"bits of alpha", kShown, "the fourth byte says nothing if it is 0 everywhere"},
     KnownField{"alpha of 16 bits", kReported, ""},
     KnownField{"origin", kShown, ""},
     KnownField{"interleaving", kRefused, ""},

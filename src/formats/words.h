@@ -44,6 +44,9 @@ class Words {
     return at_ == text_.size();
   }
 
+  /// That of the last next() or number().
+  std::string_view last() const { return text_.substr(start_, at_ - start_); }
+
   /// Throws Error(Fault::scene) where there is no number.
   double number(std::string_view what) {
     const std::string_view word = next();

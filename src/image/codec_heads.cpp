@@ -184,7 +184,7 @@ std::string bmpRemark(std::string_view bmp) {
 TgaAlpha tgaAlpha(std::string_view tga) {
   constexpr std::size_t kAttributes = 494;
   const std::string_view extension = tgaExtension(tga);
-  if (extension.empty()) return TgaAlpha::separate;
+  if (extension.empty()) return TgaAlpha::unsaid;
   const std::uint32_t kind = byteIn(extension, kAttributes);
   return kind == 4 ? TgaAlpha::premultiplied : kind == 3 ? TgaAlpha::separate : TgaAlpha::none;
 }

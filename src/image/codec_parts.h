@@ -60,7 +60,7 @@ std::string jpegHeadRemark(std::string_view jpeg);
 Orientation orientationOfExif(std::string_view exif);
 Orientation pngOrientation(std::string_view png);
 /// The meaning of the fourth channel of a TGA file.
-enum class TgaAlpha { none, separate, premultiplied };
+enum class TgaAlpha { unsaid, none, separate, premultiplied };
 TgaAlpha tgaAlpha(std::string_view tga);
 Raster decodeTga(std::string_view bytes, const PictureLimits& limits);
 std::string tgaRemark(std::string_view bytes);

@@ -199,6 +199,15 @@ Raster withoutAlpha(const Raster& given) {
   return raster;
 }
 
+/// Of 8 bits a channel, with an alpha that is 0 everywhere.
+bool isNowhere(const Raster& raster) {
+  const auto& samples = std::get<std::vector<stbi_uc>>(raster.samples);
+  const auto stride = static_cast<size_t>(raster.channels);
+  for (size_t i = stride - 1; i < samples.size(); i += stride)
+    if (samples[i] != 0) return false;
+  return true;
+}
+
 }  // namespace
 
 std::string encodeBmpByStb(const Bytes& b) {
@@ -244,7 +253,8 @@ Raster decodeTga(std::string_view bytes, const PictureLimits& limits) {
   if (bytes.size() > kDescriptor && bytes[1] == 1 && (bytes[kFirstColor] != 0 || bytes[kFirstColor + 1] != 0))
     throw std::runtime_error("a table of colours that does not begin at 0 is not read");
   Raster raster = decodeByStb(bytes, limits);
-  const TgaAlpha alpha = tgaAlpha(bytes);
+  TgaAlpha alpha = tgaAlpha(bytes);
+  if (raster.hasAlpha() && alpha == TgaAlpha::unsaid && isNowhere(raster)) alpha = TgaAlpha::none;  // left at 0
   if (raster.hasAlpha() && alpha == TgaAlpha::none) raster = withoutAlpha(raster);
   if (raster.hasAlpha() && alpha == TgaAlpha::premultiplied) divideByAlpha(raster);
   const bool mirrored = bytes.size() > kDescriptor && (bytes[kDescriptor] & kFromRight) != 0;

@@ -696,7 +696,8 @@ TEST(BrokenFiles, Gltf) {
        "warning images[0].uri: expected digits of base64, found \"!\" after 2 of them"},
       {"a.gltf", gltfWith("\"images\": [{\"uri\": \"data:image/png;base64,\"}]"),
        "warning images[0].uri: expected a picture, found no bytes"},
-      {"a.gltf", gltfWith("\"animations\": [{}]"), "warning animations are not played: 1"},
+      {"a.gltf", gltfWith("\"animations\": [{}, {}]"),
+       "warning the first animation is played; others are left out: 1"},
       {"a.gltf",
        gltf("\"metallicFactor\": 0", "\"baseColorTexture\": {\"index\": 0}")
            .insert(1, "\"textures\": [{\"source\": 0}], \"images\": [{\"uri\": \"wood.png\"}], "),

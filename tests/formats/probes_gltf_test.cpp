@@ -4,103 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/base64.h"
+#include "gltf_square.h"
 #include "scene_probes.h"
-#include "support/gltf.h"
 
 namespace trace::probes_gltf_test {
 namespace {
 
 using nlohmann::json;
-
-/// A square with a textured material, which grows by accessors.
-class Square {
- public:
-  Square() {
-    root = json::parse(
-        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-      "meshes": [{"primitives": [{"attributes": {}, "material": 0}]}],
-      "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0.5, "roughnessFactor": 0.5}}],
-      "textures": [{"source": 0}, {"source": 1}], "images": [], "accessors": [], "bufferViews": []})");
-    for (int blue : {0, 255})
-      root["images"].push_back(
-          {{"uri",
-            "data:image/png;base64," + toBase64(test::smallPng(255, 0, static_cast<std::uint8_t>(blue)))}});
-    attribute("POSITION", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, 3);
-    attribute("NORMAL", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 3);
-    attribute("TEXCOORD_0", {0, 0, 1, 0, 1, 1, 0, 1}, 2);
-    primitive()["indices"] = bytes(std::string("\0\1\2\0\2\3", 6), 5121, 6, "SCALAR");
-  }
-
-  json& primitive() { return root["meshes"][0]["primitives"][0]; }
-  json& material() { return root["materials"][0]; }
-  json& node() { return root["nodes"][0]; }
-  json& camera(const char* type, json values) {
-    root["cameras"] = {{{"type", type}, {type, std::move(values)}}};
-    node()["camera"] = 0;
-    return root["cameras"][0][type];
-  }
-
-  /// The number of a new accessor.
-  int bytes(const std::string& data, int componentType, int count, const char* type) {
-    while (data_.size() % 4 != 0) data_ += '\0';
-    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", data.size()}});
-    data_ += data;
-    root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
-                                 {"componentType", componentType},
-                                 {"count", count},
-                                 {"type", type}});
-    return static_cast<int>(root["accessors"].size()) - 1;
-  }
-  int floats(const std::vector<float>& numbers, int each) {
-    const char* const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    return bytes(std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)),
-                 5126, static_cast<int>(numbers.size()) / each, types[each - 1]);
-  }
-  Square& attribute(const std::string& name, const std::vector<float>& numbers, int each) {
-    primitive()["attributes"][name] = floats(numbers, each);
-    return *this;
-  }
-  /// Sets the value at a pointer such as /materials/0/name.
-  Square& set(const std::string& at, json value) {
-    root[json::json_pointer(at)] = std::move(value);
-    return *this;
-  }
-  Square& erase(const std::string& at) {
-    const json::json_pointer pointer(at);
-    root[pointer.parent_pointer()].erase(pointer.back());
-    return *this;
-  }
-
-  std::string text() const {
-    json whole = root;
-    if (!whole.contains("buffers")) whole["buffers"] = {{{"byteLength", data_.size()}}};
-    json& buffer = whole["buffers"][0];
-    if (!buffer.contains("uri")) buffer["uri"] = "data:application/octet-stream;base64," + toBase64(data_);
-    return whole.dump();
-  }
-  std::string glb() const {
-    const auto little = [](std::size_t n) {
-      std::string four;
-      for (int i = 0; i < 4; ++i) four += static_cast<char>(n >> (8 * i) & 255);
-      return four;
-    };
-    json whole = root;
-    std::string data = data_;
-    while (data.size() % 4 != 0) data += '\0';
-    whole["buffers"] = {{{"byteLength", data.size()}}};
-    std::string head = whole.dump();
-    while (head.size() % 4 != 0) head += ' ';
-    return "glTF" + little(2) + little(28 + head.size() + data.size()) + little(head.size()) + "JSON" + head +
-           little(data.size()) + std::string("BIN\0", 4) + data;
-  }
-  const std::string& data() const { return data_; }
-
-  json root;
-
- private:
-  std::string data_;
-};
+using test::Square;
 
 /// Probes of one field of the square.
 class Probes {
@@ -194,12 +105,48 @@ TEST(Probes, OfGltf) {
   Square morphed;
   const int moved = morphed.floats({0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 3);
   morphed.primitive()["targets"] = {{{"POSITION", moved}}};
-  p.add("primitive.targets", Square(), morphed, "morph targets are left out: 1");
-  const Square skinned = with("/skins", {{{"joints", {0}}}}).set("/nodes/0/skin", 0);
-  p.add("skins", Square(), skinned, "skins are not applied");
-  p.add("animations", Square(),
-        with("/animations", {{{"channels", json::array()}, {"samplers", json::array()}}}),
-        "animations are not played");
+  const Square heavy = Square(morphed).set("/meshes/0/weights", {1});
+  p.add("primitive.targets", with("/meshes/0/weights", {1}), heavy);
+  p.add("primitive.targets of other attributes", heavy,
+        Square(heavy).set(primitive + "targets/0/TEXCOORD_0", moved), "morph targets of \"TEXCOORD_0\"");
+  p.add("mesh.weights", morphed, heavy);
+  p.add("node.weights", heavy, Square(heavy).set("/nodes/0/weights", {0.5}));
+
+  Square skinned = with("/nodes/0", {{"mesh", 0}, {"children", {1}}});
+  skinned.attribute("JOINTS_0", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 4)
+      .attribute("WEIGHTS_0", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, 4)
+      .set("/nodes/1", {{"translation", {0, 0, 2}}})
+      .set("/skins", {{{"joints", {1}}}});
+  const Square bent = Square(skinned).set("/nodes/0/skin", 0);
+  p.add("node.skin", skinned, bent);
+  p.add("skin.joints", bent, Square(bent).set("/skins/0/joints", {0}));
+  Square bound = bent;
+  const int undo = bound.matrices({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1});
+  p.add("skin.inverseBindMatrices", bent, bound.set("/skins/0/inverseBindMatrices", undo));
+  p.set("skin.skeleton", "/skins/0/skeleton", 1, "", bent);
+  p.add("JOINTS_0", Square(bent).erase(primitive + "attributes/JOINTS_0"), bent);
+  p.add("WEIGHTS_0", Square(bent).erase(primitive + "attributes/WEIGHTS_0"), bent);
+
+  Square moves = heavy;
+  const auto sampler = [&](const std::vector<float>& values, int each) {
+    return json{{"input", moves.floats({0}, 1)}, {"output", moves.floats(values, each)}};
+  };
+  const json played = {{"samplers", {sampler({1, 2, 3}, 3), sampler({0, 0, 1, 0}, 4), sampler({0.5}, 1)}},
+                       {"channels", json::array()}};
+  moves.set("/animations", {played});
+  const auto channel = [](int of, const char* path) {
+    return json{{{"sampler", of}, {"target", {{"node", 0}, {"path", path}}}}};
+  };
+  p.set("animations", "/animations/0/channels", channel(0, "translation"), "", moves);
+  p.set("animation of rotation", "/animations/0/channels", channel(1, "rotation"), "", moves);
+  p.set("animation of scale", "/animations/0/channels", channel(0, "scale"), "", moves);
+  p.set("animation of weights", "/animations/0/channels", channel(2, "weights"), "", moves);
+  p.set("animations behind the first", "/animations/1", played, "others are left out: 1", moves);
+  Square between = moves;
+  const json keys = {{"input", between.floats({-1, 1}, 1)},
+                     {"output", between.floats({0, 0, 0, 2, 2, 2}, 3)}};
+  between.set("/animations/0/samplers/0", keys).set("/animations/0/channels", channel(0, "translation"));
+  p.set("animation.sampler.interpolation", "/animations/0/samplers/0/interpolation", "STEP", "", between);
 
   Square zeros;
   zeros.primitive()["attributes"]["TEXCOORD_0"] = zeros.root["accessors"].size();
@@ -412,9 +359,19 @@ TEST(Probes, OfGltfExtensions) {
         "KHR_draco_mesh_compression");
   p.set("EXT_meshopt_compression", "/extensionsRequired", {"EXT_meshopt_compression"},
         "EXT_meshopt_compression");
-  for (const char* name : {"EXT_mesh_gpu_instancing", "KHR_materials_variants",
-                           "KHR_materials_diffuse_transmission", "KHR_node_visibility",
-                           "KHR_animation_pointer", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod"})
+  Square copied;
+  copied.set("/extensionsUsed", {"EXT_mesh_gpu_instancing"});
+  const std::string copies = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/";
+  const int steps = copied.floats({0, 0, 0, 2, 0, 0}, 3), turns = copied.floats({0, 0, 1, 0, 0, 1, 0, 0}, 4);
+  p.set("EXT_mesh_gpu_instancing.TRANSLATION", copies + "TRANSLATION", steps, "", copied);
+  p.set("EXT_mesh_gpu_instancing.ROTATION", copies + "ROTATION", turns, "", copied);
+  const Square apart = Square(copied).set(copies + "TRANSLATION", steps);
+  const int sizes = copied.floats({1, 1, 1, 2, 2, 2}, 3);
+  p.add("EXT_mesh_gpu_instancing.SCALE", apart,
+        Square(copied).set(copies + "TRANSLATION", steps).set(copies + "SCALE", sizes));
+  for (const char* name :
+       {"KHR_materials_variants", "KHR_materials_diffuse_transmission", "KHR_node_visibility",
+        "KHR_animation_pointer", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod"})
     p.set(name, "/extensionsUsed", {name}, name);
   expectProbes(knownGltfExtensionFields(), p.all, false, SceneProbes("probe.gltf"));
 }

@@ -131,6 +131,26 @@ TEST(Repairs, PointsThatAreNotFiniteCostTheirTriangles) {
   EXPECT_TRUE(read.warns("triangles that use such points are left out: 1")) << read.warnings;
 }
 
+TEST(Repairs, ABrokenFacetOfStlCostsNoOther) {
+  const std::string good =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  for (const auto& [from, to] : {std::pair{"1 0 0", "1 0 banana"},
+                                 {"1 0 0", "1 0"},
+                                 {"vertex 0 1 0\n", ""},
+                                 {"endloop", "vertex 1 1 0\nendloop"},
+                                 {"0 1 0\n", "0\n"},
+                                 {"normal ", ""}}) {
+    std::string broken = good;
+    broken.replace(broken.find(from), std::string_view(from).size(), to);
+    const Read read("a.stl", "solid a\n" + good + broken + broken + good + "endsolid a\n");
+    EXPECT_EQ(read.triangles(), 2u) << to << read.error;
+    EXPECT_TRUE(read.warns("are left out: 2, the first here: expected")) << read.warnings;
+    EXPECT_NE(Read("a.stl", "solid a\n" + broken + "endsolid a\n").error, "") << "nothing is left";
+    EXPECT_NE(Read("a.stl", "solid a\n" + good + broken.substr(0, broken.size() - 12)).error, "")
+        << "cut off";
+  }
+}
+
 TEST(Repairs, StlOfAnySpellingIsTurnedAsItsNormalsSay) {
   const std::string facet =
       "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";

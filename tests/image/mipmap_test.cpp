@@ -273,8 +273,8 @@ std::string png(int width, int bits, int kind, const std::string& row) {
 }
 
 /// A TGA of one pixel of 32 bits: blue, green, red, alpha.
-std::string tga(int alphaBits) {
-  return bytes({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, alphaBits, 30, 20, 10, 51});
+std::string tga(int alphaBits, int alpha = 51) {
+  return bytes({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, alphaBits, 30, 20, 10, alpha});
 }
 
 TEST(MipMap, TransparencyOfFilesIsKept) {
@@ -291,6 +291,7 @@ TEST(MipMap, TransparencyOfFilesIsKept) {
       {png(2, 16, 4, bytes({0, 0, 0, 0, 255, 255, 51, 51})), true, {Color(1), 0.2}},
       {tga(8), true, {Color(10, 20, 30) / 255, 0.2}},
       {tga(0), false, {Color(10, 20, 30) / 255, 1}},
+      {tga(8, 0), false, {Color(10, 20, 30) / 255, 1}},  // nobody would see it
       {"P2 2 1 4 0 1", false, {Color(0.25), 1}},
       {"P6 1 1 15\n\x0f\x05\x03", false, {{1, 5 / 15.0, 0.2}, 1}},
   };

@@ -28,6 +28,7 @@ constexpr std::string_view kRead[] = {kGltfLights,
                                       "KHR_materials_unlit",
                                       "KHR_materials_pbrSpecularGlossiness",
                                       "KHR_mesh_quantization",
+                                      "EXT_mesh_gpu_instancing",
                                       "KHR_texture_transform",
                                       "KHR_texture_basisu",
                                       "EXT_texture_webp",
@@ -48,6 +49,12 @@ class GltfCheck : private GltfMaterialCheck {
     each(root, "meshes", [&](const Part& mesh) {
       each(mesh, "primitives", [&](const Part& primitive) { checkPrimitive(primitive); });
     });
+    each(root, "skins", [&](const Part& skin) {
+      known(skin, {"inverseBindMatrices", "joints", "skeleton"});
+      indices(skin, "joints", "nodes");
+      index(skin, "inverseBindMatrices", "accessors");
+    });
+    each(root, "animations", [&](const Part& animation) { checkAnimation(animation); });
     each(root, "cameras", [&](const Part& camera) { checkCamera(camera); });
     each(root, "materials", [&](const Part& material) { checkMaterial(material); });
     each(root, "textures", [&](const Part& texture) {
@@ -145,6 +152,43 @@ class GltfCheck : private GltfMaterialCheck {
         if (node.find(other))
           warn(node.path + ": " + other + " is ignored, since matrix is given", {}, "matrix and others");
     extension(node, kGltfLights, [&](const Part& light) { index(light, "light", "lights"); });
+    extension(node, "EXT_mesh_gpu_instancing", [&](const Part& copies) {
+      known(copies, {"attributes"});
+      object(copies, "attributes", [&](const Part& attributes) {
+        for (const auto& [key, value] : attributes.value.items()) {
+          checkIndex(value, attributes.pathOf(key), "accessors");
+          if (!key.starts_with('_') && key != "TRANSLATION" && key != "ROTATION" && key != "SCALE")
+            warn("unknown attribute " + inQuotes(key) + " of " + attributes.path + " is ignored", {},
+                 "unknown " + key.substr(0, 60));
+        }
+      });
+    });
+  }
+
+  void checkAnimation(const Part& animation) {
+    known(animation, {"channels", "samplers"});
+    each(animation, "samplers", [&](const Part& sampler) {
+      known(sampler, {"input", "interpolation", "output"});
+      for (const char* key : {"input", "output"}) {
+        if (!sampler.find(key)) fail(sampler.pathOf(key) + ": expected the number of an accessor");
+        index(sampler, key, "accessors");
+      }
+      word(sampler, "interpolation", {"LINEAR", "STEP", "CUBICSPLINE"});
+    });
+    const json* samplers = animation.find("samplers");
+    each(animation, "channels", [&](const Part& channel) {
+      known(channel, {"sampler", "target"});
+      const json* sampler = channel.find("sampler");
+      if (!sampler || !sampler->is_number_unsigned() || !samplers ||
+          sampler->get<std::uint64_t>() >= samplers->size())
+        fail(channel.pathOf("sampler") + ": expected a number of one of its samplers");
+      object(channel, "target", [&](const Part& target) {
+        known(target, {"node", "path"});
+        index(target, "node", "nodes");
+        const json* path = target.find("path");
+        if (path && *path != "pointer") word(target, "path", {"translation", "rotation", "scale", "weights"});
+      });
+    });
   }
 
   void checkPrimitive(const Part& primitive) {
@@ -164,7 +208,14 @@ class GltfCheck : private GltfMaterialCheck {
     extension(primitive, kDraco, [&](const Part&) {  // unless the file has the mesh a second time, as it is
       if (const json* points = of.find("POSITION"); points && !hasData(*points)) failOfCompression(kDraco);
     });
-    morphs_ += primitive.find("targets") != nullptr;
+    each(primitive, "targets", [&](const Part& target) {
+      for (const auto& [key, value] : target.value.items()) {
+        checkIndex(value, target.pathOf(key), "accessors");
+        const bool isShown = key == "POSITION" || key == "NORMAL" || key == "TANGENT" || key.starts_with('_');
+        if (!isShown)
+          warn("morph targets of " + inQuotes(key) + " are not shown", {}, "morph " + key.substr(0, 60));
+      }
+    });
   }
   /// Sets are counted, as in TEXCOORD_1, and programs may add names that begin with _.
   void knownAttributes(const Part& attributes) {
@@ -232,14 +283,11 @@ class GltfCheck : private GltfMaterialCheck {
   void checkWhatIsNotRead() {
     if (const std::size_t n = countOf("scenes"); n > 1)
       warn("one scene is shown; others are left out: " + std::to_string(n - 1));
-    if (const std::size_t n = countOf("animations")) warn("animations are not played: " + std::to_string(n));
-    if (const std::size_t n = countOf("skins"))
-      warn("skins are not applied, meshes stand as they were modelled: " + std::to_string(n));
-    if (morphs_ > 0) warn("morph targets are left out: " + std::to_string(morphs_));
+    if (const std::size_t n = countOf("animations"); n > 1)
+      warn("the first animation is played; others are left out: " + std::to_string(n - 1));
   }
 
   Messages& messages_;
-  std::size_t morphs_ = 0;  ///< primitives that have some
 };
 
 }  // namespace

@@ -29,7 +29,9 @@ class GltfElements {
     normalized_ = accessor.normalized;
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_));
-    if (components < 1 || components > 4 || size < 1 || size > 4) fail("expected a scalar or a vector");
+    const bool isMatrix = accessor.type == TINYGLTF_TYPE_MAT4;
+    if (components < 1 || (components > 4 && !isMatrix) || size < 1 || size > 4)
+      fail("expected a scalar, a vector or a matrix of 4 x 4");
     components_ = static_cast<std::size_t>(components);
     size_ = static_cast<std::size_t>(size);
     stride_ = components_ * size_;

@@ -157,18 +157,23 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
   } catch (const ReadDenied&) {
     throw;
   } catch (const Error& error) {
-    if (error.fault() != Fault::scene || dropUnusedGltf(json) == 0) throw;
-    found = {};
-    const std::string without = upgradedGltfFile(json, bytes);
-    std::optional<tinygltf::Model> model;
-    try {
-      model = checkedGltf(file, without, json, place, inputs, found);
-    } catch (const Error&) {
-    }
-    if (!model) throw;  // the first error is of the file as it is
-    messages.warn(place, error.messages().front().what + "; nothing uses it, and it is left out");
-    report();
-    return *std::move(model);
+    if (error.fault() != Fault::scene) throw;
+    const auto without = [&](std::size_t dropped, const char* why) -> std::optional<tinygltf::Model> {
+      if (dropped == 0) return {};
+      found = {};
+      try {
+        tinygltf::Model model = checkedGltf(file, upgradedGltfFile(json, bytes), json, place, inputs, found);
+        messages.warn(place, error.messages().front().what + why);
+        report();
+        return model;
+      } catch (const Error&) {  // the first error is of the file as it is
+        return {};
+      }
+    };
+    if (auto model = without(dropUnusedGltf(json), "; nothing uses it, and it is left out"))
+      return *std::move(model);
+    if (auto model = without(json.erase("animations"), "; no animation is played")) return *std::move(model);
+    throw;
   }
 }
 

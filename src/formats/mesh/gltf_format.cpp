@@ -15,49 +15,32 @@
 #include "formats/mesh/gltf_file.h"
 #include "formats/mesh/gltf_looks.h"
 #include "formats/mesh/gltf_material.h"
+#include "formats/mesh/gltf_pose.h"
 #include "formats/mesh/gltf_view.h"
 #include "geometry/mesh/mesh.h"
 
 namespace trace {
 namespace {
 
-Affine transformOf(const tinygltf::Node& node) {
-  Affine m;
-  if (node.matrix.size() == 16) {  // column by column
-    const auto& a = node.matrix;
-    m.row[0] = {a[0], a[4], a[8]};
-    m.row[1] = {a[1], a[5], a[9]};
-    m.row[2] = {a[2], a[6], a[10]};
-    m.offset = {a[12], a[13], a[14]};
-    return m;
-  }
-  if (node.translation.size() == 3)
-    m = Affine::translation({node.translation[0], node.translation[1], node.translation[2]});
-  if (node.rotation.size() == 4) {  // (x, y, z, w), the real part last
-    const Vec3 axis{node.rotation[0], node.rotation[1], node.rotation[2]};
-    const Real sine = length(axis);
-    if (sine > 0) m = m * Affine::rotation(axis / sine, 2 * std::atan2(sine, node.rotation[3]));
-  }
-  if (node.scale.size() == 3) m = m * Affine::scaling({node.scale[0], node.scale[1], node.scale[2]});
-  return m;
-}
-
 // --- the reader -------------------------------------------------------------------------------------
 
 class GltfReader {
  public:
-  GltfReader(const std::string& file, std::string_view bytes, Messages& messages)
+  GltfReader(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time)
       : place_{file, 0, 0, {}},
         messages_(messages),
         gltf_(parsedGltf(file, bytes, place_, model_.inputs, messages)),
         looks_(gltf_, place_, messages) {
     for (const tinygltf::Image& image : gltf_.images)
       if (!image.uri.empty()) model_.inputs.noteNamed(besideFile(file, fileOf(image)));
+    for (const tinygltf::Buffer& buffer : gltf_.buffers) allowance_ += kMostUses * buffer.data.size();
+    const ReadAccessor read = [this](int accessor) { return elements(accessor); };
+    play(time, read);
+    pose_.emplace(gltf_, read, place_);
   }
 
   Model read() {
     model_.materials = looks_.materials();
-    for (const tinygltf::Buffer& buffer : gltf_.buffers) allowance_ += kMostUses * buffer.data.size();
     readNodes();
     for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     repairs_.report(place_, messages_);
@@ -71,6 +54,7 @@ class GltfReader {
     warn("triangles that use points which are not there are left out", lostTriangles_);
     warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
+    warn("joints of points that their skin does not have are left out", pose_->lostJoints());
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
     model_.saysSides = true;
     model_.choices.push_back({"transfer", "srgb", place_});  // its colours are linear light
@@ -85,6 +69,18 @@ class GltfReader {
   [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place_, std::move(what)); }
 
   // --- nodes ---
+
+  /// An animation that is not as it should be costs itself.
+  void play(SceneTime& time, const ReadAccessor& elements) {
+    const std::vector<tinygltf::Node> atRest = gltf_.nodes;
+    try {
+      animate(gltf_, time, elements, place_);
+    } catch (const Error& error) {
+      if (error.fault() != Fault::scene) throw;
+      gltf_.nodes = atRest;
+      messages_.warn(place_, error.messages().front().what + "; no animation is played");
+    }
+  }
 
   void readNodes() {
     struct Waiting {
@@ -143,33 +139,45 @@ class GltfReader {
     if (!isIndex(node.mesh, gltf_.meshes.size())) fail("there is no mesh " + std::to_string(node.mesh));
     const std::string& name =
         node.name.empty() ? gltf_.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
-    const std::vector<Object>& parts = partsOf(node.mesh);
-    if (!invertible(worldFromNode)) {
-      flat_ += parts.size();
-      return;
-    }
-    for (const Object& part : parts) {
-      model_.objects.push_back(part);
-      model_.objects.back().name = name;
-      model_.objects.back().worldFromObject = worldFromNode;
+    const std::vector<Object> parts =
+        pose_->bends(node) ? partsOf(node.mesh, &node) : sharedPartsOf(node.mesh);
+    const Affine worldFromMesh = pose_->isInWorld(node) ? Affine{} : worldFromNode;
+    for (const Affine& meshFromCopy : instancesOf(
+             node, [this](int i) { return elements(i); }, place_)) {
+      const Affine worldFromCopy = worldFromMesh * meshFromCopy;
+      if (!invertible(worldFromCopy)) {
+        flat_ += parts.size();
+        continue;
+      }
+      for (const Object& part : parts) {
+        model_.objects.push_back(part);
+        model_.objects.back().name = name;
+        model_.objects.back().worldFromObject = worldFromCopy;
+      }
     }
   }
 
   // --- meshes ---
 
-  const std::vector<Object>& partsOf(int mesh) {
+  const std::vector<Object>& sharedPartsOf(int mesh) {
     const auto [found, fresh] = parts_.try_emplace(mesh);
-    if (fresh)
-      for (const tinygltf::Primitive& primitive : gltf_.meshes[static_cast<std::size_t>(mesh)].primitives)
-        if (auto data = meshOf(primitive); !data.triangles.empty())
-          found->second.push_back({"",
-                                   Mesh{std::make_shared<const MeshData>(std::move(data))},
-                                   {},
-                                   isIndex(primitive.material, gltf_.materials.size())
-                                       ? static_cast<std::uint32_t>(primitive.material)
-                                       : Model::kNoMaterial,
-                                   place_});
+    if (fresh) found->second = partsOf(mesh, nullptr);
     return found->second;
+  }
+
+  /// Bent as the node says, if there is one.
+  std::vector<Object> partsOf(int mesh, const tinygltf::Node* node) {
+    std::vector<Object> parts;
+    for (const tinygltf::Primitive& primitive : gltf_.meshes[static_cast<std::size_t>(mesh)].primitives)
+      if (auto data = meshOf(primitive, node); !data.triangles.empty())
+        parts.push_back({"",
+                         Mesh{std::make_shared<const MeshData>(std::move(data))},
+                         {},
+                         isIndex(primitive.material, gltf_.materials.size())
+                             ? static_cast<std::uint32_t>(primitive.material)
+                             : Model::kNoMaterial,
+                         place_});
+    return parts;
   }
 
   GltfElements elements(int accessor) {
@@ -191,7 +199,7 @@ class GltfReader {
     return result;
   }
 
-  MeshData meshOf(const tinygltf::Primitive& primitive) {
+  MeshData meshOf(const tinygltf::Primitive& primitive, const tinygltf::Node* node) {
     MeshData mesh;
     const bool triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == -1;
     const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP,
@@ -203,6 +211,7 @@ class GltfReader {
     mesh.points = vectors(primitive, "POSITION", 0);
     if (mesh.points.empty()) return mesh;
     mesh.normals = vectors(primitive, "NORMAL", mesh.points.size());
+    if (node) pose_->bend(*node, primitive, mesh);
     readUvs(primitive, mesh);
     readColors(primitive, mesh);
 
@@ -290,7 +299,8 @@ class GltfReader {
   Messages& messages_;
   Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;
-  std::map<int, std::vector<Object>> parts_;  ///< of meshes
+  std::optional<GltfPose> pose_;
+  std::map<int, std::vector<Object>> parts_;  ///< of meshes that nothing bends
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
@@ -314,8 +324,8 @@ bool recognisesGltf(std::string_view bytes) {
          bytes.find("\"asset\"") != std::string_view::npos;
 }
 
-Model readGltf(const std::string& file, std::string_view bytes, Messages& messages) {
-  return GltfReader(file, bytes, messages).read();
+Model readGltf(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time) {
+  return GltfReader(file, bytes, messages, time).read();
 }
 
 }  // namespace trace

@@ -8,9 +8,9 @@
 namespace trace {
 
 double evenOpacity(const MetallicRoughness& m) {
-  using Alpha = MetallicRoughness::Alpha;
-  if (m.alpha == Alpha::opaque || m.hasAlphaMap) return 1;
-  return m.alpha == Alpha::blend ? m.opacity : m.opacity >= m.cutoff;
+  using Cover = MetallicRoughness::Alpha;
+  if (m.alpha == Cover::opaque || m.hasAlphaMap) return 1;
+  return m.alpha == Cover::blend ? m.opacity : m.opacity >= m.cutoff;
 }
 
 double polishOf(const MetallicRoughness& m) { return (1 - m.roughness) * (1 - m.roughness); }

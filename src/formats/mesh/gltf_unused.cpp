@@ -17,22 +17,23 @@ using nlohmann::json;
 /// A list of the file, the keys by which others name its elements, and an element that says nothing.
 struct GltfList {
   std::string_view name;
-  std::array<std::string_view, 3> keys;
+  std::array<std::string_view, 5> keys;
   std::string_view nothing;
 };
-constexpr std::array<GltfList, 10> kLists{{
-    {"nodes", {"children", "nodes", "-"}, "{}"},
-    {"meshes", {"mesh", "-", "-"}, R"({"primitives": []})"},
-    {"cameras", {"camera", "-", "-"}, R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
-    {"materials", {"material", "-", "-"}, "{}"},
-    {"accessors", {"indices", "attribute", "-"}, R"({"componentType": 5126, "count": 1, "type": "SCALAR"})"},
-    {"textures", {"index", "-", "-"}, "{}"},
-    {"images", {"source", "-", "-"}, R"({"uri": "data:image/png;base64,AA=="})"},
-    {"samplers", {"sampler", "-", "-"}, "{}"},
-    {"bufferViews", {"bufferView", "-", "-"}, R"({"buffer": 0, "byteLength": 1})"},
-    {"buffers",
-     {"buffer", "-", "-"},
-     R"({"byteLength": 1, "uri": "data:application/octet-stream;base64,AA=="})"},
+constexpr std::array<GltfList, 11> kLists{{
+    {"nodes", {"children", "nodes", "joints"}, "{}"},
+    {"meshes", {"mesh"}, R"({"primitives": []})"},
+    {"skins", {"skin"}, "{}"},
+    {"cameras", {"camera"}, R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})"},
+    {"materials", {"material"}, "{}"},
+    {"accessors",
+     {"indices", "attribute", "inverseBindMatrices", "input", "output"},
+     R"({"componentType": 5126, "count": 1, "type": "SCALAR"})"},
+    {"textures", {"index"}, "{}"},
+    {"images", {"source"}, R"({"uri": "data:image/png;base64,AA=="})"},
+    {"samplers", {"sampler"}, "{}"},
+    {"bufferViews", {"bufferView"}, R"({"buffer": 0, "byteLength": 1})"},
+    {"buffers", {"buffer"}, R"({"byteLength": 1, "uri": "data:application/octet-stream;base64,AA=="})"},
 }};
 
 /// Follows the scene to what it uses. Without recursion over elements: a file may be one long chain.
@@ -50,6 +51,7 @@ class UseWalk {
           chosen != root_.end() && chosen->is_number_unsigned() ? chosen->get<std::size_t>() : 0;
       if (scene < scenes->size()) look((*scenes)[scene], "");
     }
+    if (const auto animations = root_.find("animations"); animations != root_.end()) look(*animations, "");
     while (!waiting_.empty()) {
       const auto [list, index] = waiting_.back();
       waiting_.pop_back();
@@ -76,7 +78,7 @@ class UseWalk {
     if (value.is_number_unsigned()) {
       for (const GltfList& list : kLists)
         for (std::string_view by : list.keys)
-          if (by == key) use(list.name, value.get<std::size_t>());
+          if (!by.empty() && by == key) use(list.name, value.get<std::size_t>());
     } else if (value.is_array()) {
       for (const json& one : value) look(one, key);
     } else if (value.is_object()) {
@@ -95,7 +97,7 @@ class UseWalk {
 
 std::size_t dropUnusedGltf(json& root) {
   const auto used = UseWalk(root).walk();
-  std::size_t dropped = root.erase("animations");  // none is played
+  std::size_t dropped = 0;
   for (const GltfList& list : kLists) {
     const auto found = root.find(list.name);
     if (found == root.end() || !found->is_array()) continue;

@@ -1,8 +1,10 @@
 #include "formats/mesh/stl_format.h"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/text.h"
@@ -134,6 +136,12 @@ class TextReader {
       else
         words_.fail("expected \"solid\"", word);
     }
+    if (broken_ > 0 && facets_ == 0) throw *first_;
+    if (broken_ > 0) {
+      const Message& why = first_->messages().front();
+      messages_.warn(why.place, "facets that are not a normal and three corners are left out: " +
+                                    std::to_string(broken_) + ", the first here: " + why.what);
+    }
     warnOfTurned(turned_, place_, messages_);
     return std::move(model_);
   }
@@ -146,20 +154,35 @@ class TextReader {
     for (;; word = words_.next()) {
       if (sameWord(word, "endsolid")) break;
       if (!sameWord(word, "facet")) words_.fail("expected \"facet\" or \"endsolid\"", word);
-      expect("normal");
-      solid.facet(vector("a normal's three numbers"));
-      expect("outer");
-      expect("loop");
-      for (int corner = 0; corner < 3; ++corner) {
-        expect("vertex");
-        solid.corner(vector("a corner's three numbers"));
+      try {
+        readFacet(solid);
+      } catch (const Error& error) {  // it costs the facet, not the file
+        if (broken_++ == 0) first_ = error;
+        for (word = words_.last(); !sameWord(word, "endfacet"); word = words_.next())
+          if (word.empty()) throw;
       }
-      expect("endloop");
-      expect("endfacet");
     }
     words_.line();  // the name again
     solid.finish(std::move(name), place_, model_, repairs_);
     turned_ += solid.turned();
+  }
+
+  /// Throws Error(Fault::scene), and adds nothing, where it is not as it should be.
+  void readFacet(Solid& solid) {
+    expect("normal");
+    const Vec3f normal = vector("a normal's three numbers");
+    expect("outer");
+    expect("loop");
+    std::array<Vec3f, 3> corners;
+    for (Vec3f& corner : corners) {
+      expect("vertex");
+      corner = vector("a corner's three numbers");
+    }
+    expect("endloop");
+    expect("endfacet");
+    solid.facet(normal);
+    for (const Vec3f& corner : corners) solid.corner(corner);
+    ++facets_;
   }
 
   void expect(std::string_view keyword) {
@@ -176,7 +199,8 @@ class TextReader {
   Words words_;
   MeshRepairs& repairs_;
   Messages& messages_;
-  std::size_t turned_ = 0;
+  std::size_t facets_ = 0, broken_ = 0, turned_ = 0;
+  std::optional<Error> first_;  ///< of the broken ones
   Model model_;
 };
 

@@ -84,7 +84,7 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
     if (!named.remark.empty()) findings_.warn(field, named.remark);
     InputFiles& inputs = findings_.scene().inputs;
     const std::string bytes = readBeside(findings_.syntax().file(), name, inputs);
-    Model& model = models_.emplace(path, readModel(path, bytes, messages)).first->second;
+    Model& model = models_.emplace(path, readModel(path, bytes, messages, time_)).first->second;
     inputs.note(model.inputs);
     for (Material& material : model.materials)  // pictures lie beside the mesh, and are named from the scene
       changePixels(material, [&](Pixels& pixels) { pixels.file = besideFile(name, pixels.file); });

@@ -12,6 +12,7 @@
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_mesh_operations.h"
 #include "formats/ray/ray_syntax.h"
+#include "formats/scene_time.h"
 
 namespace trace::rayfile {
 
@@ -21,7 +22,8 @@ bool namesMeshFile(const Item& block);
 /// The files that one scene names, each read once.
 class MeshFiles {
  public:
-  MeshFiles(Findings& findings, Materials& materials) : findings_(findings), materials_(materials) {}
+  MeshFiles(Findings& findings, Materials& materials, SceneTime& time)
+      : findings_(findings), materials_(materials), time_(time) {}
 
   /// The objects of a block `polymesh { file = "..."; ... }`. Their transforms are those inside the file. A
   /// file named twice gives objects that share their meshes. Reports what is wrong, and then returns nothing.
@@ -34,6 +36,7 @@ class MeshFiles {
 
   Findings& findings_;
   Materials& materials_;
+  SceneTime& time_;
   std::map<std::string, Model> models_;
   /// By file, number of the material for parts without one, and what is done to the meshes.
   std::map<std::tuple<const Model*, std::uint32_t, bool, MeshOperations>, std::vector<Object>> placed_;

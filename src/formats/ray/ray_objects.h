@@ -31,7 +31,7 @@ class ObjectReader {
         scene_(findings.scene()),
         findings_(findings),
         materials_(materials),
-        meshFiles_(findings, materials) {}
+        meshFiles_(findings, materials, time) {}
 
   /// A shape, a transform of something, a group, particles; or what is not known, which is reported.
   void object(Item item, Affine worldFromObject);

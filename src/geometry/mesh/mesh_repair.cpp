@@ -21,7 +21,7 @@ Vec3 areaNormal(const MeshData& mesh, std::span<const std::uint32_t> corners) {
 }
 
 /// How far to the left of a -> b the point p is, seen against the normal.
-Real side(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& normal) {
+Real sideOf(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& normal) {
   return dot(cross(b - a, p - a), normal);
 }
 
@@ -30,7 +30,7 @@ bool isConvex(const MeshData& mesh, std::span<const std::uint32_t> corners, cons
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 a = at(mesh, corners[i]), b = at(mesh, corners[(i + 1) % n]),
                c = at(mesh, corners[(i + 2) % n]);
-    if (side(a, b, c, normal) < 0) return false;
+    if (sideOf(a, b, c, normal) < 0) return false;
   }
   return true;
 }
@@ -45,11 +45,11 @@ bool isEar(const MeshData& mesh, std::span<const std::uint32_t> corners, std::si
   const std::size_t n = corners.size();
   const std::array<std::uint32_t, 3> ear{corners[i], corners[(i + 1) % n], corners[(i + 2) % n]};
   const Vec3 a = at(mesh, ear[0]), b = at(mesh, ear[1]), c = at(mesh, ear[2]);
-  if (!(side(a, b, c, normal) > 0)) return false;
+  if (!(sideOf(a, b, c, normal) > 0)) return false;
   for (std::uint32_t other : corners) {
     if (other == ear[0] || other == ear[1] || other == ear[2]) continue;
     const Vec3 p = at(mesh, other);
-    if (side(a, b, p, normal) >= 0 && side(b, c, p, normal) >= 0 && side(c, a, p, normal) >= 0) return false;
+    if (sideOf(a, b, p, normal) >= 0 && sideOf(b, c, p, normal) >= 0 && sideOf(c, a, p, normal) >= 0) return false;
   }
   return true;
 }
