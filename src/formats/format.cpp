@@ -155,12 +155,14 @@ FoundFormat formatOf(const std::string& file, std::string_view bytes, const char
     if (!wanted(format)) continue;
     if (format.recognises(bytes)) return {format};
     isNamed = isNamed || hasSuffix(format, suffix);
-    known += (known.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
+    known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
   for (const SceneFormat& format : sceneFormats())
     if (wanted(format) && format.mayBe && hasSuffix(format, suffix) && format.mayBe(bytes))
       return {format, named};
-  const std::string found = isNamed ? named + "holds " : "expected " + std::string(expected) + ", found ";
+  const std::string found = isNamed && bytes.empty() ? named + "it is "
+                            : isNamed                ? named + "holds "
+                                                     : "expected " + std::string(expected) + ", found ";
   throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kindOf(bytes), "formats Trace reads: " + known);
 }
 
@@ -175,7 +177,7 @@ auto asNamed(const FoundFormat& format, Read&& read) {
   } catch (const Error& error) {
     if (error.fault() != Fault::scene) throw;
     Message message = error.messages().front();
-    message.what = format.byName + message.what;
+    message.what = format.byName + "it is not sound: " + message.what;
     throw Error(error.fault(), {message});
   }
 }

@@ -103,7 +103,8 @@ std::span<const KnownFormat> knownFormats() {
       KnownFormat{"off", "OFF", "Text. A file called `.off` may lack its first word.", knownOffFields()},
       KnownFormat{
           "gltf", "glTF 2.0",
-          "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, shaders and "
+          "Text and binary. A file of version 1.0 is read as one of 2.0, without its techniques, shaders, "
+          "skins and "
           "lights. A value out of its range is a warning. Invalid JSON is an error with line and column.",
           knownGltfFields()},
       KnownFormat{

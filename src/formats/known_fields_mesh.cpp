@@ -23,7 +23,7 @@ constexpr std::array kObjRows{
     KnownField{"f -1", kShown, "counted backwards from the last point"},
     KnownField{"f v/vt", kShown, ""},
     KnownField{"f v//vn", kShown, ""},
-    KnownField{"fo", kReported, "an old word for f"},
+    KnownField{"fo", kShown, "an old word for f"},
     KnownField{"o", kShown, "an object"},
     KnownField{"g", kShown, "an object"},
     KnownField{"s", kReported, "smoothing groups, where there are no normals"},

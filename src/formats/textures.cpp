@@ -122,6 +122,10 @@ void UnusedTextures::report(Messages& messages, std::string_view instead) const 
 
 void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) const {
   if (names_.empty()) return;
+  constexpr std::string_view kAgain = "cannot read ";
+  if (reason.starts_with(kAgain)) reason.remove_prefix(kAgain.size());
+  const std::string name = "\"" + names_.front() + "\": ";
+  if (names_.size() == 1 && reason.starts_with(name)) reason.remove_prefix(name.size());
   messages.warn(place_, list() + " cannot be read: " + std::string(reason),
                 "a checker of magenta and black shows instead");
 }

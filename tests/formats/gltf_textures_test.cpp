@@ -203,6 +203,23 @@ TEST(GltfVersion1, ColoursAreShownAsTheyAre) {
   EXPECT_NEAR(phong.transmissive.g, 0.75, 1e-12);
 }
 
+TEST(GltfVersion1, ItsAnimationsArePlayedTogether) {
+  std::string text = gltf1(false);
+  text.replace(text.find("\"techniques\""), 0, R"("animations": {
+"a": {"channels": [{"sampler": "x", "target": {"id": "below", "path": "translation"}}],
+      "parameters": {"TIME": "when", "translation": "where"}, "samplers": {"x": {"input": "TIME", "output": "translation"}}},
+"b": {"channels": [{"sampler": "x", "target": {"id": "top", "path": "translation"}}],
+      "parameters": {"TIME": "when", "translation": "top"}, "samplers": {"x": {"input": "TIME", "output": "translation"}}}}, )");
+  const std::string view = R"("bufferView": "v", "componentType": 5126, "count": 1)";
+  text.replace(text.find("\"accessors\": {") + 14, 0,
+               "\"when\": {" + view + R"(, "type": "SCALAR"}, "where": {"byteOffset": 20, )" + view +
+                   R"(, "type": "VEC3"}, "top": {"byteOffset": 36, )" + view + R"(, "type": "VEC3"}, )");
+  const Read read("a.gltf", text);
+  EXPECT_EQ(read.warnings(), "");
+  ASSERT_EQ(read.scene.objects.size(), 2u);
+  EXPECT_EQ(read.scene.objects[0].worldFromObject.offset, (Vec3{1, 0, 1})) << "the sum of both keys";
+}
+
 TEST(GltfVersion1, NamesOfNothingAreErrors) {
   std::string text = gltf1(false);
   text.replace(text.find("\"one\", \"two\""), 12, "\"one\", \"tow\"");

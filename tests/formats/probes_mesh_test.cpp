@@ -29,7 +29,7 @@ TEST(Probes, OfObj) {
       {"f v/vt", points + "vt 0 0\nvt 1 0\nvt 0 1\n" + face,
        points + "vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"},
       {"f v//vn", points + "vn 0 1 1\n" + face, points + "vn 0 1 1\nf 1//1 2//1 3//1\n"},
-      {"fo", plain, plain + "fo 1 2 3\nfo 1 2 3\n", "curves and surfaces"},
+      {"fo", points + "v 1 1 0\n" + face, points + "v 1 1 0\nfo 1 2 4 3\n"},
       {"o", plain, points + "o table\n" + face},
       {"g", plain, points + "g table\n" + face},
       row("s", "s 1", "smoothing groups"),

@@ -364,10 +364,9 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(phongOf(scene, 0).specular, Color(1));
   EXPECT_EQ(phongOf(scene, 0).shininess, 128) << "a picture has exponents from 0 to 128";
   EXPECT_TRUE(scene.materials[scene.objects[1].material].textures.empty());
-  EXPECT_EQ(
-      warningsOf(text),
-      "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: cannot read \"a.bmp\": No such "
-      "file or directory [a checker of magenta and black shows instead]");
+  EXPECT_EQ(warningsOf(text),
+            "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: \"a.bmp\": No such "
+            "file or directory [a checker of magenta and black shows instead]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------

@@ -102,7 +102,7 @@ class Upgrade {
       return scene;
     });
     link(root_, to_, "scene", "scenes");
-    if (const std::size_t n = object(root_, "animations").size()) to_["animations"] = json(n, json::object());
+    if (!object(root_, "animations").empty()) to_["animations"] = {animation()};
     return std::move(to_);
   }
 
@@ -188,6 +188,32 @@ class Upgrade {
       copy(inside, result, {"mimeType"});
     }
     return result;
+  }
+
+  /// All as one: exporters made one for each thing that moves. A sampler names parameters, which name
+  /// accessors.
+  json animation() const {
+    json samplers = json::array(), channels = json::array();
+    for (const json& from : object(root_, "animations")) {
+      const json &parameters = object(from, "parameters"), &list = member(from, "channels");
+      for (const json& channel : list.is_array() ? list : json::array()) {
+        const json &name = member(channel, "sampler"), &target = object(channel, "target");
+        const json& old = name.is_string()
+                              ? object(object(from, "samplers"), name.get_ref<const std::string&>().c_str())
+                              : object({}, "");
+        json sampler = json::object(), to = json::object();
+        copy(old, sampler, {"interpolation"});
+        for (const char* key : {"input", "output"})
+          if (const json& parameter = member(old, key); parameter.is_string())
+            sampler[key] =
+                numberOf(member(parameters, parameter.get_ref<const std::string&>().c_str()), "accessors");
+        copy(target, to, {"path"});
+        if (const json& node = member(target, "id"); !node.is_null()) to["node"] = numberOf(node, "nodes");
+        channels.push_back({{"sampler", samplers.size()}, {"target", std::move(to)}});
+        samplers.push_back(std::move(sampler));
+      }
+    }
+    return {{"samplers", std::move(samplers)}, {"channels", std::move(channels)}};
   }
 
   // --- looks ---

@@ -61,7 +61,7 @@ float whiteOf(const std::vector<Vec3f>& colors) {
 
 /// Keywords of the format, in lower case.
 constexpr std::array<std::string_view, 2> kThin{"l", "p"};
-constexpr std::array<std::string_view, 4> kCurved{"curv", "curv2", "surf", "fo"};
+constexpr std::array<std::string_view, 3> kCurved{"curv", "curv2", "surf"};
 /// Keywords of curves and surfaces, which are reported by themselves.
 constexpr std::array<std::string_view, 15> kOfCurves{"vp",   "cstype", "deg",   "bmat",  "step",
                                                      "parm", "trim",   "hole",  "scrv",  "sp",
@@ -158,7 +158,7 @@ class ObjReader {
       normals_.push_back(vector<3>(text, words, "vn", 3));
     else if (key == "vt")
       uv(text, words);
-    else if (key == "f")
+    else if (key == "f" || key == "fo")  // an old word for it
       faceLine(at, words);
     else if (key == "usemtl")
       useMaterial(at, words);
