@@ -122,6 +122,25 @@ TEST(Inventor, LightsAreMovedAndMayBeOff) {
   EXPECT_EQ(std::get<AmbientLight>(scene.lights[2].light).color, Color(0.5));
 }
 
+TEST(Inventor, OneLargeMeshIsNoNodeUsedTooOften) {
+  std::string faces;
+  constexpr int kFaces = 300'000;
+  for (int i = 0; i < kFaces; ++i) faces += "0,1,2,-1,";
+  const std::string text =
+      iv("Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } IndexedFaceSet { coordIndex [ " + faces + " ] }");
+  EXPECT_EQ(meshOf(sceneIn(text), 0).triangles.size(), static_cast<std::size_t>(kFaces));
+  std::string often =
+      "#Inventor V2.1 ascii\nCoordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] } DEF a IndexedFaceSet { coordIndex "
+      "[ " +
+      faces.substr(0, 9'000) + " ] }";
+  for (int i = 0; i < 12; ++i) {
+    const std::string name(1, static_cast<char>('b' + i)), below(1, static_cast<char>('a' + i));
+    often += " DEF " + name + " Separator { USE " + below + " Scale { scaleFactor 2 1 1 } USE " + below +
+             " USE " + below + " }";
+  }
+  EXPECT_THROW(sceneIn(often), Error) << "a small file must not become endless work";
+}
+
 TEST(Inventor, WithoutLightsThereIsAHeadlight) {
   const Scene scene = sceneIn(vrml2("Viewpoint { } Shape { geometry Box { } }"));
   ASSERT_EQ(scene.lights.size(), 1u);

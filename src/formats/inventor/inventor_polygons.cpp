@@ -21,7 +21,6 @@ bool Reader::addAgain(const Values& v, const State& state) {
 }
 
 void Reader::mesh(const Values& v, const State& state, const Surface& surface, const Bindings& bind) {
-  constexpr std::size_t kCornersOfWork = 32;
   spend(surface.outline.points.size() / kCornersOfWork, v.node());
   const Outline& outline = surface.outline;
   if (outline.bad > 0)

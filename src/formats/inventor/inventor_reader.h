@@ -60,7 +60,9 @@ class Reader {
 
   void walk();
   void visit(NodeIn at, State& state);
-  /// Nodes that are used again and again could make a small file endless work.
+  /// Nodes that are used again and again could make a small file endless work. A node is a unit of it, and so
+  /// are some corners of faces.
+  static constexpr std::size_t kCornersOfWork = 32;
   void spend(std::size_t work, const Node& node);
   /// Only the first node of a PROTO is to be seen; the others are there for routes.
   void proto(NodeIn at, State& state);

@@ -325,6 +325,7 @@ Place Document::place(const Token& token) const {
 
 Document::Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles)
     : version_(versionOf(file, firstLine(bytes))),
+      size_(bytes.size()),
       tokens_(std::move(file), bytes, kInventorTokens),
       ownFiles_(protoFiles ? nullptr : std::make_unique<ProtoFiles>()),
       protoFiles_(protoFiles ? protoFiles : ownFiles_.get()) {

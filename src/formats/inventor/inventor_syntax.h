@@ -66,6 +66,7 @@ class Document {
   bool oldCrease() const { return oldCrease_; }  ///< the default creaseAngle is 0.5
   const std::vector<const Node*>& roots() const { return roots_; }
   std::size_t nodeCount() const { return nodes_.size(); }
+  std::size_t size() const { return size_; }  ///< of its text, in bytes
   const std::string& file() const { return tokens_.file(); }
   /// Of a token of this file, or of one whose PROTOs it uses.
   Place place(const Token& token) const;
@@ -76,6 +77,7 @@ class Document {
   friend class Parser;
 
   Version version_;
+  std::size_t size_;
   bool oldCrease_ = false;
   Tokens tokens_;
   std::vector<std::unique_ptr<Node>> nodes_;

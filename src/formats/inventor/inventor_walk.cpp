@@ -127,9 +127,10 @@ void Reader::visit(NodeIn at, State& state) {
 }
 
 void Reader::spend(std::size_t work, const Node& node) {
-  constexpr std::size_t kAnyFile = 20000, kTimes = 20;
+  constexpr std::size_t kAnyFile = 20000, kTimes = 20,
+                        kBytesOfWork = 2 * kCornersOfWork;  // a corner has 2 or more
   spent_ += work;
-  if (spent_ > kAnyFile + kTimes * document_.nodeCount())
+  if (spent_ > kAnyFile + kTimes * (document_.nodeCount() + document_.size() / kBytesOfWork))
     throw Error(Fault::limit, document_.place(node.token),
                 "expected less work for a file of this size: its nodes are used again too often");
 }
