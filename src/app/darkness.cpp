@@ -283,7 +283,12 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
     }
     if (there > 0 && darkThere < kMostSeen * there) return {};
     const auto cure = cureOf(scene, settings, world, seen);
-    if (!cure) return {};
+    constexpr double kBlack = 1e-3;
+    if (!cure && level > kBlack) return {};
+    if (!cure)
+      return Message{
+          Message::Severity::warning, Place{.file = scene.file}, "the picture is black",
+          "`ray lint` looks for the cause, and `ray explain --pixel X,Y` follows the rays of a pixel"};
     char share[100];
     std::snprintf(share, sizeof share,
                   "%.0f %% of the picture is darker than level 2 of 255, its mean level is %.2g",

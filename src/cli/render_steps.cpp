@@ -101,7 +101,12 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files) {
   Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
-  if (result.end != End::finished) return checkpoint.exists() ? "; the same command goes on from there" : "";
+  if (result.end != End::finished) {
+    const bool never = arguments.resume == Resume::never;
+    if (!checkpoint.exists()) return "";
+    return never ? "; without --resume=never the same command goes on from there"
+                 : "; the same command goes on from there";
+  }
   if (arguments.resume != Resume::keep) checkpoint.remove(session.film());
   return "";
 }

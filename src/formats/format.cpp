@@ -164,7 +164,12 @@ FoundFormat formatOf(const std::string& file, std::string_view bytes, const char
   const std::string found = isNamed && bytes.empty() ? named + "it is "
                             : isNamed                ? named + "holds "
                                                      : "expected " + std::string(expected) + ", found ";
-  throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kindOf(bytes), "formats Trace reads: " + known);
+  const std::string kind = kindOf(bytes);
+  const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
+  const bool lacksHeader = isText && isNamed && suffix == ".ray";
+  throw Error(
+      Fault::scene, Place{file, 0, 0, {}}, found + kind,
+      lacksHeader ? "the first line of a .ray file is: SBT-raytracer 1.1" : "formats Trace reads: " + known);
 }
 
 /// read(); if only the name told the format, errors say so.
@@ -225,6 +230,19 @@ Model modelBy(const SceneFormat& row, const std::string& file, std::string_view 
   return row.readModelAt ? row.readModelAt(file, text, messages, time) : row.readModel(file, text, messages);
 }
 
+/// Of a model that moves, at some moments from its first key to its last: one camera sees all of it.
+Box3 boundsOverTime(const SceneFormat& row, const std::string& file, std::string_view text,
+                    const std::pair<Real, Real>& keys) {
+  constexpr int kMoments = 5;
+  Box3 all;
+  for (int i = 0; i < kMoments; ++i) {
+    Messages told;  // of the model before
+    SceneTime moment(keys.first + (keys.second - keys.first) * i / (kMoments - 1));
+    all.extend(bounds(sceneOf(modelBy(row, file, text, told, moment), file, row.name)));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::span<const SceneFormat> sceneFormats() { return kFormats; }
@@ -259,7 +277,9 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
     return asNamed(format, [&] {
       if (format.row.readAt) return format.row.readAt(file, text, messages, time);
       if (format.row.read) return format.row.read(file, text, messages);
-      return sceneOf(modelBy(format.row, file, text, messages, time), file, format.row.name);
+      Model model = modelBy(format.row, file, text, messages, time);
+      if (model.keys && !model.camera) model.framed = boundsOverTime(format.row, file, text, *model.keys);
+      return sceneOf(std::move(model), file, format.row.name);
     });
   });
   InputFiles inputs;

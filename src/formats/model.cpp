@@ -158,7 +158,7 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
       scene.unusedMaterials.push_back({material.name, Place{.file = file}});
   scene.inputs = std::move(model.inputs);
   scene.choices = std::move(model.choices);
-  scene.camera = model.camera ? *model.camera : framing(bounds(scene));
+  scene.camera = model.camera ? *model.camera : framing(model.framed.value_or(bounds(scene)));
   scene.lights = model.lights.empty() ? plainLights(scene.camera) : std::move(model.lights);
   return scene;
 }

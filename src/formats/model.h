@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
@@ -28,7 +29,11 @@ struct Model {
   /// Where the file colours its points: MeshData::materials are indices into these, which stand for the
   /// object's material with this colour as diffuse and ambient.
   std::vector<Color> colors;
-  InputFiles inputs;       ///< files that this one names
+  InputFiles inputs;  ///< files that this one names
+  /// Seconds of the first and the last key, if something moves.
+  std::optional<std::pair<Real, Real>> keys;
+  /// What the camera of a scene of its own has whole in the picture, where that is not just its objects.
+  std::optional<Box3> framed;
   bool saysSides = false;  ///< the format knows Material::sides; otherwise a file by itself shows both
 };
 

@@ -1239,7 +1239,7 @@ const std::array kOptions{
          .unit = "seconds"}),
     row<&Settings::maxMemory>({.name = "max-memory",
                                .group = "Resources",
-                               .help = "memory that a scene may take; 0 allows half of what the machine has",
+                               .help = "MiB of memory that a scene may take; 0 allows half of what the machine has",
                                .source = "",
                                .repeats = Repeats::nothing,
                                .least = 0,

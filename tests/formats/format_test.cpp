@@ -34,10 +34,14 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
   std::string formats;
   for (const SceneFormat& format : sceneFormats())
     formats += (formats.empty() ? "" : ", ") + std::string(format.name);
+  const auto hintFor = [&](std::string_view kind) {
+    const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
+    return isText ? "the first line of a .ray file is: SBT-raytracer 1.1" : "formats Trace reads: " + formats;
+  };
   for (const auto& [bytes, kind] : cases)
     EXPECT_EQ(errorsOfFile(bytes), std::string("0:0: named .ray, but ") +
-                                       (bytes.empty() ? "it is " : "holds ") + std::string(kind) +
-                                       " [formats Trace reads: " + formats + "]");
+                                       (bytes.empty() ? "it is " : "holds ") + std::string(kind) + " [" +
+                                       hintFor(kind) + "]");
 }
 
 TEST(Format, ReadsFilesByName) {

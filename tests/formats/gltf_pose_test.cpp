@@ -56,6 +56,15 @@ TEST(GltfPose, KeysMoveANodeAndHoldBeforeAndAfter) {
   EXPECT_FALSE(changesWithTime("a.gltf", Square().text()));
 }
 
+TEST(GltfPose, OneCameraSeesTheWholeAnimation) {
+  const Square square = animated("translation", {0, 0, 0, 9, 0, 0}, 3, "LINEAR");
+  Messages messages;
+  const Camera camera = readScene("a.gltf", square.text(), messages, 0.0).camera;
+  for (const double time : {1.0, 1.7, 3.0, 8.0})
+    EXPECT_EQ(readScene("a.gltf", square.text(), messages, time).camera, camera) << time;
+  EXPECT_GT(camera.position.x, 3) << "it looks at the middle of the way";
+}
+
 TEST(GltfPose, TurnsGoTheShorterWay) {
   // A quarter turn about z, with the sign that would go the long way: in the middle an eighth.
   const float half = std::sqrt(0.5f);

@@ -17,6 +17,9 @@ cd -- "$folder"
 export XDG_CONFIG_HOME="$folder/config" LIBGL_ALWAYS_SOFTWARE=1
 # Drivers keep what they took until the end, and no sanitizer can tell it from a leak.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+# Nor can it see how their threads wait for one another.
+echo 'race:swrast_dri.so' >"$folder/suppressions"
+export TSAN_OPTIONS="${TSAN_OPTIONS:+$TSAN_OPTIONS:}suppressions=$folder/suppressions"
 unset WAYLAND_DISPLAY
 
 openDisplay() {

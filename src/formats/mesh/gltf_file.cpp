@@ -129,6 +129,11 @@ tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, con
   } catch (const std::exception& error) {
     errors = error.what();
   }
+  constexpr std::string_view kMissing = "File not found : ";
+  if (!good && errors.starts_with(kMissing))
+    throw Error(Fault::scene, place,
+                "cannot find the file \"" +
+                    errors.substr(kMissing.size(), errors.find('\n') - kMissing.size()) + "\" that it names");
   if (!good)
     throw Error(Fault::scene, place, "not a sound glTF file: " + errors.substr(0, errors.find('\n')));
   return model;

@@ -74,7 +74,7 @@ class GltfReader {
   void play(SceneTime& time, const ReadAccessor& elements) {
     const std::vector<tinygltf::Node> atRest = gltf_.nodes;
     try {
-      animate(gltf_, time, elements, place_);
+      model_.keys = animate(gltf_, time, elements, place_);
     } catch (const Error& error) {
       if (error.fault() != Fault::scene) throw;
       gltf_.nodes = atRest;

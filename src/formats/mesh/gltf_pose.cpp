@@ -55,6 +55,9 @@ class Curve {
                   "an animation: expected " + std::to_string(width) + " numbers for each key");
   }
 
+  /// The times of the first and the last.
+  std::pair<Real, Real> keys() const { return {times_.number(0, 0), times_.number(times_.count() - 1, 0)}; }
+
   std::vector<double> at(double time, bool isRotation) const {
     std::size_t after = 0;  // the first key behind the time
     for (std::size_t most = times_.count(); after < most;) {
@@ -142,8 +145,10 @@ Affine transformOf(const tinygltf::Node& node) {
   return m;
 }
 
-void animate(tinygltf::Model& gltf, SceneTime& time, const ReadAccessor& elements, const Place& place) {
-  if (gltf.animations.empty()) return;
+std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& time,
+                                             const ReadAccessor& elements, const Place& place) {
+  std::optional<std::pair<Real, Real>> keys;
+  if (gltf.animations.empty()) return keys;
   const tinygltf::Animation& animation = gltf.animations.front();
   for (const tinygltf::AnimationChannel& channel : animation.channels) {
     if (!isIndex(channel.target_node, gltf.nodes.size())) continue;  // of an extension
@@ -159,7 +164,11 @@ void animate(tinygltf::Model& gltf, SceneTime& time, const ReadAccessor& element
     const Curve curve(animation.samplers[static_cast<std::size_t>(channel.sampler)], width, elements, place);
     *to = curve.at(time.now(), path == "rotation");
     if (path != "weights") node.matrix.clear();
+    const auto [first, last] = curve.keys();
+    keys =
+        keys ? std::pair{std::min(keys->first, first), std::max(keys->second, last)} : std::pair{first, last};
   }
+  return keys;
 }
 
 std::vector<Affine> instancesOf(const tinygltf::Node& node, const ReadAccessor& elements,

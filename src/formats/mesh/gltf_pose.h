@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "formats/mesh/gltf_elements.h"
@@ -23,9 +25,10 @@ using ReadAccessor = std::function<GltfElements(int)>;
 Affine transformOf(const tinygltf::Node& node);
 
 /// Sets translation, rotation, scale and weights of all nodes as the first animation has them at the time.
-/// Before its first key and after its last it holds. Asks for the time if there is a key. Throws
-/// Error(Fault::scene) for accessors that are not as they should be.
-void animate(tinygltf::Model& gltf, SceneTime& time, const ReadAccessor& elements, const Place& place);
+/// Before its first key and after its last it holds. Returns the seconds of these; asks for the time if there
+/// is a key. Throws Error(Fault::scene) for accessors that are not as they should be.
+std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& time,
+                                             const ReadAccessor& elements, const Place& place);
 
 /// The transforms that place the node's copies in the node, by EXT_mesh_gpu_instancing; one that changes
 /// nothing without it. Throws as animate().
