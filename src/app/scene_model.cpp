@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
@@ -64,6 +66,41 @@ std::vector<Box3> drawnBoxes(const Scene& scene) {
   return boxes;
 }
 
+int divisionsOf(const Shape& shape) { return shape.type().ofObjects ? kDivisionsOfSolids : kDivisions; }
+
+/// How coarsely shapes were drawn, by their keywords.
+class DrawnShapes {
+ public:
+  void note(const Shape& shape, int divisions, bool nothing) {
+    const std::string kind(shape.keyword());
+    if (shape.is<Mesh>()) return;
+    if (nothing)
+      ++missing_[kind];
+    else if (divisions < divisionsOf(shape))
+      coarse_.try_emplace(kind, divisions, divisionsOf(shape));
+  }
+  std::vector<Message> warnings(const std::string& file) const {
+    Messages messages;
+    const Place place{file, 0, 0, {}};
+    const char* kRender = "the render shows every detail";
+    for (const auto& [kind, steps] : coarse_)
+      messages.warn(place,
+                    "the view in space shows " + kind + " in " + std::to_string(steps.first) +
+                        " steps along it, not " + std::to_string(steps.second) + ", for it folds finely",
+                    kRender);
+    for (const auto& [kind, count] : missing_)
+      messages.warn(place,
+                    "the view in space leaves out " + std::to_string(count) + " " + kind +
+                        ", which is empty or folds too finely for triangles",
+                    kRender);
+    return messages.all();
+  }
+
+ private:
+  std::map<std::string, std::pair<int, int>> coarse_;  // steps that were followed, and those of others
+  std::map<std::string, int> missing_;
+};
+
 /// Around those that have an end; with room to spare if some have none.
 Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
   Box3 frame;
@@ -81,25 +118,22 @@ Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
 
 Box3 frameOf(const Scene& scene) { return frameAround(drawnBoxes(scene), scene.camera.position); }
 
-SceneModeler::Corners SceneModeler::cornersOf(const Shape& shape, const Box3& within,
-                                              std::vector<Made>& kept) const {
+SceneModeler::Made SceneModeler::made(const Shape& shape, const Box3& within, std::vector<Made>& kept) const {
   const bool lasts = !drawnBounds(shape, kEverywhere).unbounded() && !shape.is<Mesh>();
   if (lasts) {
     const auto in = [&](const std::vector<Made>& list) {
       const auto found =
           std::find_if(list.begin(), list.end(), [&](const Made& made) { return made.shape == shape; });
-      return found == list.end() ? nullptr : found->corners;
+      return found == list.end() ? nullptr : &*found;
     };
-    if (Corners corners = in(kept)) return corners;
-    if (Corners corners = in(made_)) {
-      kept.push_back({shape, corners});
-      return corners;
-    }
+    if (const Made* found = in(kept)) return *found;
+    if (const Made* found = in(made_)) return kept.emplace_back(*found);
   }
-  Corners corners = std::make_shared<const std::vector<SurfaceCorner>>(
-      tessellate(shape, shape.type().ofObjects ? kDivisionsOfSolids : kDivisions, within));
-  if (lasts) kept.push_back({shape, corners});
-  return corners;
+  int followed = 0;
+  std::vector<SurfaceCorner> corners = tessellate(shape, divisionsOf(shape), within, &followed);
+  Made made{shape, std::make_shared<const std::vector<SurfaceCorner>>(std::move(corners)), followed};
+  if (lasts) kept.push_back(made);
+  return made;
 }
 
 SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
@@ -112,6 +146,7 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
   }
 
   std::vector<Made> kept;
+  DrawnShapes drawn;
   for (std::uint32_t i = 0; i < scene.objects.size() && !(cancelled && cancelled()); ++i) {
     const Object& object = scene.objects[i];
     if (boxes[i].empty() || object.material >= scene.materials.size()) continue;
@@ -119,7 +154,9 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
     Box3 within = frame.empty() ? kFarthest : objectFromWorld * frame;
     within.extend(Vec3{});  // through which a plane goes
     const Box3 bounds = drawnBounds(object.shape, within);
-    const Corners corners = cornersOf(object.shape, within, kept);
+    const Made made = this->made(object.shape, within, kept);
+    const Corners& corners = made.corners;
+    drawn.note(object.shape, made.divisions, corners->empty());
     std::array<Vec3, 8> box;
     for (std::size_t corner = 0; corner < 8; ++corner)
       box[corner] = object.worldFromObject * Vec3{corner & 1 ? bounds.high.x : bounds.low.x,
@@ -146,6 +183,7 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
     }
   }
   made_ = std::move(kept);
+  model.warnings = drawn.warnings(scene.file);
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/background_task.h"
+#include "base/error.h"
 #include "geometry/mesh/tessellate.h"
 #include "math/box.h"
 #include "render/world.h"
@@ -30,6 +31,7 @@ struct SceneModel {
   /// Position and normal, six floats for each corner of a triangle.
   std::vector<float> corners;
   std::vector<ScenePart> parts;
+  std::vector<Message> warnings;  ///< of shapes that are drawn coarser than others, or not at all
 
   std::array<float, 3> local(const Vec3& world) const {
     const Vec3 p = (world - origin) / scale;
@@ -54,9 +56,10 @@ class SceneModeler {
   struct Made {
     Shape shape;
     Corners corners;
+    int divisions;  ///< that the surface was followed in
   };
 
-  Corners cornersOf(const Shape& shape, const Box3& within, std::vector<Made>& kept) const;
+  Made made(const Shape& shape, const Box3& within, std::vector<Made>& kept) const;
 
   std::vector<Made> made_;  // the shapes of the last model, each once
 };

@@ -47,7 +47,7 @@ struct Conversion {
   std::string camera, material;     ///< the inside of a block of a .ray file; empty to keep the scene's
   std::vector<std::string> lights;  ///< whole nodes of a .ray file; empty to keep the scene's
   int digits = 0;                   ///< 0 for as many as are needed
-  int steps = 64;                   ///< of --revolve
+  int steps = 0;                    ///< of shapes that become triangles; 0 for the default
   std::string picture;              ///< on what --revolve makes; empty for none
   bool ascii = false, revolve = false;
 };

@@ -125,7 +125,10 @@ void change(Scene& scene, const Conversion& conversion, const Console& console) 
 Scene sceneToConvert(const std::string& in, const Conversion& conversion, Messages& messages) {
   const Work work("reading the scene");
   const std::string bytes = readFile(in);
-  if (conversion.revolve) return revolvedScene(in, bytes, conversion.steps, conversion.picture, messages);
+  constexpr int kAround = 64;  // by default
+  if (conversion.revolve)
+    return revolvedScene(in, bytes, conversion.steps > 0 ? conversion.steps : kAround, conversion.picture,
+                         messages);
   SceneAtMoment read = readSceneAtItsMoment(in, bytes, {}, messages);
   if (read.changesWithTime)
     messages.warn(Place{.file = in},
@@ -152,7 +155,9 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   {
     const Work work("converting the scene");
     change(scene, conversion, console);
-    files = format.write(scene, out, {.digits = conversion.digits, .ascii = conversion.ascii}, messages);
+    files = format.write(scene, out,
+                         {.digits = conversion.digits, .ascii = conversion.ascii, .steps = conversion.steps},
+                         messages);
   }
   messages.throwIfFailed(arguments.strict);
   console.warnings(messages.all());

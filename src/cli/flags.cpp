@@ -241,7 +241,8 @@ std::span<const Flag> flags() {
            "the input is a profile, lines of \"x y\", to be turned about the y axis",
            [](Arguments& a, std::string_view) { a.conversion.revolve = true; }},
       Flag{"steps", 0, Takes::value, "N", "", kConvert, false,
-           "steps of --revolve around the axis, 3 to 100000; default 64",
+           "steps of shapes that become triangles, and of --revolve around the axis, 3 to 100000; default "
+           "64, or fewer where these would take minutes",
            [](Arguments& a, std::string_view value) {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},

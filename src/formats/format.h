@@ -31,6 +31,7 @@ struct NamedBytes {
 struct WriteOptions {
   int digits = 0;      ///< of numbers in text that count; 0 for as many as are needed to read the same back
   bool ascii = false;  ///< text, where a format has both
+  int steps = 0;       ///< of shapes that become triangles; 0 for 64, or fewer where these would take minutes
 };
 
 /// A file that was read, and the scene that it says.

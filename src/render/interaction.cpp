@@ -155,6 +155,12 @@ namespace {
 /// How high above the place rays start that look for the surface around it, in parts of the distance.
 constexpr Real kLookDown = 0.4;
 
+/// The direction as the rotation takes it that turns one unit normal to another, which is not opposite.
+Vec3 turnedAlong(const Vec3& direction, const Vec3& from, const Vec3& to) {
+  const Vec3 both = from + to;
+  return direction - both * (2 * dot(both, direction) / dot(both, both)) + to * (2 * dot(from, direction));
+}
+
 }  // namespace
 
 /// Whether a ray from so high above the place down to a point of the plane there meets the surface as it goes
@@ -216,19 +222,25 @@ void Interaction::addCaustics(Gather& sum, const PhotonMap& photons, const Sampl
   addPhotons(sum, Term::Kind::caustic, near, true, share);
 }
 
-void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all,
-                             Real share) const {
+void Interaction::addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all, Real share,
+                             Real apart) const {
   Color light;
   std::size_t count = 0;
   PhotonTerm counted;
+  const Vec3 up = trueNormal();
   for (std::size_t i = 0; i < near.count; ++i) {
-    const Vec3 toLight = -near.photons[i]->direction;
+    const Photon& photon = *near.photons[i];
+    if (photon.flown < apart) continue;
+    // A bent surface gets light next to the place from below the horizon here: without it, the density would
+    // lack that light. It counts at the angle at which it arrived.
+    Vec3 toLight = -photon.direction;
+    if (!(dot(toLight, up) > 0)) toLight = turnedAlong(toLight, photon.normal, up);
     const Real lit = dot(toLight, normal);
     if (!(lit > 0)) continue;
     const Scatter parts = scatter(*bsdf_, frame, toLight, -ray.direction);
-    light += near.photons[i]->power * (all ? parts.sum() : parts.diffuse) * (near.perArea(i) / (kPi * lit));
+    light += photon.power * (all ? parts.sum() : parts.diffuse) * (near.perArea(i) / (kPi * lit));
     ++count;
-    if (tracer.records()) counted.photons.push_back(*near.photons[i]);
+    if (tracer.records()) counted.photons.push_back(photon);
   }
   counted.count = count;
   counted.radius = std::sqrt(near.radius2);

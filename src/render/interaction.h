@@ -70,8 +70,10 @@ class Interaction {
   /// The share of such a disk that does, by the kernel of PhotonMap::Near::perArea().
   Real shareOfDisk(Real radius, Sampler numbers) const;
   /// Adds the light of photons that is scattered to where the ray comes from: the diffuse part of it, or all.
-  /// `share` is how much of their disk lies on the surface.
-  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all, Real share = 1) const;
+  /// `share` is how much of their disk lies on the surface. Photons that a surface less than `apart` away has
+  /// sent do not count.
+  void addPhotons(Gather& sum, Term::Kind kind, const PhotonMap::Near& near, bool all, Real share = 1,
+                  Real apart = 0) const;
   /// Adds what mirrors and glass throw there, of which a map holds all.
   void addCaustics(Gather& sum, const PhotonMap& photons, const Sampler& numbers) const;
 

@@ -52,7 +52,7 @@ bool PhotonEmitter::rests(const Flight& f) const {
 /// The photon, whose power that is already, goes on from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
-  f.parallel = f.fromSky = f.straight = f.asked = false;
+  f.parallel = f.fromSky = f.straight = f.asked = f.offSurface = false;
   f.gathered = f.scattered = true;
   f.law = 0;
   ++f.scatterings;
@@ -132,7 +132,8 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
       else
-        landed.photons.push_back({f.hit->surface.point, f.ray.direction, at.trueNormal(), f.power});
+        landed.photons.push_back({f.hit->surface.point, f.ray.direction, at.trueNormal(), f.power,
+                                  f.offSurface ? f.hit->t : kInfinity});
     }
     if (f.bounces - f.panes >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
     if (!linked && !f.straight) return;
@@ -216,6 +217,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
   f.law = f.straight && f.light ? fallsOn(f, f.hit->surface.point) : 0;
   f.ray = f.hit->leave(direction);
   f.inside = there;
+  f.offSurface = true;
   return true;
 }
 

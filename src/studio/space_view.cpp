@@ -34,6 +34,7 @@ void updateModel(Studio& studio) {
     view.modelScene = scene;
   }
   if (auto model = view.modelTask.take()) {
+    if (model->warnings != view.model.warnings) studio.workspace.report(model->warnings);
     view.model = std::move(*model);
     view.drawer->setCorners(view.model.corners);
   }

@@ -5,16 +5,20 @@
 
 #include <cmath>
 
+#include "app/lint.h"
+#include "app/scene_model.h"
 #include "app/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/looks.h"
+#include "formats/format.h"
 #include "geometry/field_value.h"
 #include "geometry/shape.h"
 #include "shading/lights/light.h"
 #include "shading/material.h"
 #include "shading/texture.h"
 #include "support/folder.h"
+#include "support/shapes.h"
 
 namespace trace::test::extreme_values_test {
 namespace {
@@ -180,6 +184,65 @@ TEST_F(ExtremeValues, OfEachTexture) {
     inEachField<Kind>(expect);
     inEachField<TexturePlacement>(expect);
   });
+}
+
+/// The shape with all its counts at their most, and so with each value of each choice that it has.
+std::vector<Shape> atItsMost(const ShapeType& type) {
+  Shape most = typical(type);
+  for (AnyField& field : most.editFields())
+    if (int* const* count = std::get_if<int*>(&field.value); count && field.most > field.least)
+      **count = static_cast<int>(field.most);
+  std::vector<Shape> all{most};
+  for (std::size_t field = 0; field < fieldsOf(most).size(); ++field)
+    if (std::holds_alternative<EnumValue>(fieldsOf(most)[field].value))
+      for (Shape& other : varied(most, field)) all.push_back(std::move(other));
+  return all;
+}
+
+/// Every command ends once its budget is used up, whatever a shape's counts ask for: soon by looks at the
+/// budget, not by a clock. Work that never looks would go on, and ctest would end the test.
+TEST(Counts, OfEachShapeAtTheirMostEndWithTheBudget) {
+  constexpr std::int64_t kMostLooks = 300, kFew = 20;  // some may look once more on their way out
+  for (const ShapeType& type : shapeTypes())
+    for (const Shape& shape : atItsMost(type)) {
+      Scene scene;
+      scene.file = "most.ray";
+      scene.materials.emplace_back();
+      scene.objects.push_back({"", shape, {}, 0, {}});
+      scene.camera.position = {0, 0, 6};
+      Settings settings;
+      settings.width = settings.height = 8;
+      settings.threads = 1;
+      const auto ends = [&](const char* command, const auto& work) {
+        std::int64_t looks = 0;
+        Budget budget([&] {
+          if (++looks > kMostLooks) throw Error(Fault::limit, "too much work");
+        });
+        const BudgetScope scope(&budget);
+        try {
+          work();
+        } catch (const Error& error) {
+          EXPECT_TRUE(error.fault() == Fault::limit || error.fault() == Fault::scene) << error.what();
+        }
+        EXPECT_LT(looks, kMostLooks + kFew) << type.keyword << " by " << command;
+      };
+      ends("render", [&] {
+        Session session;
+        session.open(Scene(scene), settings);
+        session.build();
+        session.renderPicture();
+      });
+      ends("lint", [&] {
+        Messages messages;
+        const World world = compile(scene, settings, messages);
+        lint(scene, settings, world, messages.all());
+      });
+      ends("convert", [&] {
+        Messages messages;
+        writableFormatFor("most.obj").write(scene, "most.obj", {}, messages);
+      });
+      ends("the view in space", [&] { SceneModeler{}.model(scene); });
+    }
 }
 
 }  // namespace

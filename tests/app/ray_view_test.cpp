@@ -10,9 +10,11 @@
 #include "app/scene_model.h"
 #include "app/session.h"
 #include "base/text.h"
+#include "geometry/shapes/copies.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
+#include "geometry/shapes/isosurface.h"
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
@@ -252,6 +254,32 @@ TEST(SceneModel, CurvedEdgesOfSolidsAreSmooth) {
       farthest = std::max(farthest, std::abs(length(p - center) - 1));
     }
   EXPECT_LT(farthest, 0.02);
+}
+
+TEST(SceneModel, SaysWhatIsDrawnCoarselyOrNotAtAll) {
+  Scene scene;
+  scene.file = "fine.ray";
+  addObject(scene, Sphere{}, Affine{}, {});
+  EXPECT_TRUE(SceneModeler{}.model(scene).warnings.empty());
+  Isosurface waves;
+  waves.formula = "sin(1000000000*x*y*z)";
+  addObject(scene, waves, Affine{}, {});
+  Ifs cube;  // with thousands of copies inside, each of which every ray has to pass by
+  cube.maps = {{0.9, 0, 0, 0, 0, 0.9, 0, 0, 0, 0, 0.9, 0}};
+  for (int i = 0; i < 8000; ++i)
+    cube.maps.push_back({0.001, 0, 0, i % 20 * 0.04 - 0.4, 0, 0.001, 0, i / 20 % 20 * 0.04 - 0.4, 0, 0, 0.001,
+                         i / 400 * 0.04 - 0.4});
+  cube.levels = 1;
+  addObject(scene, cube, Affine{}, {});
+  SceneModeler modeler;
+  const std::vector<Message> warnings = modeler.model(scene).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(warnings[0].what.starts_with("the view in space shows ifs in ")) << warnings[0].what;
+  EXPECT_NE(warnings[0].what.find(" steps along it, not 24"), std::string::npos) << warnings[0].what;
+  EXPECT_EQ(warnings[1].what,
+            "the view in space leaves out 1 isosurface, which is empty or folds too finely for triangles");
+  EXPECT_EQ(warnings[0].place.file, "fine.ray");
+  EXPECT_EQ(modeler.model(scene).warnings, warnings);  // of shapes that were kept, too
 }
 
 TEST(SceneModel, IsFramedOnWhatCanBeShownTogether) {

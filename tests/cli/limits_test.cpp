@@ -106,6 +106,27 @@ TEST_F(Limits, WhatFoldsTooFinelyForAMeshIsRefusedAtOnce) {
   EXPECT_EQ(run({"convert", "waves.ray", "out.ray"}).code, 0);  // which holds every shape
 }
 
+/// So is how finely a mesh follows what takes long, but for those who ask for more.
+TEST_F(Limits, AMeshHasFewerStepsWhereItTakesLongUnlessTheyAreAskedFor) {
+  std::string maps = "(0.9,0,0,0, 0,0.9,0,0, 0,0,0.9,0)";  // a cube, and small ones in it
+  for (int i = 0; i < 1500; ++i)
+    maps += ",(0.001,0,0," + std::to_string(i % 40 * 0.02 - 0.4) + ", 0,0.001,0," +
+            std::to_string(i / 40 * 0.02 - 0.4) + ", 0,0,0.001,0)";
+  write("cubes.ray", kBegin + ("ifs { levels = 1; maps = (" + maps + "); }"));
+  const Run bounded = run({"convert", "cubes.ray", "fewer.obj"});
+  EXPECT_EQ(bounded.code, 0) << bounded.err;
+  EXPECT_TRUE(contains(bounded.err, "a surface that folds finely becomes triangles in "));
+  EXPECT_TRUE(contains(bounded.err, " steps along it, not 64, which would take minutes"));
+  EXPECT_TRUE(contains(bounded.err, "--steps 64 makes them all"));
+  const Run asked = run({"convert", "cubes.ray", "all.obj", "--steps", "64"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_EQ(asked.err.find("folds finely"), std::string::npos);
+  EXPECT_LT(std::filesystem::file_size(path("fewer.obj")), std::filesystem::file_size(path("all.obj")));
+  ASSERT_EQ(run({"convert", "white.ray", "coarse.obj", "--steps", "8"}).code, 0);
+  ASSERT_EQ(run({"convert", "white.ray", "fine.obj"}).code, 0);
+  EXPECT_LT(std::filesystem::file_size(path("coarse.obj")), std::filesystem::file_size(path("fine.obj")));
+}
+
 TEST_F(Limits, GradeEndsInTime) {
   std::filesystem::create_directory(path("scenes"));
   std::filesystem::create_directory(path("pictures"));

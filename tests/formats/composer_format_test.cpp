@@ -133,6 +133,20 @@ TEST(Composer, OtherShapesBecomeTriangles) {
   EXPECT_EQ(text.substr(0, 25), "Composer format 2.1 ascii");
 }
 
+TEST(Composer, NothingIsWrittenWhereNoObjectIsLeft) {
+  Messages messages;
+  const Scene endless = load("plane { } scale(1, 0, 1, sphere { })").scene;
+  try {
+    writeComposer(endless, "a.out", {}, messages);
+    ADD_FAILURE() << "a file without objects";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::scene);
+    EXPECT_NE(std::string(error.what()).find("expected a scene with meshes, found 1 plane, 1 sphere"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Composer, PicturesAreWrittenOfWhateverModelAndLieOnMadeTriangles) {
   const test::Folder folder;
   Picture grey(2, 1);

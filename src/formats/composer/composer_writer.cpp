@@ -8,9 +8,9 @@
 #include "base/text.h"
 #include "formats/composer/composer_file.h"
 #include "formats/composer/composer_format.h"
+#include "formats/mesh/world_meshes.h"
 #include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/mesh/tessellation.h"
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
@@ -22,8 +22,8 @@ namespace cf = composer;
 
 class Writer {
  public:
-  Writer(const Scene& scene, Messages& messages)
-      : scene_(scene), messages_(messages), settings_(resolve({scene.choices})) {}
+  Writer(const Scene& scene, const WriteOptions& options, Messages& messages)
+      : scene_(scene), messages_(messages), settings_(resolve({scene.choices})), shapes_(options.steps) {}
 
   cf::File write() {
     view();
@@ -31,6 +31,8 @@ class Writer {
       match(source.light, [&](const auto& light) { add(light); });
     if (!(scene_.background == Background{})) warn("the background is left out: the format has none");
     for (const Object& object : scene_.objects) add(object);
+    const bool nothing = file_.objects.empty() && !scene_.objects.empty();
+    shapes_.report({scene_.file, 0, 0, {}}, "spheres and meshes", nothing, messages_);
     return std::move(file_);
   }
 
@@ -170,8 +172,7 @@ class Writer {
   }
 
   void add(const Object& object) {
-    if (!invertible(object.worldFromObject)) return;
-    const std::string kind(object.shape.keyword());
+    if (!invertible(object.worldFromObject)) return shapes_.leaveOut(object.shape);
     cf::Object o;
     o.name = object.name;
     if (object.shape.is<Sphere>()) {
@@ -179,11 +180,10 @@ class Writer {
       o.sphere = sphere(object.worldFromObject);
     } else if (const auto mesh = displacedMesh(object, scene_.materials)) {
       add(o, mesh->generateNormals ? withGeneratedNormals(*mesh, true) : *mesh, object);
-    } else if (const auto surface = tessellated(object.shape, 64, isPainted(object.material))) {
-      warn("shapes other than spheres and meshes become triangles");
+    } else if (const auto surface = shapes_.of(object.shape, isPainted(object.material))) {
       add(o, *surface, object);
     } else {
-      return warn("left out, as it has no end, or folds too fine for triangles: " + kind);
+      return shapes_.leaveOut(object.shape);
     }
     file_.objects.push_back(std::move(o));
   }
@@ -233,6 +233,7 @@ class Writer {
   const Scene& scene_;
   Messages& messages_;
   const Settings settings_;
+  ShapeTriangles shapes_;
   cf::File file_;
   std::set<std::string> told_, pictures_;
 };
@@ -242,7 +243,7 @@ class Writer {
 std::vector<NamedBytes> writeComposer(const Scene& scene, const std::string& file,
                                       const WriteOptions& options, Messages& messages) {
   const SeenFrom seen = seenFrom(scene, file, messages);
-  Writer writer(seen.scene, messages);
+  Writer writer(seen.scene, options, messages);
   const cf::File written = writer.write();
   NamedBytes::Contents holds{written.objects.size(), 0};
   for (const cf::Object& object : written.objects) holds.triangles += object.polygons.counts.size();

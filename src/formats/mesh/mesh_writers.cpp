@@ -245,7 +245,7 @@ class ObjWriter {
 std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
   const SeenFrom seen = seenFrom(scene, file, messages);
-  std::vector<WorldMesh> meshes = worldMeshes(seen.scene, messages);
+  std::vector<WorldMesh> meshes = worldMeshes(seen.scene, options, messages);
   const std::size_t objects = meshes.size();
   const std::string picture = onlyPictureOf(seen.scene, meshes);
   if (picture.empty() && !picturesOf(seen.scene, meshes).empty())
@@ -294,7 +294,7 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
 std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, const WriteOptions& options,
                                  Messages& messages) {
   const SeenFrom seen = seenFrom(scene, file, messages);
-  const std::vector<WorldMesh> meshes = worldMeshes(seen.scene, messages);
+  const std::vector<WorldMesh> meshes = worldMeshes(seen.scene, options, messages);
   const std::map<std::uint32_t, std::string> names = materialNames(scene, meshes);
   NamedBytes materialFile = placeOfMaterials(file);
   ObjWriter materials(options), objects(options);

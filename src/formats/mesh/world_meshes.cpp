@@ -1,7 +1,6 @@
 #include "formats/mesh/world_meshes.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -75,48 +74,54 @@ const ImageMap* pictureOf(const Material& material) {
   return nullptr;
 }
 
-std::vector<WorldMesh> worldMeshes(const Scene& scene, Messages& messages) {
+std::optional<MeshData> ShapeTriangles::of(const Shape& shape, bool mapped) {
+  int followed = steps_;
+  std::optional<MeshData> mesh = tessellated(shape, steps_, mapped, &followed, wanted_);
+  if (mesh) fewest_ = std::min(fewest_, followed);
+  any_ |= mesh.has_value();
+  return mesh;
+}
+
+void ShapeTriangles::report(const Place& place, const std::string& known, bool nothing,
+                            Messages& messages) const {
+  const char *kHolds = "a .ray file holds every shape",
+             *kWhy =
+                 "no mesh follows what has no end, or folds finer than a 64th of the shape; a .ray file "
+                 "holds every shape";
+  std::string kinds;
+  for (const auto& [kind, count] : leftOut_)
+    kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  if (nothing)
+    throw Error(Fault::scene, place,
+                "expected a scene with meshes, found " + (kinds.empty() ? "no object" : kinds),
+                kinds.empty() ? kHolds : kWhy);
+  if (any_) messages.warn(place, "shapes other than " + known + " become triangles");
+  if (fewest_ < steps_)
+    messages.warn(place,
+                  "a surface that folds finely becomes triangles in " + std::to_string(fewest_) +
+                      " steps along it, not " + std::to_string(steps_) + ", which would take minutes",
+                  "--steps " + std::to_string(steps_) + " makes them all");
+  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds, kWhy);
+}
+
+std::vector<WorldMesh> worldMeshes(const Scene& scene, const WriteOptions& options, Messages& messages) {
   const Place place{scene.file, 0, 0, {}};
   std::vector<WorldMesh> meshes;
-  constexpr int kSteps = 64;
-  int fewest = kSteps;
-  bool sampled = false;
-  std::map<std::string, std::size_t> leftOut;
+  ShapeTriangles shapes(options.steps);
   Work work("making triangles of the objects", static_cast<std::int64_t>(scene.objects.size()));
   std::int64_t done = 0;
   for (const Object& object : scene.objects) {
     work.reached(done++);
     std::optional<MeshData> triangles;
     const auto mesh = displacedMesh(object, scene.materials);
-    if (!mesh) {
-      int followed = kSteps;
-      triangles = tessellated(object.shape, kSteps, pictureOf(scene.materials.at(object.material)) != nullptr,
-                              &followed);
-      if (triangles) fewest = std::min(fewest, followed);
-      sampled |= triangles.has_value();
-    }
+    if (!mesh) triangles = shapes.of(object.shape, pictureOf(scene.materials.at(object.material)) != nullptr);
     if ((mesh || triangles) && invertible(object.worldFromObject))
       meshes.push_back(
           {object.name, object.material, transformed(mesh ? *mesh : *triangles, object.worldFromObject)});
     else
-      ++leftOut[std::string(object.shape.keyword())];
+      shapes.leaveOut(object.shape);
   }
-  const char *kHolds = "a .ray file holds every shape",
-             *kWhy =
-                 "no mesh follows what has no end, or folds finer than a 64th of the shape; a .ray file "
-                 "holds every shape";
-  std::string kinds;
-  for (const auto& [kind, count] : leftOut)
-    kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
-  if (meshes.empty())
-    throw Error(Fault::scene, place,
-                "expected a scene with meshes, found " + (kinds.empty() ? "no object" : kinds),
-                kinds.empty() ? kHolds : kWhy);
-  if (sampled) messages.warn(place, "shapes other than meshes become triangles");
-  if (fewest < kSteps)
-    messages.warn(place, "a surface that folds finely becomes triangles in " + std::to_string(fewest) +
-                             " steps along it, not " + std::to_string(kSteps) + ", which would take minutes");
-  if (!kinds.empty()) messages.warn(place, "left out, as they cannot become triangles: " + kinds, kWhy);
+  shapes.report(place, "meshes", meshes.empty(), messages);
   warnOfTheRest(scene, place, messages);
   return meshes;
 }

@@ -20,9 +20,9 @@ constexpr Real kCrease = 0.6;
 constexpr Real kPull = 1e-3;
 /// How far the outermost lines stay inside the bounds, in shares of the longest side.
 constexpr Real kInset = 1e-7;
-/// Looks at the budget that all lines of a grid may take: a minute's work at most. One line through a usual
-/// shape takes one or two, one through a Mandelbulb of 10 iterations 50.
-constexpr double kMostLooks = 1 << 17;
+/// Looks at the budget that all lines of a grid may take, unless more is wanted: half a minute's work at
+/// most. One line through a usual shape takes one or two, one through a Mandelbulb of 10 iterations 50.
+constexpr double kMostLooks = 1 << 16;
 /// And a line, on average, where a surface is found at all. The search gives up at 150: then what it finds is
 /// noise.
 constexpr double kMostOfALine = 120;
@@ -239,7 +239,8 @@ Box3 drawnBounds(const Shape& shape, const Box3& within) {
   return shape.is<Mesh>() ? box : cutOff(box, within);
 }
 
-std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within, int* followed) {
+std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within, int* followed,
+                                      bool wanted) {
   if (followed) *followed = divisions;
   if (const auto* mesh = shape.as<Mesh>()) return meshCorners(*mesh->data);
   const TracedShape form = prepare(shape);
@@ -247,7 +248,7 @@ std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const B
   if (!(maxComponent(box.size()) > 0)) return {};
   const std::optional<double> looks = SampleGrid(box, divisions).looks(form);
   if (!looks) return {};
-  if (*looks > kMostLooks)
+  if (!wanted && *looks > kMostLooks)
     divisions = std::max(8, static_cast<int>(divisions * std::sqrt(kMostLooks / *looks)));
   if (followed) *followed = divisions;
   SampleGrid grid(box, divisions);

@@ -32,9 +32,10 @@ Box3 drawnBounds(const Shape& shape, const Box3& within = kFarthest);
 /// Three corners for each triangle. A mesh gives its own; other shapes are sampled on a grid of about
 /// `divisions` cells along their longest side. Those of a solid stand counter-clockwise seen from outside.
 ///
-/// A surface that folds so finely that such a grid would take minutes has fewer divisions, which `followed`
-/// then tells. None of what is empty, or folds more finely than any search follows.
+/// A surface that folds so finely that such a grid would take minutes has fewer divisions, unless all are
+/// `wanted`; `followed` then tells how many. None of what is empty, or folds more finely than any search
+/// follows.
 std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions = 24, const Box3& within = kFarthest,
-                                      int* followed = nullptr);
+                                      int* followed = nullptr, bool wanted = false);
 
 }  // namespace trace

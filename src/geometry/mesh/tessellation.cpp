@@ -1,5 +1,6 @@
 #include "geometry/mesh/tessellation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -98,7 +99,7 @@ class Builder {
 };
 
 void add(Builder& builder, const Sphere&, int steps) {
-  const int rows = steps / 2;
+  const int rows = std::max(2, steps / 2);
   const auto angle = [&](int i) { return kPi * (static_cast<Real>(i) / rows - 0.5); };
   // Exactly at the poles, so that their triangles have no area.
   const auto out = [&](int i) { return i == 0 || i == rows ? 0.0 : std::cos(angle(i)); };
@@ -205,7 +206,7 @@ MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, R
 
 }  // namespace
 
-std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped, int* followed) {
+std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped, int* followed, bool wanted) {
   if (followed) *followed = steps;
   if (shape.is<Mesh>()) return {};
   const TracedShape form = prepare(shape);
@@ -215,7 +216,7 @@ std::optional<MeshData> tessellated(const Shape& shape, int steps, bool mapped, 
   Builder builder(steps);
   const bool known = visitAs<Sphere, Cube, Square, Cylinder, Cone, Conic>(
       shape, [&](const auto& s) { add(builder, s, steps); });
-  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps, kFarthest, followed));
+  MeshData mesh = known ? builder.finish() : joined(tessellate(shape, steps, kFarthest, followed, wanted));
   if (mesh.triangles.empty()) return {};
   mesh.twoSided = !solid;
   return mapped ? withTextureCoordinates(mesh, form, maxComponent(box.size())) : mesh;

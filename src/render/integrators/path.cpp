@@ -119,8 +119,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight,
-                         numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told || path.toldOfMedia ? 0 : 1,
+                         path.weight, numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
       return scattered(tracer, ray, *media, *place, path, inside, sampler, after);
   }
@@ -188,12 +188,17 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
   }
   // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or
-  // below what stands there: from there the path goes on.
+  // below what stands there: from there the path goes on. So it does to surfaces that are near compared with
+  // the disk, whose light changes within it.
+  constexpr Real kApart = 4;  // radii of the disk: then light of a small source is blurred by 4 % at most
   bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
+  Real apart = 0;
   if (tells) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
-    tells = at.hasDisk(std::sqrt(near.radius2), sampler.branch(kDisk));
-    if (tells) at.addPhotons(sum, Term::Kind::photons, near, true);
+    const Real radius = std::sqrt(near.radius2);
+    tells = at.hasDisk(radius, sampler.branch(kDisk));
+    apart = kApart * radius;
+    if (tells) at.addPhotons(sum, Term::Kind::photons, near, true, 1, apart);
   }
 
   // Which of the surface's rays is followed: one into its lobe, the mirrored or a refracted one.
@@ -245,12 +250,13 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
               path.gathers || (gathers_ && kind == RayKind::bounce && !glossy),
               path.maps,
               path.scattered};
-    next.told = path.told || (tells && kind == RayKind::bounce);
     next.asked = kind == RayKind::bounce ||
                  (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     next.bounced = path.bounced || kind == RayKind::bounce;
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
+    next.toldOfMedia = tells && kind == RayKind::bounce;
+    next.told = path.told || (next.toldOfMedia && !(met && met->t < apart));
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
     const Real part = kind == RayKind::bounce ? allowedPart(tracer, path.weight * factor * arriving) : 1;
     sum.add(term, factor * part, arriving, {density, 0, 1});
