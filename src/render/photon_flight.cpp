@@ -49,8 +49,15 @@ bool PhotonEmitter::rests(const Flight& f) const {
   return kept_ == Kept::all || (kept_ == Kept::scattered ? f.scattered : f.bounces > 0 && f.gathered);
 }
 
+/// Whether a path that media scatter so often counts. Seen from the eye, the last scattering that
+/// `medium-depth` allows is lit by lights alone, not by surfaces; so light must have met a medium first.
+bool PhotonEmitter::counts(int scatterings, bool mediumFirst) const {
+  return scatterings < settings_.mediumDepth || (scatterings == settings_.mediumDepth && mediumFirst);
+}
+
 /// The photon, whose power that is already, goes on from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
+  f.mediumFirst = f.mediumFirst || f.untouched();
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
   f.parallel = f.fromSky = f.straight = f.asked = f.offSurface = false;
   f.gathered = f.scattered = true;
@@ -68,6 +75,7 @@ void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   const Real middle = dot(way, ray.direction), radius = length(box.size()) / 2;
   const Real half2 = radius * radius - (dot(way, way) - middle * middle);
   if (!(half2 > 0) || !isInOpenAir(parallel.inside, world_)) return;
+  if (!counts(parallel.scatterings + 1, parallel.untouched())) return;
   const Real near = middle - std::sqrt(half2), first = parallel.panes > 0 ? std::max(0.0, near) : near;
   const Real last = std::min(middle + std::sqrt(half2), parallel.hit ? parallel.hit->t : kInfinity);
   const Ray within{ray.at(first), ray.direction};
@@ -89,7 +97,7 @@ void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
 bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
   if (f.parallel && !onlyCaustics_ && !fog_.none()) lightFog(f, landed);
   const Real far = f.hit ? f.hit->t : kInfinity;
-  const bool keeps = !onlyCaustics_ && f.scatterings < settings_.mediumDepth;
+  const bool keeps = !onlyCaustics_ && counts(f.scatterings + 1, f.mediumFirst || f.untouched());
   numbers_.next();
   MediumWay way = throughMedia(tracer_, f.ray, far, f.inside, keeps ? 1 : 0, Color(1),
                                Sampler(rules_, numbers_), !f.parallel);
@@ -128,7 +136,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     const bool scattersIt = scatters(at.bsdf());
     std::optional<SubsurfaceBsdf> body;
     if (world_.hasSubsurface()) body = at.takeBody();
-    if (scattersIt && linked && rests(f)) {
+    if (scattersIt && linked && rests(f) && counts(f.scatterings, f.mediumFirst)) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
         landed.onMaps.emplace_back(*place, f.power);
       else

@@ -164,7 +164,7 @@ TEST(InventorWriter, WhatTheFormatLacksIsTold) {
   const Written written(scene);
   for (const char* what :
        {"the background is left out", "mirrors are left out", "coloured glass becomes grey",
-        "glass does not refract", "become triangles", "left out, as it has no end"})
+        "glass does not refract", "become triangles", "left out, as they cannot become triangles: 1 plane"})
     EXPECT_NE(written.warnings.find(what), std::string::npos) << what << "\n" << written.warnings;
   Messages messages;
   EXPECT_THROW(writeInventor(load("plane { }").scene, "a.iv", {}, messages), Error);

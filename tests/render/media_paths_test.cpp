@@ -158,6 +158,31 @@ TEST(MediaPaths, PhotonsShowWhatPathShows) {
   }
 }
 
+TEST(MediaPaths, PhotonsCountScatteringsAsPathDoes) {
+  // From the eye the last one that is allowed is lit by lights alone: a lamp, or a point that shadow rays
+  // ask.
+  for (const int most : {1, 2})
+    for (const bool isLamp : {false, true}) {
+      const Place place{
+          "",
+          [&] {
+            Scene scene = openRoom();
+            if (isLamp)
+              addPanel(scene, 6);
+            else
+              scene.lights.push_back(
+                  {PointLight{.position = {0.2, 0.5, 0.1}, .color = Color(1), .constant = 1}, {}});
+            return scene;
+          },
+          [&](Settings& s) { s.fog = 0.5, s.fogColor = Color(0.9), s.mediumDepth = most; }};
+      Settings photons = settingsOf(IntegratorKind::photon, 40);
+      photons.photons = 50000;
+      const Agreement found = agreementOf(place, settingsOf(IntegratorKind::path, 150), photons, 3);
+      EXPECT_LT(std::abs(found.meanB - found.meanA), 0.02 * found.meanA + 3 * found.error)
+          << most << (isLamp ? " lamp: " : " point: ") << found.meanB << ", not " << found.meanA;
+    }
+}
+
 TEST(MediaPaths, PhotonsInAnEvenMediumAreAsDenseAsItsLight) {
   // A white medium in a white furnace: the fluence is 4 pi times the radiance everywhere.
   Scene scene;

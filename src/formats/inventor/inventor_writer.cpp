@@ -14,7 +14,6 @@
 #include "formats/picture_files.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/mesh/tessellation.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
@@ -30,12 +29,13 @@ Real most(const Color& c) { return std::max({c.r, c.g, c.b}); }
 
 class InventorWriter {
  public:
-  InventorWriter(const Scene& scene, bool vrml, int digits, Messages& messages)
+  InventorWriter(const Scene& scene, bool vrml, const WriteOptions& options, Messages& messages)
       : scene_(scene),
         vrml_(vrml),
-        digits_(digits),
+        digits_(options.digits),
         messages_(messages),
-        settings_(resolve({scene.choices})) {}
+        settings_(resolve({scene.choices})),
+        shapes_(options.steps) {}
 
   std::string write() {
     out_ = vrml_ ? "#VRML V1.0 ascii\n" : "#Inventor V2.1 ascii\n";
@@ -46,6 +46,7 @@ class InventorWriter {
     if (!vrml_ && environments_ == 0) environment(1, 0, 0);
     if (!(scene_.background == Background{})) warn("the background is left out: the format has none");
     for (const Object& object : scene_.objects) add(object);
+    shapes_.report({scene_.file, 0, 0, {}}, "spheres, cubes and meshes", holds_.objects == 0, messages_);
     out_ += "}\n";
     return std::move(out_);
   }
@@ -265,7 +266,7 @@ class InventorWriter {
   // --- objects ---
 
   void add(const Object& object) {
-    if (!invertible(object.worldFromObject)) return;
+    if (!invertible(object.worldFromObject)) return shapes_.leaveOut(object.shape);
     const bool isPainted = pictureOf(scene_.materials.at(object.material)) != nullptr;
     if (object.shape.is<Sphere>() && !isPainted) return solid(object, "Sphere { radius 1 }");
     if (object.shape.is<Cube>() && !isPainted) return solid(object, "Cube { width 1 height 1 depth 1 }");
@@ -275,11 +276,8 @@ class InventorWriter {
       return mesh(object, made->generateNormals ? withGeneratedNormals(*made, true) : *made,
                   isShared ? own->data.get() : nullptr);
     }
-    const auto surface = tessellated(object.shape, 64, isPainted);
-    if (!surface)
-      return warn("left out, as it has no end, or folds too fine for triangles: " +
-                  std::string(object.shape.keyword()));
-    warn("shapes other than spheres, cubes and meshes become triangles");
+    const auto surface = shapes_.of(object.shape, isPainted);
+    if (!surface) return shapes_.leaveOut(object.shape);
     mesh(object, *surface, nullptr);
   }
 
@@ -384,6 +382,7 @@ class InventorWriter {
   const int digits_;
   Messages& messages_;
   const Settings settings_;
+  ShapeTriangles shapes_;
   std::string out_;
   std::set<std::string> told_, pictures_, names_;
   std::map<std::string, std::string> looks_;                         ///< nodes, and the name that they have
@@ -398,14 +397,9 @@ class InventorWriter {
 std::vector<NamedBytes> writeInventor(const Scene& scene, const std::string& file,
                                       const WriteOptions& options, Messages& messages) {
   const SeenFrom seen = seenFrom(scene, file, messages);
-  inventor::InventorWriter writer(
-      seen.scene, sameWord(file.substr(file.size() - std::min<std::size_t>(file.size(), 4)), ".wrl"),
-      options.digits, messages);
+  const bool vrml = sameWord(file.substr(file.size() - std::min<std::size_t>(file.size(), 4)), ".wrl");
+  inventor::InventorWriter writer(seen.scene, vrml, options, messages);
   std::string text = writer.write();
-  if (writer.holds().objects == 0)
-    throw Error(Fault::scene, {scene.file, 0, 0, {}},
-                "expected an object that an Inventor file can hold, found none",
-                "a .ray file holds every shape");
   std::vector<NamedBytes> files{{file, std::move(text), writer.holds()}};
   for (NamedBytes& picture : picturesNamed(writer.pictures(), seen)) files.push_back(std::move(picture));
   return files;
