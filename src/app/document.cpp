@@ -10,7 +10,7 @@
 #include "formats/format.h"
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
-#include "scene/picture_size.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
@@ -97,7 +97,7 @@ Document::Reading Document::read(const Source& source) {
 void Document::take(const Reading& reading, bool anew) {
   if (anew) {
     moments_.clear();
-    choicesOnDisk_ = ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices}));
+    choicesOnDisk_ = ofTheScene(settingsFor(*reading.scene, {reading.scene->choices}));
   }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene;
@@ -122,8 +122,8 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
 
 void Document::settle() {
   const Edition& edition = editions_[current_];
-  settings_ = settingsFor(edition.scene->camera, {edition.scene->choices, commandLine_, edition.choices});
-  choices_ = ofTheScene(settingsFor(edition.scene->camera, {edition.scene->choices, edition.choices}));
+  settings_ = settingsFor(*edition.scene, {edition.scene->choices, commandLine_, edition.choices});
+  choices_ = ofTheScene(settingsFor(*edition.scene, {edition.scene->choices, edition.choices}));
   ++revision_;
 }
 

@@ -134,7 +134,12 @@ class Expander : Evaluator {
   /// An included file may have the first words of a scene.
   std::uint32_t withoutHead(std::uint32_t root) const {
     const std::uint32_t first = root + 1;
-    if (first >= after(root) || wordAt(first) != "SBT-raytracer") return first;
+    if (first >= after(root) || (wordAt(first) != kCourses && wordAt(first) != kKind)) return first;
+    if ((wordAt(first) == kKind) != degrees_)
+      fail(first,
+           "expected a file of the kind " + std::string(degrees_ ? kKind : kCourses) + ", found " +
+               std::string(wordAt(first)),
+           "angles in the two are of different units; a file without such a first line goes with both");
     const std::uint32_t second = after(first);
     return second < after(root) && kind(second) == Kind::number ? after(second) : second;
   }
