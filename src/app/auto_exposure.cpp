@@ -10,7 +10,7 @@
 namespace trace {
 namespace {
 
-constexpr double kMiddle = 0.46;   // the mean of the values shown, 0 to 1: a little below middle grey in sRGB
+constexpr double kMiddle = 0.52;   // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
 constexpr double kMostStops = 30;  // up or down
 constexpr double kNothing = 1e-6;  // of the brightest: black, as far as an eye tells
 

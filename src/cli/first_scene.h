@@ -11,18 +11,21 @@ inline constexpr std::string_view kFirstScene = R"(Trace 1
 // Change a number, render again, and see what happens. `ray materials` lists what things can be made of.
 // x goes to the right, y up, z toward you. Angles are in degrees.
 
+// Names for what is used more than once.
 let red = material { library = "red plastic" }
-let glass = material { library = crown }
+let high = 0.8
 
-camera { position = (0, 2.4, 7.5); look_at = (0, 0.8, 0); fov = 36 }
+camera { position = (0, 2.6, 8.5); look_at = (0, 0.75, 0); fov = 32; aspectratio = 4 / 3 }
 
 // The ground is the plane y = 0.
 plane { material = { library = oak } }
 
-// Objects are made at the origin and moved from there.
-translate(-1.5, 1, 0) { sphere { material = red } }
-translate(1.3, 0.8, 0.9) { scale(0.8) { sphere { material = glass } } }
-translate(0.4, 0, -1.6) { rotate y 25 { scale(1.6) { translate(0, 0.5, 0) { box { material = { library = gold } } } } } }
+// Objects are made at the origin and moved from there: the innermost step acts first.
+translate(-1.6, 1, 0) { sphere { material = red } }
+translate(1.9, high, 0.4) { scale(high) { sphere { material = { library = bronze } } } }
+translate(0.4, high, -1.4) {
+  rotate y 25 { scale(2 * high) { box { material = { library = "green marble" } } } }
+}
 
 // A loop: nine pearls on a circle. `i` counts from 0 to 8.
 for i in 0..8 {
@@ -31,7 +34,7 @@ for i in 0..8 {
   }
 }
 
-// Without any light of its own, a scene gets a sky and a sun. Take away the two strokes for a lamp instead:
+// A scene without a light of its own gets a sky and a sun. Take the two strokes away to have a lamp instead.
 // point_light { position = (-3, 5, 4); radius = 0.4 }
 )";
 

@@ -73,22 +73,23 @@ const Entry& entryOf(const std::vector<Entry>& all, const std::string& name) {
 }
 
 /// Balls in rows, each of one material, on a floor in a bright room.
-std::string sheetText(const std::vector<Entry>& shown) {
+std::string sheetText(const std::vector<Entry>& shown, double aspect) {
   const auto count = static_cast<double>(shown.size());
   const double columns = std::min(count, std::ceil(std::sqrt(count * 1.6))),
                rows = std::ceil(count / columns);
   constexpr double kStep = 2.4;
   std::string text = "Trace 1\n";
-  const double width = columns * kStep, depth = rows * kStep;
+  const double width = columns * kStep, depth = rows * kStep,
+               far = std::max(depth, (width + 1) / aspect) * 1.1;
   if (shown.size() == 1)
-    text += "camera { position = (0, 2.2, 6.5); look_at = (0, 0.95, 0); fov = 24; aspectratio = 1 }\n";
+    text += "camera { position = (0, 2.2, 6.5); look_at = (0, 0.95, 0); fov = 24; aspectratio = " +
+            toText(aspect) + " }\n";
   else
-    text += "camera { look_at = (0, 0, 0); position = (0, " + toText(depth * 2.2) + ", " +
-            toText(depth * 1.5) + "); fov = " + toText(22) +
-            "; aspectratio = " + toText(1.2 * width / depth) + " }\n";
+    text += "camera { look_at = (0, 0, 0); position = (0, " + toText(far * 2.2) + ", " + toText(far * 1.5) +
+            "); fov = 22; aspectratio = " + toText(aspect) + " }\n";
   text +=
       "plane { material = { model = lambert; diffuse = texture(checker { a = (0.5, 0.5, 0.5); b = (0.3, 0.3, "
-      "0.3); scale = 0.6 }) } }\n";
+      "0.3); scale = (0.6, 0.6, 0.6) }) } }\n";
   text +=
       "background { gradient = ((0.3, 0.3, 0.3), (0.5, 0.5, 0.5), (0.9, 0.92, 0.95), (0.6, 0.7, 0.85)); "
       "elevations = (-90, -4, 8, 90) }\n"
@@ -111,15 +112,13 @@ void writeSheet(const std::vector<Entry>& shown, const Arguments& arguments, con
       arguments.size.value_or(shown.size() == 1 ? std::array{256, 256} : std::array{960, 600});
   checkEncodable(pictureFormatFor(arguments.output), width, height);
   checkWritable(arguments.output);
+  const double aspect = static_cast<double>(width) / height;
   const Work work("rendering the materials");
   Messages messages;
-  Scene scene = readRay("materials.ray", sheetText(shown), messages);
-  const std::vector<Choice> choices{{"integrator", "path", {}},
-                                    {"spp", "64", {}},
-                                    {"noise-target", "0", {}},
+  Scene scene = readRay("materials.ray", sheetText(shown, aspect), messages);
+  const std::vector<Choice> choices{{"quality", shown.size() == 1 ? "good" : "draft", {}},
                                     {"width", std::to_string(width), {}},
                                     {"height", std::to_string(height), {}}};
-  scene.camera.aspectratio = static_cast<double>(width) / height;
   const Settings settings = settingsFor(scene, {scene.choices, choices});
   Session session;
   session.open(std::move(scene), settings);

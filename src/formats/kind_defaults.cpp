@@ -32,6 +32,7 @@ constexpr std::array kKindChoices{KindChoice{"width", "640"},
                                   KindChoice{"auto-exposure", "on"},
                                   KindChoice{"fresnel", "exact"},
                                   KindChoice{"air-index", "1"},
+                                  KindChoice{"glass-shadows", "black"},
                                   KindChoice{"mirror-default", "zero"},
                                   KindChoice{"limit-attenuation", "off"}};
 
@@ -43,8 +44,8 @@ bool isGiven(const Scene& scene, std::string_view option) {
 /// The sky by day of a friendly afternoon: colours from straight down to straight up.
 Background sky() {
   Background background;
-  background.gradient = {{0.22, 0.2, 0.18}, {0.4, 0.38, 0.36}, {0.85, 0.9, 0.98}, {0.3, 0.5, 0.9}};
-  background.elevations = {-90, -4, 2, 70};
+  background.gradient = {{0.3, 0.27, 0.24}, {0.42, 0.4, 0.37}, {0.75, 0.85, 0.95}, {0.2, 0.42, 0.85}};
+  background.elevations = {-90, -3, 1, 60};
   return background;
 }
 
@@ -57,7 +58,7 @@ LightSource sun(const Camera& camera, Real size) {
   along = flat > 1e-3 ? along / flat : Vec3{0, 0, -1};
   const Vec3 right = cross(along, {0, 1, 0});
   return {DirectionalLight{.direction = normalize(along * 0.75 + right * 0.55 + Vec3{0, -1, 0}),
-                           .color = {1.5, 1.42, 1.3},
+                           .color = {2.4, 2.25, 2},
                            .size = size},
           {}};
 }
@@ -175,7 +176,7 @@ void smoothBareMeshes(Scene& scene) {
 std::vector<LightSource> keyLights(const Camera& camera) {
   constexpr Real kSize = 12;
   std::vector<LightSource> lights{sun(camera, kSize)};
-  std::get<DirectionalLight>(lights.front().light).color = Color(1);
+  std::get<DirectionalLight>(lights.front().light).color = Color(1.6);
   return lights;
 }
 

@@ -15,15 +15,15 @@ namespace {
 
 struct QualityRow {
   std::string_view name;
-  std::string_view spp, noiseTarget, depth;
+  std::string_view spp, noiseTarget, depth, fireflyLimit;
   bool denoise;
 };
 /// In the order of the enum. A level of 255 is a noise target of 0.004.
 constexpr std::array<QualityRow, 4> kQualities{{
-    {"none", "", "", "", false},
-    {"draft", "16", "0", "5", true},
-    {"good", "256", "0.012", "8", true},
-    {"final", "4096", "0.002", "16", false},
+    {"none", "", "", "", "", false},
+    {"draft", "16", "0", "5", "8", true},
+    {"good", "64", "0.012", "8", "8", true},
+    {"final", "1024", "0.002", "16", "0", false},
 }};
 
 std::vector<Choice> choicesOfRow(const QualityRow& row) {
@@ -35,6 +35,7 @@ std::vector<Choice> choicesOfRow(const QualityRow& row) {
           choice("noise-target", row.noiseTarget),
           choice("denoise", row.denoise ? "on" : "off"),
           choice("depth", row.depth),
+          choice("firefly-limit", row.fireflyLimit),
           choice("sampling", "sobol"),
           choice("integrator", "path")};
 }
@@ -94,21 +95,20 @@ bool setsOption(std::string_view quality, std::string_view option) {
   return false;
 }
 
-FittingIntegrator integratorFor(const Scene& scene, const Settings& settings) {
-  if (settings.quality == Quality::draft) return {IntegratorKind::path, "a draft"};
+IntegratorKind integratorFor(const Scene& scene, const Settings& settings) {
+  if (settings.quality != Quality::final) return IntegratorKind::path;
   const bool lamps = std::any_of(scene.lights.begin(), scene.lights.end(),
                                  [](const LightSource& source) { return isMissedByPaths(source.light); });
   const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
     return isBent(scene, object.shape, object.material);
   });
-  if (lamps && glass) return {IntegratorKind::bdpt, "lights shine through glass"};
-  return {IntegratorKind::path, glass ? "no small light shines through glass" : "nothing bends light"};
+  return lamps && glass ? IntegratorKind::bdpt : IntegratorKind::path;
 }
 
 Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const Choice>> layers) {
   Settings settings = settingsFor(scene.camera, layers);
   if (settings.quality == Quality::none || isChosen("integrator", layers)) return settings;
-  settings.integrator = integratorFor(scene, settings).kind;
+  settings.integrator = integratorFor(scene, settings);
   // How exact a light image is is not known, so that nothing can be denoised by it.
   if (isBidirectional(settings) && !isChosen("denoise", layers)) settings.denoise = false;
   return settings;

@@ -18,19 +18,15 @@ std::span<const Choice> choicesOf(Quality quality);
 /// Whether the quality of that name gives the option its value.
 bool setsOption(std::string_view quality, std::string_view option);
 
-struct FittingIntegrator {
-  IntegratorKind kind = IntegratorKind::path;
-  std::string_view why;  ///< "glass and lamps: light through it is found from the lamps"
-};
-/// The integrator that finds the light of the scene with the least noise: paths from both ends where lamps
-/// shine on glass or mirrors, else paths from the camera.
-FittingIntegrator integratorFor(const Scene& scene, const Settings& settings);
+/// The integrator that finds the light of the scene: for a final picture paths from both ends where lights
+/// shine through glass, whose caustics paths from the camera do not find; else those, which are faster.
+IntegratorKind integratorFor(const Scene& scene, const Settings& settings);
 
 /// As settingsFor() of the camera (picture_size.h), of which a quality also picks the integrator, unless its
 /// layer or a later one names one.
 Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const Choice>> layers);
 
-/// "quality good: path, up to 256 samples a pixel, until the error is below 2 levels, denoised"; "" of
+/// "quality good: path, up to 256 samples a pixel, until its error is below 2 levels, denoised"; "" of
 /// Quality::none.
 std::string qualityText(const Settings& settings);
 

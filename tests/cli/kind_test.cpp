@@ -204,15 +204,14 @@ TEST(QualityOption, PicksTheIntegratorThatTheSceneNeeds) {
   };
   const std::string lamp = "point_light { position = (0, 5, 5) }\n";
   EXPECT_EQ(integrator(lamp, "good"), IntegratorKind::path);
-  EXPECT_EQ(integrator(kGlass, "good"), IntegratorKind::bdpt) << "the sun shines through the glass";
-  EXPECT_EQ(integrator("background { gradient = ((1, 1, 1)) }\n" + kGlass, "good"), IntegratorKind::path)
+  EXPECT_EQ(integrator(kGlass, "final"), IntegratorKind::bdpt) << "the sun shines through the glass";
+  EXPECT_EQ(integrator("background { gradient = ((1, 1, 1)) }\n" + kGlass, "final"), IntegratorKind::path)
       << "a sky is met by paths";
-  EXPECT_EQ(integrator(lamp + kGlass, "good"), IntegratorKind::bdpt);
+  EXPECT_EQ(integrator(lamp + kGlass, "final"), IntegratorKind::bdpt);
   EXPECT_EQ(integrator(lamp + "union { sphere { } " + kGlass + " }", "final"), IntegratorKind::bdpt)
       << "glass within a solid";
-  EXPECT_EQ(integrator(lamp + kGlass, "draft"), IntegratorKind::path);
-  EXPECT_EQ(integrator(lamp + kGlass, "good", {{"integrator", "photon", {}}}), IntegratorKind::photon);
-  EXPECT_EQ(integrator(lamp + kGlass, "none"), IntegratorKind::whitted);
+  EXPECT_EQ(integrator(lamp + kGlass, "good"), IntegratorKind::path);
+  EXPECT_EQ(integrator(lamp + kGlass, "final", {{"integrator", "photon", {}}}), IntegratorKind::photon);
 }
 
 TEST(QualityOption, OverridesWhatTheSceneSaysOfSamplesAndIsOverridden) {

@@ -72,7 +72,6 @@ class PlainText {
   }
   void tuple(const Item& item) {
     out_ += '(';
-    ++depth_;
     bool first = true;
     for (const Item part : item) {
       if (!first) out_ += ',';
@@ -83,7 +82,6 @@ class PlainText {
       first = false;
       print(part);
     }
-    --depth_;
     out_ += ')';
   }
   void block(const Item& item) {
