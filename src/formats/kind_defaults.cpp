@@ -160,7 +160,7 @@ void addKindChoices(Scene& scene, const Place& place) {
     if (like && isConvention(findOption(choice.option))) continue;
     choices.push_back({std::string(choice.option), std::string(choice.value), place});
   }
-  scene.choices.insert(scene.choices.begin(), choices.begin(), choices.end());
+  scene.choices.insert(scene.choices.end(), choices.begin(), choices.end());
 }
 
 }  // namespace
@@ -180,14 +180,17 @@ std::vector<LightSource> keyLights(const Camera& camera) {
   return lights;
 }
 
-void completeModel(Scene& scene, const std::optional<Camera>& camera, std::vector<LightSource> lights) {
-  scene.camera = camera ? *camera : framing(bounds(scene), kPlainFov, kPlainAspect);
-  if (!camera) scene.kindDefaults.emplace_back("a camera that shows all objects");
-  scene.lights = std::move(lights);
-  if (!givesLight(scene)) {
+void completeModel(Scene& scene, bool hasCamera, bool hasLights) {
+  if (!hasCamera) {
+    scene.camera = framing(bounds(scene), kPlainFov, kPlainAspect);
+    scene.kindDefaults.emplace_back("a camera that shows all objects");
+  }
+  if (!hasLights) {
+    scene.lights.clear();
+    const bool glows = givesLight(scene);
     scene.lights = keyLights(scene.camera);
-    scene.background = studioBackground();
-    scene.kindDefaults.emplace_back("a light and a grey room around");
+    if (!glows) scene.background = studioBackground();
+    scene.kindDefaults.emplace_back(glows ? "a light" : "a light and a grey room around");
   }
   addKindChoices(scene, Place{.file = scene.file});
 }

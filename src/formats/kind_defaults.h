@@ -26,8 +26,9 @@ struct KindGiven {
 /// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
 
-/// Completes the scene of a file of meshes, with its own camera and lights if it has some.
-void completeModel(Scene& scene, const std::optional<Camera>& camera, std::vector<LightSource> lights);
+/// Completes the scene of a file of meshes; the camera and the lights of sceneOf() (formats/model.h), where
+/// the file has none, give way to better ones.
+void completeModel(Scene& scene, bool hasCamera, bool hasLights);
 
 /// Meshes without normals look round where their faces meet at less than 40 degrees, if the scene is a file
 /// of meshes by itself: for a render of it, since a conversion keeps the points that there are.

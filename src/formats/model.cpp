@@ -159,7 +159,8 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
       scene.unusedMaterials.push_back({material.name, Place{.file = file}});
   scene.inputs = std::move(model.inputs);
   scene.choices = std::move(model.choices);
-  completeModel(scene, model.camera, std::move(model.lights));
+  scene.camera = model.camera ? *model.camera : framing(bounds(scene));
+  scene.lights = model.lights.empty() ? plainLights(scene.camera) : std::move(model.lights);
   return scene;
 }
 

@@ -57,8 +57,7 @@ void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& mess
 std::vector<Object> placed(const Model& model, const Material& base,
                            const std::function<std::uint32_t(const Material&)>& index);
 
-/// The model as a scene of its own, with the kind defaults (formats/kind_defaults.h) and a grey material
-/// where it has none.
+/// The model as a scene of its own, with framing(), plainLights() and a grey material where it has none.
 Scene sceneOf(Model model, const std::string& file, std::string_view format);
 
 /// What a mesh without a material looks like: a light grey, matt.
