@@ -8,6 +8,7 @@
 #include "base/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
+#include "formats/kind_defaults.h"
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
 #include "scene/quality.h"
@@ -77,7 +78,9 @@ Document::Reading Document::read(const Source& source) {
     reading.messages = {};
     text.time = time;
     SceneTime moment(time);
-    reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, moment));
+    Scene scene = readScene(source.file, bytes, reading.messages, moment);
+    completeBareMesh(scene);
+    reading.scene = std::make_shared<const Scene>(std::move(scene));
     reading.changesWithTime = moment.changesScene();
     reading.messages.throwIfFailed();
     return resolve({reading.scene->choices, source.commandLine, source.choices}).time;

@@ -124,7 +124,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   const std::string bytes = readFile(file);
   SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
   scene_ = std::move(read.scene);
-  smoothBareMeshes(scene_);
+  completeBareMesh(scene_);
   settings_ = settingsFor(scene_, {scene_.choices, choices});
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
   sceneAt_ = nullptr;

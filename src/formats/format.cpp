@@ -14,7 +14,6 @@
 #include "base/read_scope.h"
 #include "formats/composer/composer_format.h"
 #include "formats/inventor/inventor_format.h"
-#include "formats/kind_defaults.h"
 #include "formats/mesh/gltf_format.h"
 #include "formats/mesh/mesh_writers.h"
 #include "formats/mesh/obj_format.h"
@@ -252,11 +251,7 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
     return asNamed(format, [&] {
       if (format.row.readAt) return format.row.readAt(file, text, messages, time);
       if (format.row.read) return format.row.read(file, text, messages);
-      Model model = format.row.readModel(file, text, messages);
-      const bool hasCamera = model.camera.has_value(), hasLights = !model.lights.empty();
-      Scene scene = sceneOf(std::move(model), file, format.row.name);
-      completeModel(scene, hasCamera, hasLights);
-      return scene;
+      return sceneOf(format.row.readModel(file, text, messages), file, format.row.name);
     });
   });
   InputFiles inputs;

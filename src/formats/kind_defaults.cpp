@@ -163,35 +163,39 @@ void addKindChoices(Scene& scene, const Place& place) {
   scene.choices.insert(scene.choices.end(), choices.begin(), choices.end());
 }
 
-}  // namespace
+/// What shines on a mesh that has no light of its own.
+LightSource keyLight(const Camera& camera) {
+  constexpr Real kSize = 12;
+  LightSource light = sun(camera, kSize);
+  std::get<DirectionalLight>(light.light).color = Color(1.6);
+  return light;
+}
 
-void smoothBareMeshes(Scene& scene) {
+bool isBareMesh(const Scene& scene) {
   const std::span<const SceneFormat> formats = sceneFormats();
-  const bool isMesh = std::any_of(formats.begin(), formats.end(), [&](const SceneFormat& format) {
+  return std::any_of(formats.begin(), formats.end(), [&](const SceneFormat& format) {
     return format.name == scene.format && format.readModel;
   });
-  if (isMesh) smoothMeshes(scene);
 }
 
-std::vector<LightSource> keyLights(const Camera& camera) {
-  constexpr Real kSize = 12;
-  std::vector<LightSource> lights{sun(camera, kSize)};
-  std::get<DirectionalLight>(lights.front().light).color = Color(1.6);
-  return lights;
-}
+}  // namespace
 
-void completeModel(Scene& scene, bool hasCamera, bool hasLights) {
-  if (!hasCamera) {
-    scene.camera = framing(bounds(scene), kPlainFov, kPlainAspect);
+void completeBareMesh(Scene& scene) {
+  if (!isBareMesh(scene)) return;
+  const bool hasLights = !isPlainView(scene);
+  const Box3 box = bounds(scene);
+  if (scene.camera == framing(box)) {
+    scene.camera = framing(box, kPlainFov, kPlainAspect);
     scene.kindDefaults.emplace_back("a camera that shows all objects");
   }
   if (!hasLights) {
     scene.lights.clear();
     const bool glows = givesLight(scene);
-    scene.lights = keyLights(scene.camera);
+    scene.lights = {keyLight(scene.camera)};
     if (!glows) scene.background = studioBackground();
     scene.kindDefaults.emplace_back(glows ? "a light" : "a light and a grey room around");
   }
+  smoothMeshes(scene);
   addKindChoices(scene, Place{.file = scene.file});
 }
 

@@ -26,16 +26,10 @@ struct KindGiven {
 /// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
 
-/// Completes the scene of a file of meshes; the camera and the lights of sceneOf() (formats/model.h), where
-/// the file has none, give way to better ones.
-void completeModel(Scene& scene, bool hasCamera, bool hasLights);
-
-/// Meshes without normals look round where their faces meet at less than 40 degrees, if the scene is a file
-/// of meshes by itself: for a render of it, since a conversion keeps the points that there are.
-void smoothBareMeshes(Scene& scene);
-
-/// What shines on a mesh that has no light of its own: one light from the left above the camera.
-std::vector<LightSource> keyLights(const Camera& camera);
+/// Completes the scene of a file of meshes that is rendered by itself: its meshes look smooth where they have
+/// no normals, and a better camera and light take the place of those of sceneOf() (formats/model.h). Any
+/// other scene stays as it is. Not for conversions, which keep what the file has.
+void completeBareMesh(Scene& scene);
 
 /// The bounds of what a person looks at: of all objects that end somewhere, but for a floor that is much
 /// larger than all that stands on it.

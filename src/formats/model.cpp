@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/match.h"
-#include "formats/kind_defaults.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/csg_tree.h"
@@ -211,8 +210,6 @@ std::vector<LightSource> plainLights(const Camera& camera) {
   return {light(0.6, -0.9, 0.85), light(-0.9, -0.1, 0.3), {AmbientLight{.color = Color(0.12)}, {}}};
 }
 
-bool isPlainView(const Scene& scene) {
-  return scene.lights == plainLights(scene.camera) || scene.lights == keyLights(scene.camera);
-}
+bool isPlainView(const Scene& scene) { return scene.lights == plainLights(scene.camera); }
 
 }  // namespace trace

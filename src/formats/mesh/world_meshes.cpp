@@ -54,7 +54,7 @@ void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
   if (hasView && !(scene.camera == Camera{})) parts.emplace_back("the camera");
   if (const std::size_t n = scene.lights.size(); hasView && n > 0)
     parts.push_back(n == 1 ? "the light" : "the " + std::to_string(n) + " lights");
-  if (hasView && !(scene.background == Background{})) parts.emplace_back("the background");
+  if (!(scene.background == Background{})) parts.emplace_back("the background");
   const auto textured = std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
     return !std::all_of(m.textures.begin(), m.textures.end(),
                         [&](const FieldTexture& field) { return isWritten(field, pictureOf(m)); });
