@@ -60,7 +60,7 @@ Value Evaluator::eval(std::uint32_t index, const Scoped& scope) {
     case Kind::call: {
       const std::string_view name = wordAt(index + 1);
       const bool isTuple = kind(index + 2) == Kind::tuple;
-      const Found found = find(name, scope);
+      const Found found = findCalled(name, scope);
       if (found.binding && isTuple && !isDefinition(*found.binding)) return called(index, found, scope);
       if (!found.binding && isTuple && findFunction(name)) return builtIn(index, *findFunction(name), scope);
       return Tree{index, scope};
@@ -129,7 +129,7 @@ std::shared_ptr<Scope> Evaluator::bound(std::uint32_t call, std::string_view nam
     const std::uint32_t word = kind(parameter) == Kind::entry ? parameter + 1 : parameter;
     if (wordAt(word).empty())
       fail(parameter, "expected the name of a parameter, found " + describe(at(parameter)));
-    checkName(word);
+    checkName(word, Named::value);
     names.push_back(wordAt(word));
   }
   std::size_t place = 0;
