@@ -5,7 +5,11 @@ set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)"
 cd -- "${2:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
-tests="$(ctest --test-dir "$build" -N | sed -n 's/^ *Test *#[0-9]*: //; T; s/ *# GetParam.*//; p')"
+# From a folder of its own, for ctest writes over the log of a run that goes on.
+listing="$(mktemp -d)"
+trap 'rm -rf -- "$listing"' EXIT
+echo "subdirs(\"$build\")" >"$listing/CTestTestfile.cmake"
+tests="$(ctest --test-dir "$listing" -N | sed -n 's/^ *Test *#[0-9]*: //; T; s/ *# GetParam.*//; p')"
 [[ -n "$tests" ]] || { echo "ctest knows no test in $build"; exit 1; }
 
 wrong=0 promises=0

@@ -61,7 +61,7 @@ std::optional<std::int64_t> countIn(std::string_view text) {
 /// Nothing of a file that is no checkpoint.
 std::optional<Head> headOf(const std::string& path) {
   constexpr std::size_t kLongest = 1 << 20;  // of lines that say of which picture it is
-  if (!isOrdinaryFile(path)) return {};       // a pipe might never answer
+  if (!isOrdinaryFile(path)) return {};      // a pipe might never answer
   std::ifstream file(path, std::ios::binary);
   std::string begin(kLongest, '\0');
   begin.resize(static_cast<std::size_t>(file.read(begin.data(), kLongest).gcount()));

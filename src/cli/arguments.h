@@ -77,7 +77,7 @@ struct Arguments {
   std::string sample;                 ///< explain: --sample, as typed
   bool lightImage = false;            ///< explain: --light-image
   bool inPlace = false;               ///< format: --in-place
-  bool markdown = false;              ///< features: as docs/options.md
+  bool markdown = false;              ///< features: as docs/options.md; convert: docs/formats.md
   std::string examples;               ///< features: --examples, the folder of the scenes
   /// texture and materials: --size, width and height
   std::optional<std::array<int, 2>> size{};

@@ -209,7 +209,7 @@ std::span<const Command> commands() {
               diffCommand, failedDiff},
       Command{Verb::grade, "grade", "DIR --reference DIR",
               "compare a folder of pictures, or of scenes, with reference pictures", false, gradeCommand},
-      Command{Verb::convert, "convert", "IN OUT",
+      Command{Verb::convert, "convert", "IN [OUT]",
               "write a scene or mesh in another format, by the suffix of OUT", true, convertCommand},
       Command{Verb::texture, "texture", "[NAME|SCENE:NAME [-o OUT]]",
               "write a texture as a picture, or list its fields; alone, list the textures", false,

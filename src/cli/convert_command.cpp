@@ -1,4 +1,4 @@
-// ray convert IN OUT: read a scene, change its camera, lights or material if asked, and write it in the
+// ray convert IN [OUT]: read a scene, change its camera, lights or material if asked, and write it in the
 // format that the suffix of OUT names.
 #include <algorithm>
 #include <chrono>
@@ -20,8 +20,10 @@
 #include "cli/scene_facts.h"
 #include "cli/watch.h"
 #include "formats/format.h"
+#include "formats/known_fields.h"
 #include "formats/mesh/revolve.h"
 #include "formats/ray/ray_format.h"
+#include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 
 namespace trace::cli {
@@ -166,15 +168,28 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
          durationText(seconds) + sparedText(files) + outsideText(files, scene.inputs);
 }
 
+/// The file that vrml2out, the courses' converter, wrote for a VRML or Inventor file: x.out next to x.wrl.
+/// Empty for files with another suffix.
+std::string courseOutput(const std::string& in) {
+  const std::filesystem::path path(in);
+  const std::string suffix = path.extension().string();
+  const bool isVrml = sameWord(suffix, ".wrl") || sameWord(suffix, ".iv");
+  return isVrml ? std::filesystem::path(path).replace_extension(".out").string() : "";
+}
+
 }  // namespace
 
 int convertCommand(const Arguments& arguments, const Console& console) {
-  if (arguments.files.size() != 2)
-    throw Error(
-        Fault::usage,
-        "ray convert: expected the names of two files, found " + std::to_string(arguments.files.size()),
-        "ray convert IN OUT");
-  const std::string &in = arguments.files[0], &out = arguments.files[1];
+  if (arguments.markdown) {
+    printResult(formatsMarkdown());
+    return kDone;
+  }
+  const std::size_t count = arguments.files.size();
+  const std::string single = count == 1 ? courseOutput(arguments.files[0]) : "";
+  if (count != 2 && single.empty())
+    throw Error(Fault::usage, "ray convert: expected the names of two files, found " + std::to_string(count),
+                "ray convert IN OUT; of a .wrl or .iv alone it makes a .out");
+  const std::string &in = arguments.files[0], &out = count == 1 ? single : arguments.files[1];
   try {
     console.last(true, convert(in, out, arguments, console));
   } catch (const std::bad_alloc&) {

@@ -357,9 +357,9 @@ std::span<const Flag> flags() {
            Takes::nothing,
            "",
            "",
-           {Verb::features, Verb::texture},
+           {Verb::convert, Verb::features, Verb::texture},
            false,
-           "print docs/options.md, or of texture docs/texture-fields.md",
+           "print docs/options.md, or of texture docs/texture-fields.md, or of convert docs/formats.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
       Flag{
           "examples",

@@ -90,7 +90,7 @@ Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   };
   if (bytes.size() >= kHeight + 4)
     checkClaimedSize(number(kWidth), number(kHeight), bytes.size(), kPackedPixelsPerByte, limits);
-  return decodeByStb(bytes, limits);
+  return oriented(decodeByStb(bytes, limits), pngOrientation(bytes));
 }
 Metadata noMetadata(std::string_view) { return {}; }
 std::string noRemark(std::string_view) { return {}; }
@@ -104,9 +104,9 @@ constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max() / siz
 // Reading tries them in this order.
 constexpr PictureFormat kFormats[] = {
     {"PNG", kPng, "8 bits a channel, compressed without loss; carries the render's settings", false, true,
-     INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText, noRemark},
+     INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText, pngRemark},
     {"BMP", kBmp, "8 bits a channel, uncompressed; what the courses hand in", false, true, INT_MAX,
-     kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, noRemark},
+     kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, bmpRemark},
     {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
      encodePpm, isPpm, decodePpm, commentLines, noRemark},
     {"JPEG", kJpeg, "8 bits a channel, small, with visible loss", false, false, 65535, kMostStbPixels,
@@ -116,7 +116,7 @@ constexpr PictureFormat kFormats[] = {
     {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
      kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark},
     {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,
-     decodeTga, noMetadata, noRemark},
+     decodeTga, noMetadata, tgaRemark},
 };
 
 std::string lowerCase(std::string_view text) {

@@ -114,6 +114,24 @@ struct ShownChannels {
   std::string remark;              ///< of what is not shown
 };
 
+/// Channels of the layer that are no part of the picture, such as the depth.
+std::string unshown(const std::vector<std::string>& names, const ShownChannels& found,
+                    const std::string& layer) {
+  constexpr size_t kMostNamed = 5;
+  std::string list;
+  size_t count = 0;
+  for (const std::string& name : names) {
+    const bool isPart = name.starts_with(layer) && name.find('.', layer.size()) == std::string::npos;
+    const bool isShown =
+        std::find(found.shown.begin(), found.shown.end(), name) != found.shown.end() ||
+        (found.isChroma && (name == layer + "Y" || name == layer + "RY" || name == layer + "BY"));
+    if (!isPart || isShown || ++count > kMostNamed) continue;
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  return list.empty() ? ""
+                      : "channels that are not shown: " + list + (count > kMostNamed ? " and others" : "");
+}
+
 /// R, G and B, or Y with RY and BY, or Y; or those of the first layer; or the first channel, as a grey.
 ShownChannels shownChannels(const Imf::ChannelList& channels) {
   std::vector<std::string> names, layers{""};
@@ -148,6 +166,7 @@ ShownChannels shownChannels(const Imf::ChannelList& channels) {
                                                [&](const std::string& name) { return !isPart(name, ""); });
              others > 0)
       found.remark = "its layers are not shown";
+    remark(found.remark, unshown(names, found, layer));
     return found;
   }
   const auto first = std::find_if(names.begin(), names.end(), [](const std::string& n) { return n != "A"; });
@@ -369,8 +388,18 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
 
 std::string exrRemark(std::string_view bytes) {
   const ExrHeaders headers = exrHeaders(bytes);
-  const ShownChannels names = shownChannels(headerOf(bytes).channels());
-  return headers.several && names.remark.empty() ? "only the first of its parts is shown" : names.remark;
+  const Imf::Header header = headerOf(bytes);
+  std::string all = shownChannels(header.channels()).remark;
+  if (headers.several) remark(all, "only the first of its parts is shown");
+  constexpr float kClose = 1e-4f;
+  if (const float aspect = header.pixelAspectRatio(); std::abs(aspect - 1) > kClose)
+    remark(all, "its pixels are not square, but shown as squares");
+  if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+    remark(all, "the six sides of its cube are shown one below the other");
+  if (Imf::hasAdoptedNeutral(header)) remark(all, "its adopted white is not taken into account");
+  if (Imf::hasWhiteLuminance(header)) remark(all, "the luminance of its white is not taken into account");
+  if (Imf::hasWrapmodes(header)) remark(all, "its wrap modes are not taken into account");
+  return all;
 }
 
 Metadata exrMetadata(std::string_view bytes) {

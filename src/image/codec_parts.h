@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "image/metadata.h"
+#include "image/orientation.h"
 #include "image/picture.h"
 #include "image/raster.h"
 #include "image/tone.h"
@@ -38,6 +40,12 @@ std::string encodePngRows(const Bytes& bytes);
 std::string encodePngRows(const Raster& raster);
 /// One part of a PNG file, with its length and checksum.
 std::string pngChunk(const std::string& type, const std::string& data);
+/// The parts of a PNG file that are whole.
+void forEachPngChunk(std::string_view png,
+                     const std::function<void(std::string_view type, std::string_view data)>& visit);
+/// The segments before the picture itself.
+void forEachJpegSegment(std::string_view jpeg,
+                        const std::function<void(std::uint32_t marker, std::string_view data)>& visit);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
 std::string encodeJpegByStb(const Bytes& bytes);
@@ -46,10 +54,29 @@ Raster decodeByStb(std::string_view bytes, const PictureLimits& limits);
 /// As EXIF's orientation says. A JPEG may lack its end marker.
 Raster decodeJpeg(std::string_view bytes, const PictureLimits& limits);
 std::string jpegRemark(std::string_view bytes);
+/// Names the properties in the segments before the picture that are not shown.
+std::string jpegHeadRemark(std::string_view jpeg);
+/// The orientation that an EXIF block says, which begins with II or MM.
+Orientation orientationOfExif(std::string_view exif);
+Orientation pngOrientation(std::string_view png);
+/// The meaning of the fourth channel of a TGA file.
+enum class TgaAlpha { none, separate, premultiplied };
+TgaAlpha tgaAlpha(std::string_view tga);
 Raster decodeTga(std::string_view bytes, const PictureLimits& limits);
+std::string tgaRemark(std::string_view bytes);
 Raster decodeBmp(std::string_view bytes, const PictureLimits& limits);
 
+std::string bmpRemark(std::string_view bytes);
+std::string pngRemark(std::string_view bytes);
 std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
+
+/// Puts the parts of a remark together.
+inline void remark(std::string& all, std::string_view part) {
+  all += (all.empty() || part.empty() ? "" : "; ") + std::string(part);
+}
+/// The remark about a colour profile; "" for sRGB, which is expected.
+std::string profileRemark(std::string_view profile);
+
 /// P2, P3, P5 or P6.
 Raster decodePpm(std::string_view bytes, const PictureLimits& limits);
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);

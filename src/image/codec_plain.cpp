@@ -168,7 +168,10 @@ class HdrHead {
   }
 
   std::string remark() const {
-    return primaries_ && !xyz_ ? "its primaries are not taken into account: colours may be a little off" : "";
+    std::string all;
+    if (primaries_ && !xyz_) all = "its primaries are not taken into account: colours may be a little off";
+    if (stretched_) trace::remark(all, "its pixels are not square, but shown as squares");
+    return all;
   }
 
  private:
@@ -185,6 +188,8 @@ class HdrHead {
     if (const auto f = numbers(after(line, "COLORCORR="), 3); f[0] > 0 && f[1] > 0 && f[2] > 0)
       scale_ *= Color(1 / f[0], 1 / f[1], 1 / f[2]);
     if (!after(line, "PRIMARIES=").empty()) primaries_ = true;
+    if (const auto ratio = numbers(after(line, "PIXASPECT="), 1); ratio[0] > 0 && ratio[0] != 1)
+      stretched_ = true;
   }
 
   static std::string_view after(std::string_view line, std::string_view key) {
@@ -207,7 +212,7 @@ class HdrHead {
   }
 
   Color scale_{1, 1, 1};
-  bool xyz_ = false, primaries_ = false;
+  bool xyz_ = false, primaries_ = false, stretched_ = false;
 };
 
 /// Of the rows as the file has them.

@@ -1,8 +1,7 @@
 // PNG, TGA and JPEG, and BMP to be written, through stb_image and stb_image_write, the only file that sees
-// them. PNG files are written elsewhere (codec_png.cpp). One station of codec.cpp's table. Source: Sean Barrett's
-// public-domain headers, stb_image 2.27 and
-// stb_image_write 1.16. stb reads zeros behind the end of a file and calls the result a picture; the
-// source below notices, so that a truncated file is refused.
+// them. PNG files are written elsewhere (codec_png.cpp). One station of codec.cpp's table. Source: Sean
+// Barrett's public-domain headers, stb_image 2.27 and stb_image_write 1.16. stb reads zeros behind the end of
+// a file and calls the result a picture; the source below notices, so that a truncated file is refused.
 #include <algorithm>
 #include <climits>
 #include <cstdlib>
@@ -17,7 +16,6 @@
 #include "base/budget.h"
 #include "image/codec.h"
 #include "image/codec_parts.h"
-#include "image/orientation.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -162,35 +160,30 @@ bool fourthIsUnused(std::string_view bytes) {
 /// The orientation that the EXIF part of a JPEG says; upright if it says none.
 Orientation exifOrientation(std::string_view jpeg) {
   using namespace std::string_view_literals;
-  const auto at = [](std::string_view bytes, std::size_t i) {
-    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u;
-  };
-  for (std::size_t i = 2; i + 4 <= jpeg.size() && at(jpeg, i) == 0xFF && at(jpeg, i + 1) != 0xDA;) {
-    const std::size_t length = at(jpeg, i + 2) << 8 | at(jpeg, i + 3);
-    std::string_view exif = jpeg.substr(std::min(i + 4, jpeg.size()), length > 2 ? length - 2 : 0);
-    if (at(jpeg, i + 1) == 0xE1 && exif.starts_with("Exif\0\0"sv)) {
-      exif.remove_prefix(6);
-      const bool big = exif.starts_with("MM");
-      const auto number = [&](std::size_t from, std::size_t size) {
-        std::size_t value = 0;
-        for (std::size_t k = 0; k < size; ++k) value = value << 8 | at(exif, from + (big ? k : size - 1 - k));
-        return value;
-      };
-      const std::size_t directory = number(4, 4), entries = number(directory, 2);
-      for (std::size_t k = 0; k < std::min<std::size_t>(entries, 100); ++k) {
-        const std::size_t entry = directory + 2 + 12 * k, value = number(entry + 8, 2);
-        if (number(entry, 2) == 0x0112 && value >= 1 && value <= 8) return static_cast<Orientation>(value);
-      }
-    }
-    i += 2 + length;
-  }
-  return Orientation::upright;
+  Orientation found = Orientation::upright;
+  forEachJpegSegment(jpeg, [&](std::uint32_t marker, std::string_view data) {
+    constexpr std::size_t kName = 6;
+    if (marker == 0xE1 && data.starts_with("Exif\0\0"sv) && found == Orientation::upright)
+      found = orientationOfExif(data.substr(kName));
+  });
+  return found;
 }
 
 /// Whether a JPEG ends in its marker, perhaps with zeros or other padding behind that.
 bool endsInMarker(std::string_view jpeg) {
   constexpr std::size_t kPadding = 4096;
   return jpeg.substr(jpeg.size() - std::min(jpeg.size(), kPadding)).rfind("\xFF\xD9") != jpeg.npos;
+}
+
+/// Colours that are multiplied by the alpha behind them, as they are without.
+void divideByAlpha(Raster& raster) {
+  auto& samples = std::get<std::vector<stbi_uc>>(raster.samples);
+  const auto stride = static_cast<size_t>(raster.channels);
+  for (size_t i = 0; i + stride <= samples.size(); i += stride) {
+    const int alpha = samples[i + stride - 1];
+    for (size_t k = 0; alpha > 0 && k + 1 < stride; ++k)
+      samples[i + k] = static_cast<stbi_uc>(std::min(255, (samples[i + k] * 255 + alpha / 2) / alpha));
+  }
 }
 
 /// Without its last channel.
@@ -238,13 +231,22 @@ Raster decodeJpeg(std::string_view bytes, const PictureLimits& limits) {
 }
 
 std::string jpegRemark(std::string_view bytes) {
-  return endsInMarker(bytes) ? "" : "the JPEG lacks its end marker";
+  std::string all = endsInMarker(bytes) ? "" : "the JPEG lacks its end marker";
+  remark(all, jpegHeadRemark(bytes));
+  return all;
 }
 
 Raster decodeTga(std::string_view bytes, const PictureLimits& limits) {
-  constexpr std::size_t kDescriptor = 17;
-  constexpr int kFromRight = 16;
+  constexpr std::size_t kFirstColor = 3, kDescriptor = 17;
+  constexpr int kFromRight = 16, kInterleaved = 0xC0;
+  if (bytes.size() > kDescriptor && (bytes[kDescriptor] & kInterleaved) != 0)
+    throw std::runtime_error("interleaved rows are not read");
+  if (bytes.size() > kDescriptor && bytes[1] == 1 && (bytes[kFirstColor] != 0 || bytes[kFirstColor + 1] != 0))
+    throw std::runtime_error("a table of colours that does not begin at 0 is not read");
   Raster raster = decodeByStb(bytes, limits);
+  const TgaAlpha alpha = tgaAlpha(bytes);
+  if (raster.hasAlpha() && alpha == TgaAlpha::none) raster = withoutAlpha(raster);
+  if (raster.hasAlpha() && alpha == TgaAlpha::premultiplied) divideByAlpha(raster);
   const bool mirrored = bytes.size() > kDescriptor && (bytes[kDescriptor] & kFromRight) != 0;
   return oriented(std::move(raster), mirrored ? Orientation::mirrored : Orientation::upright);
 }

@@ -161,6 +161,13 @@ Metadata pngText(std::string_view png) {
   return metadata;
 }
 
+void forEachPngChunk(std::string_view png,
+                     const std::function<void(std::string_view type, std::string_view data)>& visit) {
+  size_t offset = kPngSignature;
+  while (const auto chunk = nextPngChunk(png, offset))
+    if (chunk->sound) visit(chunk->type, chunk->data);
+}
+
 void checkPngChunks(std::string_view png) {
   size_t offset = kPngSignature;
   while (const auto chunk = nextPngChunk(png, offset)) {

@@ -179,7 +179,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
     // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
     const Real ratio = at.ratio(*share);
     f.straight = f.straight && ratio == 1;
-    f.asked = f.asked && tracer_.lightPassesToMedia(at.bsdf());
+    f.asked = f.asked && tracer_.lightPasses(at.bsdf());
     f.power *= through * (ratio * ratio * all / passes);
     there = at.behind();
     there.wavelength = share->nanometres;

@@ -100,11 +100,6 @@ class Tracer {
   bool lightPasses(const Bsdf& bsdf) const {
     return whitted(bsdf).transmits() && !gathers(bsdf) && settings_.glassShadows != GlassShadows::black;
   }
-  /// The same of rays from a medium, to which photons do not bring the light of such glass.
-  bool lightPassesToMedia(const Bsdf& bsdf) const {
-    return whitted(bsdf).transmits() && !(followsLobes() && isGlossy(bsdf)) && !isBidirectional(settings_) &&
-           settings_.glassShadows != GlassShadows::black;
-  }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
     return world_.filling(hit, terms, settings_);
@@ -171,16 +166,14 @@ class Tracer {
     return kind == IntegratorKind::path || kind == IntegratorKind::photon || kind == IntegratorKind::mlt ||
            kind == IntegratorKind::bdpt;
   }
-  /// Photons, or paths from lights, bring the light that the glass bends. Photons bring it to surfaces only.
-  /// Of rough glass, rays that are followed into its lobe ask lights where they meet it: a shadow ray through
-  /// it would count them twice.
+  /// Photons, or paths from lights, bring the light that the glass bends. Whitted's bring it to surfaces
+  /// only. Of rough glass, rays that are followed into its lobe ask lights where they meet it: a shadow ray
+  /// through it would count them twice.
   bool gathers(const Bsdf& bsdf) const {
     if (joins_ || (followsLobes() && isGlossy(bsdf))) return true;
     if (whitted(bsdf).passage == Passage::straight) return false;
-    if (isBidirectional(settings_)) return true;
-    if (midair_) return false;
-    return settings_.integrator == IntegratorKind::photon ||
-           (settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0);
+    if (isBidirectional(settings_) || settings_.integrator == IntegratorKind::photon) return true;
+    return settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0 && !midair_;
   }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);

@@ -236,8 +236,13 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) zoomAndPan(view, under);
-  x = static_cast<int>(std::floor((mouse.x - under.low.x) / under.size.x * static_cast<float>(width)));
-  y = static_cast<int>(std::floor((mouse.y - under.low.y) / under.size.y * static_cast<float>(height)));
+  // -1 before the first. A mouse outside the window may be anywhere.
+  const auto pixelAt = [](float part, int size) {
+    const float most = static_cast<float>(size);
+    return static_cast<int>(std::floor(std::clamp(part * most, -1.0f, most)));
+  };
+  x = pixelAt((mouse.x - under.low.x) / under.size.x, width);
+  y = pixelAt((mouse.y - under.low.y) / under.size.y, height);
   const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
   if (!other.texture && mode == View::picture) {

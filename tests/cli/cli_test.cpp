@@ -248,7 +248,7 @@ TEST_F(Cli, WrongUsageIs2) {
   refused({"--widht=40", "white.ray"}, "unknown flag \"--widht\"");
   refused({"-x", "white.ray"}, "unknown flag \"-x\"");
   refused({"-5", "white.ray"}, "unknown flag \"-5\"");
-  refused({"--markdown", "white.ray"}, "it belongs to: texture, features");
+  refused({"--markdown", "white.ray"}, "it belongs to: convert, texture, features");
   refused({"white.ray", "-w", "-5"}, "expected a whole number from 1 to 100000 pixels, found \"-5\"");
   refused({"white.ray", "--width="}, "expected a value after");
   refused({"white.ray", "-w"}, "expected a value after");

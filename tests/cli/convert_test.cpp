@@ -26,6 +26,19 @@ TEST_F(Convert, GoesRoundThroughTheFormats) {
   EXPECT_TRUE(test::contains(read("short.ray"), "(0, 1, 0.12)"));
 }
 
+TEST_F(Convert, WritesWhatVrml2outWroteOfAVrmlFileAlone) {
+  std::filesystem::create_directory(path("deep"));
+  write("deep/park.wrl", "#VRML V1.0 ascii\nSphere { radius 2 }\n");
+  const auto alone = run({"convert", "deep/park.wrl"});
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  EXPECT_TRUE(alone.last.starts_with("wrote deep/park.out (1 object")) << alone.last;
+  EXPECT_EQ(run({"convert", "deep/park.wrl", "two.out"}).code, 0);
+  EXPECT_EQ(read("deep/park.out"), read("two.out"));
+  const auto other = run({"convert", "tri.off"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_TRUE(test::contains(other.err, "expected the names of two files, found 1"));
+}
+
 TEST_F(Convert, ReplacesCameraLightsAndMaterial) {
   const auto converted =
       run({"convert", "tri.off", "tri.ray", "--camera", "position = (0, 0, 9); fov = 20", "--light",

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/match.h"
 #include "formats/format.h"
+#include "formats/known_fields.h"
 #include "geometry/field_value.h"
 #include "scene/conventions.h"
 #include "scene/options.h"
@@ -59,6 +60,10 @@ TEST(Docs, TableOfFormatsIsThatOfTheProgram) {
       row += (suffix == format.suffixes.front() ? "" : ", ") + std::string(suffix);
     EXPECT_NE(text.find(row + " |"), std::string::npos) << row;
   }
+}
+
+TEST(Docs, PageOfFormatsIsTheTableOfFields) {
+  EXPECT_EQ(formatsMarkdown(), page("formats.md")) << "run: ray convert --markdown >docs/formats.md";
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
   for (const SceneFormat& format : sceneFormats())
     formats += (formats.empty() ? "" : "; ") + std::string(format.name) + ", " + std::string(format.help);
   for (const auto& [bytes, kind] : cases)
-    EXPECT_EQ(errorsOfFile(bytes), "0:0: named .ray, but holds " + std::string(kind) +
-                                       " [formats Trace reads: " + formats + "]");
+    EXPECT_EQ(errorsOfFile(bytes),
+              "0:0: named .ray, but holds " + std::string(kind) + " [formats Trace reads: " + formats + "]");
 }
 
 TEST(Format, ReadsFilesByName) {

@@ -132,7 +132,7 @@ TEST(Inventor, TheFirstCameraCounts) {
   const Scene scene =
       sceneIn(iv("Translation { translation 1 0 0 } PerspectiveCamera { position 0 2 3 orientation 0 1 0 "
                  "1.5707963267948966 "
-                 "heightAngle 0.5 aspectRatio 2 } PerspectiveCamera { } Sphere { }"));
+                 "heightAngle 0.5 aspectRatio 2 } Sphere { }"));
   expectNear(scene.camera.position, {1, 2, 3});
   expectNear(scene.camera.viewdir, {-1, 0, 0});
   EXPECT_NEAR(scene.camera.fov, 0.5 * 180 / kPi, 1e-12);
@@ -240,16 +240,18 @@ TEST(Inventor, ExtrusionsAreClosedAndLookOutward) {
 
 TEST(Inventor, UnknownNodesAreLeftOutWithOneWarning) {
   EXPECT_EQ(warningsOfFile(iv("Wobble { speed 3 mode FAST parts [ a, b ] } Wobble { } Sphere { }")),
-            "2:1: \"Wobble\" is not rendered and is left out");
+            "2:1: \"Wobble\" is not rendered and is left out (2 times, first here)");
   EXPECT_EQ(warningsOfFile(vrml1("Wobble { fields [ SFFloat a ] a 3 Sphere { } }")),
             "2:1: \"Wobble\" is not rendered and is left out");
 }
 
-TEST(Inventor, ConnectionsFlagsAndRoutesAreSkipped) {
-  const Scene scene =
-      sceneIn(iv("Rotation { rotation 0 0 1 0.5 = ElapsedTime { } . timeOut } Sphere { radius 2 ~ } "
-                 "Cube { width 2 = ElapsedTime { } . timeOut }"));
-  EXPECT_EQ(scene.objects.size(), 2u);
+TEST(Inventor, EnginesAreReportedAndIgnoredFieldsKeepTheirDefaults) {
+  const std::string text =
+      iv("Rotation { rotation 0 0 1 0.5 = ElapsedTime { } . timeOut } Sphere { radius 2 ~ } "
+         "Cube { width 2 = ElapsedTime { } . timeOut }");
+  EXPECT_EQ(warningsOfFile(text),
+            "2:12: routes and engines are not run: nothing moves or reacts (2 times, first here)");
+  EXPECT_EQ(sceneIn(iv("Sphere { radius 2 ~ }")).objects.at(0).worldFromObject, Affine());
 }
 
 TEST(Inventor, TellsWhereAndWhat) {

@@ -48,6 +48,20 @@ TEST(Off, ReadsPolygonsNormalsAndColours) {
   EXPECT_EQ(std::get<Phong>(scene.materials.at(mesh.materials.at(1)).model).diffuse, Color(0, 1, 0));
 }
 
+TEST(Off, CountsWhatItLeavesOutAndNamesTheFirst) {
+  const test::Folder folder;
+  writeFile(folder / "a.off",
+            "COFF\n3 2 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 200\n0 1 0 255 0 0 200\n"
+            "3 0 1 2\n3 0 1 2 0 255 0\n");
+  Messages messages;
+  readScene(folder / "a.off", messages);
+  ASSERT_EQ(messages.all().size(), 2u);
+  EXPECT_EQ(messages.all()[0].what, "the transparency of points is left out: 2");
+  EXPECT_EQ(messages.all()[0].place.line, 4);
+  EXPECT_EQ(messages.all()[1].what, "colours of faces are left out, since points have some: 1");
+  EXPECT_EQ(messages.all()[1].place.line, 7);
+}
+
 TEST(Stl, MergesEqualCorners) {
   const Scene text = read("stl/text.stl");
   ASSERT_EQ(text.objects.size(), 2u);
@@ -117,7 +131,8 @@ TEST(Obj, SaysWhereANumberIsNone) {
 
 TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
   const test::Folder folder;
-  writeFile(folder / "a.mtl", "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nillum 4\n");
+  writeFile(folder / "a.mtl",
+            "newmtl \\\ngrey\nKd 0.5 # all three\nKa 0.1 \\\r\n0.2 0.3\nTf 0.25\nillum 4\n");
   const std::string triangle = "# a comment that ends in C:\\\nv 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\n";
   const auto read = [&](const std::string& rest) {
     Messages messages;

@@ -45,7 +45,7 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
   std::size_t edits = 0;
   for (const std::string& file : examples()) {
     const SceneText read = reading(file, readFile(file));
-    if (changesWithTime(file, *read.bytes)) continue;  // below
+    if (changesWithTime(file, *read.bytes)) continue;                 // below
     if (rayfile::Syntax(file, *read.bytes).usesLanguage()) continue;  // written anew, with a warning
     const Scene& scene = *read.scene;
     const auto expect = [&](const std::string& what, const Edit& edit, std::size_t lines = 1) {

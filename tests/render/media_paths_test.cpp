@@ -189,6 +189,37 @@ TEST(MediaPaths, PhotonsInAnEvenMediumAreAsDenseAsItsLight) {
   EXPECT_NEAR(found / expected, 1, 0.02);
 }
 
+/// How bright the front of a block of turbid glass is by photons. A point or a lamp as strong lights its top;
+/// the front mirrors neither.
+Real turbidGlass(bool lamp) {
+  Scene scene;
+  scene.camera.position = {0, 0, 6}, scene.camera.viewdir = {0, 0, -1}, scene.camera.fov = 10;
+  Material glass;
+  Phong clear;
+  clear.transmissive = Color(1), clear.index = 1.5;
+  glass.model = clear;
+  glass.mediumDensity = 2;
+  scene.materials.push_back(glass);
+  scene.objects.push_back({"", Cube{}, scaled(2), 0, {}});
+  const Vec3 at{0.2, 3, 0.3};
+  constexpr Real kRadius = 0.3, kLight = 36;
+  if (lamp)
+    addObject(scene, Sphere{}, Affine::translation(at) * scaled(kRadius), diffuse(Color(0), kLight));
+  else
+    scene.lights.push_back({PointLight{.position = at, .color = Color(kLight * kRadius * kRadius)}, {}});
+  Settings settings = settingsOf(IntegratorKind::photon, 16);
+  settings.photons = 100000;
+  return mean(picture(scene, settings));
+}
+
+TEST(MediaPaths, PhotonsBringTheLightOfAPointIntoGlassAsThatOfALamp) {
+  // Shadow rays straight through the glass would bring it too, and 2.25 times as much: rays that leave glass
+  // keep radiance over the square of the index.
+  const Real lamp = turbidGlass(true);
+  EXPECT_GT(lamp, 0.005);
+  EXPECT_NEAR(turbidGlass(false) / lamp, 1, 0.05);
+}
+
 TEST(MediaPaths, FogInTheSunScattersWhatFallsOnIt) {
   // The sun lights all of the ball around the scene. What is scattered there goes on to where it is scattered
   // again: 1 / density away on the average.

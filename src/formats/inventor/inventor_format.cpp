@@ -18,6 +18,7 @@ Scene Reader::read() {
 Scene Reader::readPart() {
   scene_.inputs.note(document_.inputs());
   walk();
+  warnings_.report(messages_);
   textures_.report(messages_);
   return std::move(scene_);
 }
@@ -26,6 +27,12 @@ Scene Reader::readPart() {
 
 void Reader::finish() {
   const Place place{scene_.file, 0, 0, {}};
+  if (headlight_ && *headlight_ != scene_.lights.empty())
+    warn(*headlightAt_,
+         *headlight_ ? "the headlight is left out, since the file has lights"
+                     : "a file without lights is lit from the camera, though its headlight is off",
+         "headlight");
+  warnings_.report(messages_);
   if (!meshes_.empty()) repairs_.report(place, messages_);
   textures_.report(messages_);
   if (scene_.objects.empty()) messages_.warn(place, "no object: the picture will be empty");

@@ -12,6 +12,9 @@
 namespace trace::inventor {
 
 void Reader::environment(const Values& v, State&) {
+  if (const std::string_view fog = v.word("fogType", "NONE"); fog != "NONE")
+    warn(v.node(), "the fog of an Environment is not rendered: fogType " + std::string(fog.substr(0, 40)),
+         "fog");
   ambient_ = shine(v.color("ambientColor", Color(1)), v.number("ambientIntensity", 0.2));
   const Vec3 a = v.vector("attenuation", {0, 0, 1});  // squared, linear, constant
   fading_ = {a.z, a.y, a.x};
@@ -37,6 +40,10 @@ void Reader::addLight(const Values& v, L light) {
     light.constant = fading.x;
     light.linear = fading.y;
     light.quadratic = fading.z;
+    constexpr Real kDefaultRadius = 100;
+    if (vrml2_ && v.number("radius", kDefaultRadius) != kDefaultRadius)
+      warn(v.node(), "the radius of a light is not taken into account: it lights what is farther away too",
+           "radius");
   }
   if constexpr (requires { light.direction; })
     if (!(length(light.direction) > 0))
@@ -74,7 +81,8 @@ void Reader::spotLight(const Values& v, State& s) {
 }
 
 void Reader::camera(const Values& v, const State& s, const Vec3& position, Real angle, Real aspect) {
-  if (hasCamera_) return;
+  if (hasCamera_)
+    return warn(v.node(), "the picture is seen through the first camera; others are left out", "cameras");
   const Affine own = turn(v.numbers("orientation"));
   Camera camera;
   camera.position = s.worldFromObject * v.vector("position", position);
@@ -95,9 +103,9 @@ void Reader::perspectiveCamera(const Values& v, State& s) {
 }
 
 void Reader::orthographicCamera(const Values& v, State& s) {
-  if (hasCamera_) return;
+  const bool isFirst = !hasCamera_;
   camera(v, s, {0, 0, 1}, kPi / 4, v.number("aspectRatio", 1));
-  if (!hasCamera_) return;
+  if (!isFirst || !hasCamera_) return;
   const Place place = document_.place(v.node().token);
   scene_.choices.push_back({"projection", "orthographic", place});
   scene_.choices.push_back({"view-height", toText(v.number("height", 2)), place});
@@ -108,7 +116,8 @@ void Reader::viewpoint(const Values& v, State& s) {
 }
 
 void Reader::background(const Values& v, State& state) {
-  if (std::exchange(hasBackground_, true)) return;
+  if (std::exchange(hasBackground_, true))
+    return warn(v.node(), "the first Background is shown; others are left out", "backgrounds");
   Background& is = scene_.background;
   const Place place = document_.place(v.node().token);
   const auto picture = [&](std::string_view field) { return Pixels{fileOf(v, field), nullptr, place}; };
@@ -133,6 +142,13 @@ void Reader::background(const Values& v, State& state) {
     return warn(v.node(), "a Background that is turned about another axis than y stands upright", "tilted");
   const Real turn = std::atan2(-ahead.x, -ahead.z) * 180 / kPi;
   if (pictures && turn != 0) scene_.choices.push_back({"environment-rotation", toText(turn), place});
+}
+
+void Reader::navigationInfo(const Values& v, State&) {
+  if (v.has("headlight") && !headlight_) {
+    headlight_ = v.flag("headlight", true);
+    headlightAt_ = &v.field("headlight")->token;
+  }
 }
 
 void Reader::drawStyle(const Values& v, State&) {

@@ -136,7 +136,7 @@ constexpr std::array kRules{
     Rule{" Array ", "separation1", Takes::vector},
     Rule{" Array ", "separation2", Takes::vector},
     Rule{" Array ", "separation3", Takes::vector},
-    Rule{" Array ", "origin"},
+    Rule{" Array ", "origin", Takes::word, 0, 0, " FIRST CENTER LAST "},
     // looks
     Rule{" Material ", "ambientColor", Takes::color, 0, 1, {}, In::old},
     Rule{" Material ", "ambientIntensity", Takes::number, 0, 1, {}, In::vrml2},
@@ -149,7 +149,7 @@ constexpr std::array kRules{
     Rule{" BaseColor ", "rgb", Takes::color, 0, 1},
     Rule{" PackedColor ", "orderedRGBA", Takes::numbers, 0},
     Rule{" PackedColor ", "rgba", Takes::numbers, 0},
-    Rule{" MaterialBinding NormalBinding ", "value", Takes::word, 0, 0, kBindings},
+    Rule{" MaterialBinding NormalBinding TextureCoordinateBinding ", "value", Takes::word, 0, 0, kBindings},
     Rule{" LightModel ", "model", Takes::word, 0, 0, " PHONG BASE_COLOR "},
     Rule{" ShapeHints ", "vertexOrdering", Takes::word, 0, 0,
          " UNKNOWN_ORDERING CLOCKWISE COUNTERCLOCKWISE "},

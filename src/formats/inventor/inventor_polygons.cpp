@@ -9,8 +9,8 @@ namespace trace::inventor {
 
 Reader::MeshKey Reader::keyOf(const Values& v, const State& s) {
   const int flags = (s.ordered ? 1 : 0) + (s.counterClockwise ? 2 : 0) + (s.solid ? 4 : 0);
-  return {&v.node(),     v.env(),           s.points.get(),  s.normals.get(), s.uvs.get(),
-          s.paint.get(), s.materialBinding, s.normalBinding, flags,           s.creaseAngle};
+  return {&v.node(),         v.env(),         s.points.get(), s.normals.get(), s.uvs.get(),  s.paint.get(),
+          s.materialBinding, s.normalBinding, s.uvBinding,    flags,           s.creaseAngle};
 }
 
 bool Reader::addAgain(const Values& v, const State& state) {
@@ -101,7 +101,7 @@ void Reader::faceSet(const Values& v, State& outer) {
     const bool indexed = v.node().type.starts_with("Indexed");
     bind.normal = bindingOf(state.normalBinding, Binding::By::point, v.numbers("normalIndex"), indexed);
     bind.material = bindingOf(state.materialBinding, Binding::By::all, v.numbers("materialIndex"), indexed);
-    bind.uv = bindingOf("PER_VERTEX_INDEXED", Binding::By::point, v.numbers("textureCoordIndex"), indexed);
+    bind.uv = bindingOf(state.uvBinding, Binding::By::point, v.numbers("textureCoordIndex"), indexed);
   }
   Surface surface;
   surface.points = *state.points;

@@ -121,6 +121,10 @@ void Reader::normals(const Values& v, State& s) { s.normals = vectors(v, "vector
 
 void Reader::textureCoordinates(const Values& v, State& s) { s.uvs = pairs(v, "point"); }
 
+void Reader::textureCoordinateBinding(const Values& v, State& s) {
+  s.uvBinding = v.word("value", "PER_VERTEX_INDEXED");
+}
+
 void Reader::texture(const Values& v, State& s) {
   repaint(v, s, [&](Paint& p) { p.picture = pictureOf(v); });
 }

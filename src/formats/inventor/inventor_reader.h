@@ -28,6 +28,7 @@
 #include "formats/inventor/inventor_state.h"
 #include "formats/model.h"
 #include "formats/textures.h"
+#include "formats/warnings.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "scene/scene.h"
@@ -140,6 +141,7 @@ class Reader {
   void coordinates(const Values& v, State& s);
   void normals(const Values& v, State& s);
   void textureCoordinates(const Values& v, State& s);
+  void textureCoordinateBinding(const Values& v, State& s);
   void texture(const Values& v, State& s);
   void texture2Transform(const Values& v, State& s);
   /// The picture of a texture node; of several only the first is rendered. Nothing if it has none.
@@ -171,6 +173,9 @@ class Reader {
   void background(const Values& v, State& s);
   /// Nothing but whether what follows is seen at all.
   void drawStyle(const Values& v, State&);
+  void billboard(const Values& v, State& state);
+  /// How one walks through the scene, and whether a light goes with the camera.
+  void navigationInfo(const Values& v, State&);
 
   // --- shapes ---
 
@@ -195,7 +200,7 @@ class Reader {
 
   /// Everything a mesh is made from.
   using MeshKey = std::tuple<const Node*, const Env*, const void*, const void*, const void*, const void*,
-                             std::string_view, std::string_view, int, Real>;
+                             std::string_view, std::string_view, std::string_view, int, Real>;
   static MeshKey keyOf(const Values& v, const State& s);
   /// Adds the mesh that was made of the same before; false if there is none.
   bool addAgain(const Values& v, const State& state);
@@ -220,6 +225,8 @@ class Reader {
   MeshRepairs repairs_;
   Scene scene_;
   bool hasCamera_ = false, hasBackground_ = false;
+  std::optional<bool> headlight_;  ///< as a NavigationInfo says
+  const Token* headlightAt_ = nullptr;
   Color ambient_ = vrml2_ ? Color(0) : Color(0.2);
   Vec3 fading_{1, 0, 0};
   std::deque<Env> envs_;
@@ -231,7 +238,8 @@ class Reader {
   std::map<MeshKey, Mesh> meshes_;
   Mesh made_;  ///< by mesh(), for remember()
   std::map<std::shared_ptr<const Paint>, std::vector<std::uint32_t>> numbers_;
-  std::set<std::string, std::less<>> told_, files_;
+  WarningsByKind warnings_;
+  std::set<std::string, std::less<>> files_;
   std::set<const Node*> checked_;
   UnusedTextures textures_;
   std::size_t spent_ = 0;

@@ -16,7 +16,7 @@ struct State {
   std::shared_ptr<const std::vector<Vec3>> points, normals;
   std::shared_ptr<const std::vector<Vec2>> uvs;
   std::shared_ptr<const Paint> paint;
-  std::string_view materialBinding = "DEFAULT", normalBinding = "DEFAULT";
+  std::string_view materialBinding = "DEFAULT", normalBinding = "DEFAULT", uvBinding = "PER_VERTEX_INDEXED";
   bool ordered = false, counterClockwise = true, solid = false;
   Real creaseAngle = 0;
   Real unit = 1;  ///< in metres

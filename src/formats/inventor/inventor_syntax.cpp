@@ -8,6 +8,7 @@
 #include "base/nesting.h"
 #include "base/read_scope.h"
 #include "formats/text_front.h"
+#include "formats/warnings.h"
 #include "formats/words.h"
 
 namespace trace::inventor {
@@ -46,13 +47,15 @@ class Parser {
       if (statement()) continue;
       if (const Node* node = this->node()) document_.roots_.push_back(node);
     }
+    warnings_.report(messages_);
   }
 
  private:
   // --- statements that are no nodes ---
 
   bool statement() {
-    if (tokens_.skipWord("ROUTE")) {  // a.b TO c.d
+    if (const Token start = tokens_.peek(); tokens_.skipWord("ROUTE")) {  // a.b TO c.d
+      warnUnmoved(start);
       for (int i = 0; i < 3 && tokens_.peek().is(Token::Kind::word); ++i) tokens_.next();
       return true;
     }
@@ -201,20 +204,20 @@ class Parser {
       field.name = field.token.text;
       if (!hasValue) return;
     }
-    value(field);
-    node.fields.push_back(std::move(field));
+    if (value(field)) node.fields.push_back(std::move(field));
   }
 
   /// All that can belong to one value: a list in brackets, or numbers, or texts, or one word, or one node.
-  void value(Field& field) {
+  /// False if a mark behind it says that it does not count.
+  bool value(Field& field) {
     // `value ~` has no value, only the mark that it does not count: a word after it is the next field.
     if (tokens_.skipMark('~')) {
       const Token& next = tokens_.peek();
       const bool hasValue = next.is(Token::Kind::number) || next.is(Token::Kind::string) ||
                             next.isMark('[') || next.isMark('(');
       if (!hasValue) {
-        if (tokens_.skipMark('=')) connection();
-        return;
+        if (tokens_.skipMark('=')) connection(field);
+        return false;
       }
     }
     if (tokens_.skipWord("IS")) {
@@ -237,8 +240,9 @@ class Parser {
     } else if (!tokens_.peek().isMark('}') && !tokens_.peek().isMark('=')) {
       tokens_.expected(field.name.substr(0, 40), "a value");
     }
-    tokens_.skipMark('~');
-    if (tokens_.skipMark('=')) connection();
+    const bool counts = !tokens_.skipMark('~');
+    if (tokens_.skipMark('=')) connection(field);
+    return counts;
   }
 
   void item(Field& field) {
@@ -257,7 +261,8 @@ class Parser {
   }
 
   /// `= Engine { } . output`: what moves the field. It keeps its value.
-  void connection() {
+  void connection(const Field& field) {
+    warnUnmoved(field.token);
     if (startsNode())
       node();
     else if (tokens_.peek().is(Token::Kind::word))
@@ -267,17 +272,22 @@ class Parser {
       if (tokens_.peek().is(Token::Kind::word)) tokens_.next();
   }
 
-  void warn(const Token& at, std::string what) {
-    if (++warnings_ <= kMostWarnings) messages_.warn(tokens_.place(at), std::move(what));
+  void warnUnmoved(const Token& at) {
+    if (!warnings_.again("unmoved"))
+      warnings_.warn(tokens_.place(at), "routes and engines are not run: nothing moves or reacts", {},
+                     "unmoved");
   }
-  static constexpr int kMostWarnings = 20;
+  void warn(const Token& at, std::string what) {
+    if (!warnings_.again(what)) warnings_.warn(tokens_.place(at), std::move(what));
+  }
 
   Document& document_;
   Tokens& tokens_;
   Messages& messages_;
   std::map<std::string_view, const Node*> named_;
   std::map<std::string_view, const Proto*> protoByName_;
-  int depth_ = 0, warnings_ = 0;
+  WarningsByKind warnings_;
+  int depth_ = 0;
 };
 
 struct ProtoFile {

@@ -13,11 +13,9 @@ namespace {
 /// Nodes that say nothing a picture needs.
 const std::set<std::string_view> kIgnored{"Info",
                                           "WorldInfo",
-                                          "NavigationInfo",
                                           "Complexity",
                                           "Sound",
                                           "AudioClip",
-                                          "Script",
                                           "Event",
                                           "Label",
                                           "TimeSensor",
@@ -36,7 +34,6 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "PickStyle",
                                           "FontStyle",
                                           "Font",
-                                          "TextureCoordinateBinding",
                                           "Callback",
                                           "EventCallback",
                                           "ColorIndex",
@@ -48,7 +45,8 @@ const std::set<std::string_view> kIgnored{"Info",
                                           "KeySensor"};
 
 /// Nodes of the specifications that are not rendered: no misspellings.
-const std::set<std::string_view> kNotRendered{"Text",
+const std::set<std::string_view> kNotRendered{"Script",
+                                              "Text",
                                               "Text2",
                                               "Text3",
                                               "AsciiText",
@@ -195,7 +193,7 @@ const std::unordered_map<std::string_view, Reader::Handler>& Reader::handlers() 
       {"Selection", &Reader::separator},
       {"WWWAnchor", &Reader::separator},
       {"Collision", &Reader::separator},
-      {"Billboard", &Reader::separator},
+      {"Billboard", &Reader::billboard},
       {"Annotation", &Reader::separator},
       {"StaticGroup", &Reader::separator},
       {"Array", &Reader::array},
@@ -223,6 +221,8 @@ const std::unordered_map<std::string_view, Reader::Handler>& Reader::handlers() 
       {"TextureCoordinate2", &Reader::textureCoordinates},
       {"Texture2", &Reader::texture},
       {"Texture2Transform", &Reader::texture2Transform},
+      {"TextureCoordinateBinding", &Reader::textureCoordinateBinding},
+      {"NavigationInfo", &Reader::navigationInfo},
       {"DrawStyle", &Reader::drawStyle},
       {"VertexProperty", &Reader::vertexProperty},
       {"Environment", &Reader::environment},
@@ -280,9 +280,7 @@ void Reader::warn(const Node& at, std::string what, std::string_view kind) {
 }
 
 void Reader::warn(const Token& at, std::string what, std::string_view kind, std::string hint) {
-  constexpr std::size_t kMostKinds = 100;
-  if (told_.size() < kMostKinds && told_.emplace(kind).second)
-    messages_.warn(document_.place(at), std::move(what), std::move(hint));
+  if (!warnings_.again(kind)) warnings_.warn(document_.place(at), std::move(what), std::move(hint), kind);
 }
 
 // --- groups ---
@@ -323,14 +321,25 @@ void Reader::firstChild(const Values& v, State& state) {
   if (!all.empty()) visit(all.front(), own);
 }
 
+void Reader::billboard(const Values& v, State& state) {
+  warn(v.node(), "a Billboard stands as the file has it: it is not turned to the camera", "billboard");
+  separate(v, state);
+}
+
 void Reader::array(const Values& v, State& state) {
   const auto count = [&](const char* name) { return std::clamp(v.number(name, 1), 1.0, 10000.0); };
+  // Which of the copies stands where the node is: the first, the middle of all, or the last.
+  const std::string_view origin = v.word("origin", "FIRST");
+  const Real share = origin == "LAST" ? 1 : origin == "CENTER" ? 0.5 : 0;
+  const auto start = [&](const char* name) { return share * (1 - count(name)); };
+  const Real i0 = start("numElements1"), j0 = start("numElements2"), k0 = start("numElements3");
   for (int k = 0; k < count("numElements3"); ++k)
     for (int j = 0; j < count("numElements2"); ++j)
       for (int i = 0; i < count("numElements1"); ++i) {
         State own = state;
-        const Vec3 offset = v.vector("separation1", {1, 0, 0}) * i + v.vector("separation2", {0, 1, 0}) * j +
-                            v.vector("separation3", {0, 0, 1}) * k;
+        const Vec3 offset = v.vector("separation1", {1, 0, 0}) * (i0 + i) +
+                            v.vector("separation2", {0, 1, 0}) * (j0 + j) +
+                            v.vector("separation3", {0, 0, 1}) * (k0 + k);
         own.worldFromObject = state.worldFromObject * Affine::translation(offset);
         spend(1, v.node());
         children(v, own);

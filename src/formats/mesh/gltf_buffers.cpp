@@ -15,7 +15,23 @@ bool isDigit(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' || c == '/';
 }
 
-/// A buffer, or a picture, of which tinygltf knows the same forms.
+/// The media types that tinygltf decodes, in buffers and in pictures.
+constexpr std::string_view kDataMark = ";base64,", kDataForms[] = {"application/octet-stream",
+                                                                   "text/plain",
+                                                                   "application/gltf-buffer",
+                                                                   "image/jpeg",
+                                                                   "image/png",
+                                                                   "image/bmp",
+                                                                   "image/gif"};
+
+/// Whether tinygltf decodes the bytes after this head, which starts after "data:".
+bool isKnownData(std::string_view head) {
+  return std::any_of(std::begin(kDataForms), std::end(kDataForms), [&](std::string_view form) {
+    return head.starts_with(form) && head.substr(form.size()) == kDataMark;
+  });
+}
+
+/// A buffer or an embedded picture.
 class BufferCheck {
  public:
   BufferCheck(const Place& place, std::string_view list, std::size_t number)
@@ -56,20 +72,10 @@ class BufferCheck {
 
   /// How many the text stands for.
   std::uint64_t bytesOf(std::string_view text) const {
-    constexpr std::string_view kMark = ";base64,", kForms[] = {"application/octet-stream",
-                                                               "text/plain",
-                                                               "application/gltf-buffer",
-                                                               "image/jpeg",
-                                                               "image/png",
-                                                               "image/bmp",
-                                                               "image/gif"};
     const std::size_t comma = text.find(',');
     const std::size_t start = comma == text.npos ? text.size() : comma + 1;
     const std::string_view head = text.substr(5, start - 5);
-    const bool known = std::any_of(std::begin(kForms), std::end(kForms), [&](std::string_view form) {
-      return head.starts_with(form) && head.substr(form.size()) == kMark;
-    });
-    if (!known)
+    if (!isKnownData(head))
       fail(".uri", "expected \"data:application/octet-stream;base64,\" before the bytes, found \"" +
                        std::string(text.substr(0, std::min<std::size_t>(start, 60))) + "\"");
     std::string_view digits = text.substr(start);
@@ -89,6 +95,24 @@ class BufferCheck {
 };
 
 }  // namespace
+
+bool plainGltfPictures(json& root) {
+  const auto images = root.find("images");
+  if (images == root.end() || !images->is_array()) return false;
+  bool changed = false;
+  for (json& image : *images) {
+    const auto uri = image.is_object() ? image.find("uri") : image.end();
+    if (uri == image.end() || !uri->is_string()) continue;
+    const std::string text = uri->get<std::string>();
+    const std::size_t comma = text.find(',');
+    if (!text.starts_with("data:") || comma == text.npos) continue;
+    const std::string_view head = std::string_view(text).substr(5, comma - 4);
+    if (isKnownData(head) || !head.ends_with(kDataMark)) continue;
+    *uri = "data:application/octet-stream;base64," + text.substr(comma + 1);
+    changed = true;
+  }
+  return changed;
+}
 
 void checkGltfBuffers(const json& root, const Place& place) {
   const auto each = [&](const char* name, auto check) {

@@ -8,6 +8,10 @@
 
 namespace trace {
 
+/// Turns embedded pictures of a media type that tinygltf does not know, such as image/webp, into plain bytes:
+/// their content decides their format. Returns whether there was one.
+bool plainGltfPictures(nlohmann::json& root);
+
 /// Throws Error(Fault::scene) for a buffer without a length, of which only the first may be without a uri, or
 /// whose uri holds other than base64 of that length; and for a picture whose uri holds other than base64.
 void checkGltfBuffers(const nlohmann::json& root, const Place& place);

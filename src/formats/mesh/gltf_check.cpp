@@ -174,6 +174,8 @@ class GltfCheck : private GltfMaterialCheck {
       if (key.starts_with('_')) continue;
       const std::size_t digits = key.find_last_not_of("0123456789") + 1;
       const bool counted = digits < key.size() && key.substr(0, digits).ends_with('_');
+      if (key.starts_with("COLOR_") && key != "COLOR_0" && counted)
+        warn(attributes.pathOf(key) + " is not shown: only COLOR_0 is", {}, "more colours");
       if (isOneOf(counted ? key.substr(0, digits) + "0" : key, kNames)) continue;
       warn("unknown attribute " + inQuotes(key) + " of " + attributes.path + " is ignored",
            didYouMean(key, kNames), "unknown " + key.substr(0, 60));
@@ -211,6 +213,9 @@ class GltfCheck : private GltfMaterialCheck {
     numbers(light, "color", 3, 0);
     number(light, "intensity", 0);
     number(light, "range", 0);
+    if (light.find("range"))
+      warn(light.pathOf("range") + " is not taken into account: the light shines on what is farther away too",
+           {}, "range of lights");
     object(light, "spot", [&](const Part& spot) {
       known(spot, {"innerConeAngle", "outerConeAngle"});
       number(spot, "innerConeAngle", 0, 1.5708);
@@ -225,6 +230,8 @@ class GltfCheck : private GltfMaterialCheck {
   }
 
   void checkWhatIsNotRead() {
+    if (const std::size_t n = countOf("scenes"); n > 1)
+      warn("one scene is shown; others are left out: " + std::to_string(n - 1));
     if (const std::size_t n = countOf("animations")) warn("animations are not played: " + std::to_string(n));
     if (const std::size_t n = countOf("skins"))
       warn("skins are not applied, meshes stand as they were modelled: " + std::to_string(n));

@@ -35,11 +35,14 @@ class GltfElements {
     stride_ = components_ * size_;
     count_ = accessor.count;
     const bool isSparse = accessor.sparse.isSparse;
-    if (accessor.bufferView >= 0 || !isSparse) {
+    if (accessor.bufferView >= 0) {
       const std::size_t step = stride_;
       first_ = elements(model, accessor.bufferView, accessor.byteOffset, count_, step, stride_, fail);
     } else if (count_ > kMostZeros) {
-      fail("a sparse accessor without a buffer view has at most 2^24 elements");
+      fail("an accessor without a buffer view has at most 2^24 elements");
+    } else if (!isSparse) {  // section 3.6.2.2
+      own_ = std::make_shared<const std::vector<unsigned char>>(count_ * stride_);
+      first_ = own_->data();
     }
     if (isSparse) setSparse(model, accessor.sparse, fail);
   }

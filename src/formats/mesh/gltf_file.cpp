@@ -140,8 +140,9 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
                            InputFiles& inputs, Messages& messages) {
   nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
   std::string changed;
-  if (isGltf1(json)) {
-    json = upgradedGltf(json, place);
+  const bool isOld = isGltf1(json);
+  if (isOld) json = upgradedGltf(json, place);
+  if (plainGltfPictures(json) || isOld) {
     changed = upgradedGltfFile(json, bytes);
     bytes = changed;
   }

@@ -66,6 +66,8 @@ class GltfReader {
       if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
     };
     warn("points and lines are left out", lines_);
+    warn("the picture is seen through the first camera; others are left out", otherCameras_);
+    warn("the transparency of COLOR_0 is left out", clearColors_);
     warn("triangles that use points which are not there are left out", lostTriangles_);
     warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
@@ -129,7 +131,9 @@ class GltfReader {
   }
 
   void read(const tinygltf::Node& node, const Affine& worldFromNode) {
-    if (isIndex(node.camera, gltf_.cameras.size()))
+    if (isIndex(node.camera, gltf_.cameras.size()) && model_.camera)
+      ++otherCameras_;
+    else if (isIndex(node.camera, gltf_.cameras.size()))
       readCamera(gltf_.cameras[static_cast<std::size_t>(node.camera)], worldFromNode, place_, model_,
                  messages_);
     const double light = extension(node.extensions, "KHR_lights_punctual", "light", -1);
@@ -262,6 +266,7 @@ class GltfReader {
   void readColors(const tinygltf::Primitive& primitive, MeshData& mesh) {
     const std::vector<Vec3f> colors = vectors(primitive, "COLOR_0", mesh.points.size());
     if (colors.empty()) return;
+    noteAlpha(primitive);
     const bool hasMaterial = isIndex(primitive.material, gltf_.materials.size());
     const Color base =
         hasMaterial ? baseColorOf(model_.materials[static_cast<std::size_t>(primitive.material)]) : Color(1);
@@ -269,6 +274,16 @@ class GltfReader {
       if (!std::isfinite(c.x + c.y + c.z)) fail("COLOR_0: expected finite numbers");
       mesh.materials.push_back(colors_.number(Vec3f(Vec3{c.x * base.r, c.y * base.g, c.z * base.b})));
     }
+  }
+
+  /// Colours of points may be transparent where their material allows it.
+  void noteAlpha(const tinygltf::Primitive& primitive) {
+    if (!isIndex(primitive.material, gltf_.materials.size()) ||
+        gltf_.materials[static_cast<std::size_t>(primitive.material)].alphaMode == "OPAQUE")
+      return;
+    const GltfElements from = elements(primitive.attributes.at("COLOR_0"));
+    for (std::size_t i = 0; from.components() > 3 && i < from.count(); ++i)
+      if (from.number(i, 3) < 1) return void(++clearColors_);
   }
 
   Place place_;
@@ -284,8 +299,10 @@ class GltfReader {
   std::size_t lostTriangles_ = 0;
   std::string wrongCorner_;  ///< what is wrong with the last triangle that was lost
   std::size_t withoutUvs_ = 0;
-  std::size_t leftOver_ = 0;  ///< corners that make no triangle
-  std::size_t flat_ = 0;      ///< objects that their transform makes flat
+  std::size_t otherCameras_ = 0;  ///< behind the first
+  std::size_t clearColors_ = 0;   ///< meshes with colours of points that are transparent
+  std::size_t leftOver_ = 0;      ///< corners that make no triangle
+  std::size_t flat_ = 0;          ///< objects that their transform makes flat
 };
 
 }  // namespace

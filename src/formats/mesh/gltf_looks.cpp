@@ -147,6 +147,7 @@ struct GltfLooks::Reader {
     m.sheenMap = extra(kSheen, "sheenColorTexture");
     m.sheenRoughnessMap = extra(kSheen, "sheenRoughnessTexture");
     note(textureIn(from, kAnisotropy, "anisotropyTexture").index);
+    note(textureIn(from, kVolume, "thicknessTexture").index);
     m.specularMap = extra(kSpecular, "specularTexture");
     m.specularColorMap = extra(kSpecular, "specularColorTexture");
     m.transmissionMap = extra(kTransmission, "transmissionTexture");

@@ -219,6 +219,7 @@ class MtlCheck {
     if (listed(kMaps, key)) return plainMap(key, words);
     const Numbers* row = rowOf(kNumbers, key);
     if (!row && key != "newmtl") return std::string(line);
+    if (key == "d" && words.peek() == "-halo") words.next();
     const std::string rest(words.rest());
     const std::string_view first = words.next(), second = words.next();
     if (row && row->count == 3 && isFloat(first) && (second.empty() || second[0] == '#'))
@@ -231,6 +232,7 @@ class MtlCheck {
     std::string text(key);
     const std::string_view picture = pictureOf(words, [&](const MapOption& option, std::string_view name,
                                                           const std::vector<std::string_view>& values) {
+      if (name == "-cc") return;  // which tinyobjloader would take for the picture
       text += ' ' + std::string(name);
       for (std::string_view value : values) text += ' ' + std::string(value);
       for (auto i = static_cast<int>(values.size()); i < option.words; ++i)
@@ -248,7 +250,7 @@ class MtlCheck {
       warn(at, "expected \"newmtl\" before the first line of a material, found " + quoted(key));
     if (const Numbers* row = rowOf(kNumbers, key)) return numbers(*row, at, words);
     if (listed(kMaps, key)) return map(at, key, words);
-    if (key == "map_aat") return;
+    if (key == "map_aat") return warn(at, "\"map_aat\" is not shown");
     warn(at, quoted(key) + " is not known and is skipped");
   }
 
@@ -270,6 +272,7 @@ class MtlCheck {
     for (std::string_view word = words.next(); !word.empty() && word[0] != '#';
          word = words.next(), ++count) {
       if (row.key == "d" && word == "-halo") {
+        warn(word, "d -halo is not shown: the material is as transparent seen from everywhere");
         --count;
         continue;
       }
@@ -282,7 +285,9 @@ class MtlCheck {
                                        : toText(row.least) + " to " + toText(row.most)) +
                  ", found " + toText(number->value),
              "range of " + name);
+      if (row.key == "illum" && count == 0) illumination(word, static_cast<int>(number->value));
     }
+    if (row.key == "sharpness") warn(key, "\"sharpness\" of reflected pictures is not shown");
     const bool isGrey = row.count == 3 && count == 1;
     if (count != row.count && !isGrey)
       warn(key,
@@ -291,10 +296,18 @@ class MtlCheck {
            "count of " + name);
   }
 
+  /// Illumination models that are shown as another one.
+  void illumination(std::string_view at, int model) {
+    if (model == 0) warn(at, "illum 0, a colour without light, is shown as a lit surface");
+    if (model == 8) warn(at, "illum 8, a reflection without ray tracing, is shown without reflection");
+    if (model == 10) warn(at, "illum 10, which shows only shadows, is shown as a lit surface");
+  }
+
   void map(std::string_view at, std::string_view key, LineWords words) {
-    const std::string_view picture =
-        pictureOf(words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>&) {
-          if (!listed(kMapOptionsUsed, name))
+    const std::string_view picture = pictureOf(
+        words, [&](const MapOption&, std::string_view name, const std::vector<std::string_view>& values) {
+          const bool isBlend = name == "-blendu" || name == "-blendv";
+          if (!listed(kMapOptionsUsed, name) || (isBlend && !values.empty() && sameWord(values[0], "off")))
             warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
         });
     if (picture.empty()) return warn(at, std::string(key) + ": expected the name of a picture");

@@ -124,6 +124,7 @@ void addRelief(const tinyobj::material_t& mtl, const Map& map, const MtlPictures
     const Real strength = option.bump_multiplier;
     material.bump = std::isfinite(strength) ? strength : 1;
   }
+  if (!mtl.normal_texname.empty() && !mtl.bump_texname.empty()) pictures.unused(mtl.bump_texname);
   if (!moves && !mtl.displacement_texname.empty()) pictures.unused(mtl.displacement_texname);
 }
 

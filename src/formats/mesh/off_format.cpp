@@ -36,13 +36,28 @@ std::optional<Kind> kindOf(std::string_view word) {
   return sameWord(word, "OFF") && !isNDimensional ? std::optional(kind) : std::nullopt;
 }
 
+/// 4OFF, nOFF, C4nOFF ...: points of other than three dimensions.
+bool isOtherDimension(std::string_view word) {
+  constexpr std::string_view kEnd = "OFF";
+  if (word.size() <= kEnd.size() || !sameWord(word.substr(word.size() - kEnd.size()), kEnd)) return false;
+  const std::string_view start = word.substr(0, word.size() - kEnd.size());
+  return start.find_first_not_of("STCN4n") == start.npos && start.find_first_of("4n") != start.npos;
+}
+
 class OffReader {
  public:
   OffReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : file_(file), words_(file, bytes, '#'), messages_(messages) {}
+      : file_(file), size_(bytes.size()), words_(file, bytes, '#'), messages_(messages) {}
 
   Model read() {
-    std::optional<Kind> kind = kindOf(words_.next());
+    const std::string_view first = words_.next();
+    if (isOtherDimension(first))
+      words_.fail("expected points of three dimensions, as in OFF, COFF or NOFF", first);
+    std::optional<Kind> kind = kindOf(first);
+    const std::size_t afterFirst = size_ - words_.left();
+    if (const std::string_view word = words_.next(); kind && sameWord(word, "BINARY"))
+      words_.fail("binary OFF is not read: expected text", word);
+    words_.skipTo(afterFirst);
     if (!kind) {  // old files begin with the counts
       kind.emplace();
       words_.skipTo(0);
@@ -57,7 +72,7 @@ class OffReader {
     if (kind->color) takeColors();
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
     if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
-    if (hasFaceColors_) paintFaces();
+    if (faceColors_.count > 0) paintFaces();
     warnings_.report(messages_);
     if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
     if (unusable_ > 0)
@@ -77,6 +92,15 @@ class OffReader {
     return static_cast<std::size_t>(number);
   }
 
+  /// The number of times that something came, and the place of the first.
+  struct Times {
+    Place first{};
+    std::size_t count = 0;
+    void add(const Words& words) {
+      if (count++ == 0) first = words.place();
+    }
+  };
+
   Vec3f vector(const char* what) {
     const double x = words_.number(what), y = words_.number(what), z = words_.number(what);
     return Vec3f(Vec3{x, y, z});
@@ -88,7 +112,9 @@ class OffReader {
     if (kind.normal) mesh_.normals.push_back(vector("a normal's three numbers"));
     if (kind.color) {
       colors_.push_back(vector("a colour's four numbers"));
-      words_.number("a colour's four numbers");
+      const double alpha = words_.number("a colour's four numbers");
+      if (alpha < 1) clear_.add(words_);
+      if (alpha < 255) clearOf255_.add(words_);
     }
     if (!kind.uv) return;
     const double u = words_.number("two texture coordinates"), v = words_.number("two texture coordinates");
@@ -104,6 +130,9 @@ class OffReader {
         words_.fail("expected colours that are finite numbers");
     }
     const double scale = most > 1 ? 1.0 / 255 : 1;
+    const Times& clear = most > 1 ? clearOf255_ : clear_;
+    if (clear.count > 0)
+      messages_.warn(clear.first, "the transparency of points is left out: " + std::to_string(clear.count));
     Unique<Vec3f> unique;
     for (const Vec3f& color : colors_) mesh_.materials.push_back(unique.number(color));
     for (const Vec3f& color : unique.keys())
@@ -159,14 +188,15 @@ class OffReader {
     appendPolygon(mesh_, face_);
     constexpr float kPlain = 0.7f;  // as plainMaterial()
     const std::uint32_t painted = palette_.number(color.value_or(Vec3f{kPlain, kPlain, kPlain}));
-    hasFaceColors_ = hasFaceColors_ || color;
+    if (color) faceColors_.add(words_);
     triangleColors_.resize(mesh_.triangles.size(), painted);
   }
 
   /// Each triangle gets points of its own, with its colour.
   void paintFaces() {
     if (!mesh_.materials.empty())
-      return warn("colours of faces are left out: their points have some", "faces");
+      return messages_.warn(faceColors_.first, "colours of faces are left out, since points have some: " +
+                                                   std::to_string(faceColors_.count));
     struct Painted {
       std::uint32_t point, color;
     };
@@ -196,16 +226,18 @@ class OffReader {
   }
 
   const std::string& file_;
+  std::size_t size_;  ///< of the file, in bytes
   Words words_;
   Messages& messages_;
   MeshData mesh_;
   std::vector<Vec3f> colors_;
+  Times clear_, clearOf255_;  ///< points whose alpha is below 1, or below 255
+  Times faceColors_;
   std::vector<std::uint32_t> face_;
   WarningsByKind warnings_;
   std::optional<Message> lost_;  ///< the first that costs a face
   Unique<Vec3f> palette_;
   std::vector<std::uint32_t> triangleColors_;
-  bool hasFaceColors_ = false;
   std::size_t unusable_ = 0;
   Model model_;
 };
@@ -214,7 +246,9 @@ class OffReader {
 
 bool recognisesOff(std::string_view bytes) {
   const std::string none;
-  return kindOf(Words(none, bytes.substr(0, 4096), '#').next()).has_value();
+  Words words(none, bytes.substr(0, 4096), '#');
+  const std::string_view first = words.next();
+  return kindOf(first).has_value() || isOtherDimension(first);
 }
 
 bool mayBeOff(std::string_view bytes) {

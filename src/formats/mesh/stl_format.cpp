@@ -101,11 +101,18 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
   const auto vectorAt = [&](const char* from) {
     return Vec3f{littleFloat(from), littleFloat(from + 4), littleFloat(from + 8)};
   };
+  std::size_t colored = 0;
   for (std::size_t at = kHeader; at < end; at += kFacet) {
+    colored += bytes[at + kFacet - 2] != 0 || bytes[at + kFacet - 1] != 0;
     solid.facet(vectorAt(bytes.data() + at));
     for (std::size_t corner = 1; corner <= 3; ++corner)
       solid.corner(vectorAt(bytes.data() + at + 12 * corner));
   }
+  if (colored > 0)
+    messages.warn(place,
+                  "the colours of facets, their last two bytes, are not shown: " + std::to_string(colored));
+  if (bytes.substr(0, kHeader).find("COLOR=") != bytes.npos)
+    messages.warn(place, "the colour of the header, COLOR=, is not shown");
   Model model;
   solid.finish("", place, model, repairs);
   warnOfTurned(solid.turned(), place, messages);
