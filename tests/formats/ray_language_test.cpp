@@ -243,9 +243,10 @@ TEST(RayLanguage, WordsThatBeginObjectsNameValuesToo) {
   EXPECT_EQ(value("f(4)", "let f(box, cone = 2) = box / cone"), 2);
   expectSame("let scale = 2\nlet sphere = (1, 0, 0)\nscale(scale) { translate(sphere) { sphere { } } }",
              "scale(2, translate(1, 0, 0, sphere { }))");
-  expectSame("define wall(rows, scale = 0.5) { for box in 1..rows { translate(box * scale, 0, 0) { box { } } } }\n"
-             "wall(rows = 2)",
-             "translate(0.5, 0, 0, box { }) translate(1, 0, 0, box { })");
+  expectSame(
+      "define wall(rows, scale = 0.5) { for box in 1..rows { translate(box * scale, 0, 0) { box { } } } }\n"
+      "wall(rows = 2)",
+      "translate(0.5, 0, 0, box { }) translate(1, 0, 0, box { })");
 }
 
 TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {

@@ -70,8 +70,8 @@ class Names {
 
   /// All names of a block, before anything of it is worked out.
   void declare(std::uint32_t block, Scope& scope);
-  /// Words of statements and constants are no names. Words that begin an object, such as `rows`, name values only:
-  /// behind them, brackets make the object.
+  /// Words of statements and constants are no names. Words that begin an object, such as `rows`, name values
+  /// only: behind them, brackets make the object.
   enum class Named { value, call };
   void checkName(std::uint32_t name, Named what) const;
 
